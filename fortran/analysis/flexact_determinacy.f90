@@ -1,0 +1,124 @@
+!> Kinematic and static determinacy, section 3 of the paper: the rank of D(c),
+!> the motions that it leaves free and the self-stresses that it admits.
+module flexact_determinacy
+   use flexact_kinds, only: wp
+   use flexact_model, only: model_t
+   use flexact_partition, only: partition_t, make_partition
+   use flexact_jacobian, only: jacobian_t, make_jacobian, fill_dense
+   use flexact_scaling, only: scaling_t, make_scaling, rank_tolerance
+   use flexact_decomposition, only: decompose, singular_values, orthonormalise, &
+                                    status_fine, status_no_memory
+   implicit none
+   private
+   public :: determinacy_t, analyse
+
+   type :: determinacy_t
+      !> status_fine, status_no_convergence or status_no_memory.
+      integer :: status = status_fine
+      integer :: rank = 0
+      !> Order of the rows and columns of D(c), and the counts.
+      type(partition_t) :: partition
+      !> Reference length of each element [m], (elements).
+      real(wp), allocatable :: length(:)
+      !> Singular values of D(c) as it stands, (min(rows, columns)), descending.
+      real(wp), allocatable :: singular_values(:)
+      !> Singular values of the scaled matrix, those above the tolerance make
+      !> the rank.
+      real(wp), allocatable :: scaled_values(:)
+      real(wp) :: tolerance = 0.0_wp
+      type(scaling_t) :: scaling
+   end type determinacy_t
+
+contains
+
+   !> Analyse the reference configuration. The caller provides motions
+   !> (columns, columns) and stresses (rows, rows), for the sizes that
+   !> `count_model` tells; the first columns - rank columns of the one and
+   !> rows - rank of the other come back as orthonormal bases of the null
+   !> spaces of D(c) and of its transpose. The rest is work space.
+   pure subroutine analyse(model, motions, stresses, result)
+      type(model_t), intent(in) :: model
+      real(wp), intent(inout), contiguous :: motions(:, :), stresses(:, :)
+      type(determinacy_t), intent(out) :: result
+      type(jacobian_t) :: jacobian
+      real(wp), allocatable :: dense(:, :)
+      integer :: rows, columns, values, info
+
+      call make_partition(model, result%partition)
+      call make_jacobian(model, model%node_value, jacobian)
+      call make_scaling(model, result%partition, jacobian, result%scaling)
+      call move_alloc(jacobian%length, result%length)
+      rows = result%partition%count%rows
+      columns = result%partition%count%columns
+      values = min(rows, columns)
+      allocate (result%singular_values(values), result%scaled_values(values), source=0.0_wp)
+      allocate (dense(rows, columns), stat=info)
+      if (info /= 0) then
+         result%status = status_no_memory
+         return
+      end if
+
+      call fill_dense(jacobian, result%partition, dense, result%scaling%row, result%scaling%column)
+      call decompose(dense, result%scaled_values, stresses, motions, result%status)
+      if (result%status /= status_fine) return
+      call fill_dense(jacobian, result%partition, dense)
+      call singular_values(dense, result%singular_values, result%status)
+      if (result%status /= status_fine) return
+      deallocate (dense)
+
+      result%tolerance = rank_tolerance(result%scaling, result%scaled_values)
+      result%rank = count(result%scaled_values > result%tolerance)
+      call transpose_in_place(motions)
+      call keep_null_space(motions, result%rank, result%scaling%column, result%status)
+      if (result%status /= status_fine) return
+      call keep_null_space(stresses, result%rank, result%scaling%row, result%status)
+   end subroutine analyse
+
+   !> Bring the columns beyond the rank to the front as an orthonormal basis of
+   !> the null space of the matrix without its scales: D C v = 0 gives the
+   !> motion C v, and likewise for a stress.
+   pure subroutine keep_null_space(basis, rank, scale, status)
+      real(wp), intent(inout), contiguous :: basis(:, :)
+      integer, intent(in) :: rank
+      real(wp), intent(in) :: scale(:)
+      integer, intent(out) :: status
+      integer :: j, found
+
+      found = size(basis, 2) - rank
+      do j = 1, found
+         basis(:, j) = scale*basis(:, rank + j)
+      end do
+      call orthonormalise(basis(:, :found), status)
+      do j = 1, found
+         call choose_sign(basis(:, j))
+      end do
+   end subroutine keep_null_space
+
+   !> The entry of largest magnitude becomes positive, the first among equals.
+   pure subroutine choose_sign(vector)
+      real(wp), intent(inout) :: vector(:)
+      real(wp), parameter :: equal = 1.0e-9_wp
+      real(wp) :: largest
+      integer :: i
+
+      largest = (1 - equal)*maxval(abs(vector))
+      do i = 1, size(vector)
+         if (abs(vector(i)) >= largest) exit
+      end do
+      if (i <= size(vector)) vector = sign(1.0_wp, vector(i))*vector
+   end subroutine choose_sign
+
+   pure subroutine transpose_in_place(a)
+      real(wp), intent(inout) :: a(:, :)
+      real(wp) :: upper
+      integer :: i, j
+
+      do j = 2, size(a, 2)
+         do i = 1, j - 1
+            upper = a(i, j)
+            a(i, j) = a(j, i)
+            a(j, i) = upper
+         end do
+      end do
+   end subroutine transpose_in_place
+end module flexact_determinacy

@@ -1,0 +1,145 @@
+!> Problems as values: severity, code, places and words, without any layout.
+!>
+!> A place is a span of characters in the deck's text; a model made without
+!> a deck has no places. Whoever shows a diagnostic decides how it looks.
+module flexact_diagnostics
+   implicit none
+   private
+   public :: span_t, diagnostic_t, diagnostics_t
+   public :: severity_error, severity_warning, severity_note
+   public :: most_kept, text_length, code_length
+
+   integer, parameter :: severity_error = 1
+   integer, parameter :: severity_warning = 2
+   integer, parameter :: severity_note = 3
+
+   !> So many diagnostics are kept; all are counted.
+   integer, parameter :: most_kept = 100
+   integer, parameter :: text_length = 240
+   integer, parameter :: code_length = 32
+
+   !> First and last character in the deck's text; first = 0 means no place.
+   type :: span_t
+      integer :: first = 0
+      integer :: last = 0
+   end type span_t
+
+   type :: diagnostic_t
+      integer :: severity = severity_error
+      character(len=code_length) :: code = ''
+      type(span_t) :: place
+      !> The second place, where a problem has two (a duplicate, a conflict).
+      type(span_t) :: other
+      character(len=text_length) :: message = ''
+      !> A few words that stand beside the caret.
+      character(len=text_length) :: label = ''
+      !> How to mend it.
+      character(len=text_length) :: help = ''
+      !> Words of the statement at `place` (1 is its keyword) that a check of the
+      !> model means: who has the text narrows the place to them. 0: all of it.
+      integer :: words(2) = 0
+   end type diagnostic_t
+
+   type :: diagnostics_t
+      integer :: kept = 0
+      !> How many were added of each severity, kept or not.
+      integer :: count(3) = 0
+      type(diagnostic_t), allocatable :: item(:)
+   contains
+      procedure :: error => add_error
+      procedure :: warning => add_warning
+      procedure :: note => add_note
+      procedure :: has_errors
+      procedure :: is_full
+      procedure :: sort => sort_by_place
+   end type diagnostics_t
+
+contains
+
+   !> Add an error; `other` is the second place where there is one.
+   subroutine add_error(self, code, place, message, label, help, other, words)
+      class(diagnostics_t), intent(inout) :: self
+      character(len=*), intent(in) :: code, message, label, help
+      type(span_t), intent(in) :: place
+      type(span_t), intent(in), optional :: other
+      integer, intent(in), optional :: words(2)
+      call add(self, severity_error, code, place, message, label, help, other, words)
+   end subroutine add_error
+
+   !> Add a warning: the deck can be analysed, but may not mean what it says.
+   subroutine add_warning(self, code, place, message, label, help, other)
+      class(diagnostics_t), intent(inout) :: self
+      character(len=*), intent(in) :: code, message, label, help
+      type(span_t), intent(in) :: place
+      type(span_t), intent(in), optional :: other
+      call add(self, severity_warning, code, place, message, label, help, other)
+   end subroutine add_warning
+
+   !> Add a note: something that was read and not used.
+   subroutine add_note(self, code, place, message, label, help)
+      class(diagnostics_t), intent(inout) :: self
+      character(len=*), intent(in) :: code, message, label, help
+      type(span_t), intent(in) :: place
+      call add(self, severity_note, code, place, message, label, help)
+   end subroutine add_note
+
+   subroutine add(self, severity, code, place, message, label, help, other, words)
+      class(diagnostics_t), intent(inout) :: self
+      integer, intent(in) :: severity
+      character(len=*), intent(in) :: code, message, label, help
+      type(span_t), intent(in) :: place
+      type(span_t), intent(in), optional :: other
+      integer, intent(in), optional :: words(2)
+
+      self%count(severity) = self%count(severity) + 1
+      if (.not. allocated(self%item)) allocate (self%item(most_kept))
+      if (self%kept == most_kept) return
+      self%kept = self%kept + 1
+      associate (item => self%item(self%kept))
+         item%severity = severity
+         item%code = code
+         item%place = place
+         if (present(other)) item%other = other
+         item%message = message
+         item%label = label
+         item%help = help
+         if (present(words)) item%words = words
+      end associate
+   end subroutine add
+
+   pure logical function has_errors(self)
+      class(diagnostics_t), intent(in) :: self
+      has_errors = self%count(severity_error) > 0
+   end function has_errors
+
+   !> Whether a further diagnostic would only be counted.
+   pure logical function is_full(self)
+      class(diagnostics_t), intent(in) :: self
+      is_full = self%kept == most_kept
+   end function is_full
+
+   !> Into the order of the text, stable; those without a place come last.
+   subroutine sort_by_place(self)
+      class(diagnostics_t), intent(inout) :: self
+      type(diagnostic_t) :: moving
+      integer :: i, j
+
+      do i = 2, self%kept
+         moving = self%item(i)
+         do j = i - 1, 1, -1
+            if (.not. comes_before(moving, self%item(j))) exit
+            self%item(j + 1) = self%item(j)
+         end do
+         self%item(j + 1) = moving
+      end do
+   end subroutine sort_by_place
+
+   pure logical function comes_before(a, b)
+      type(diagnostic_t), intent(in) :: a, b
+      if (a%place%first == 0 .or. b%place%first == 0) then
+         comes_before = a%place%first > 0 .and. b%place%first == 0
+      else
+         comes_before = a%place%first < b%place%first
+      end if
+   end function comes_before
+end module flexact_diagnostics

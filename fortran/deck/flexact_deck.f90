@@ -1,0 +1,82 @@
+!> A deck's text into a model, with every problem of the deck in one run.
+module flexact_deck
+   use flexact_checks, only: check_model
+   use flexact_deck_classes, only: read_classes
+   use flexact_deck_elements, only: read_elements
+   use flexact_deck_forms, only: read_forms
+   use flexact_deck_scene, only: scene_t
+   use flexact_deck_values, only: read_values
+   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_lexer, only: operand_span
+   use flexact_statement, only: statement_t, read_statements, find_unreadable
+   implicit none
+   private
+   public :: read_deck, locate
+
+contains
+
+   !> Read the text. The scene is a model to analyse where no error was
+   !> reported. `unused` counts the statements about dynamics and pictures.
+   subroutine read_deck(text, scene, unused, diagnostics)
+      character(len=*), intent(in) :: text
+      type(scene_t), intent(out) :: scene
+      integer, intent(out) :: unused
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(statement_t), allocatable :: statements(:)
+      integer :: count, unreadable
+
+      unused = 0
+      unreadable = find_unreadable(text)
+      if (unreadable > 0) then
+         call diagnostics%error('not-text', span_t(unreadable, unreadable), &
+                                'this is not a text: it holds a NUL or another control character', &
+                                'no text holds this character', 'give a deck, which is a plain text file')
+         return
+      end if
+      call read_statements(text, statements, count, diagnostics)
+      associate (all_statements => statements(:count))
+         call read_elements(text, all_statements, scene, diagnostics)
+         call read_values(text, all_statements, scene, diagnostics)
+         call read_classes(text, all_statements, scene, diagnostics)
+         call read_forms(text, all_statements, scene, unused, diagnostics)
+      end associate
+      call check_model(scene%model, diagnostics)
+      call narrow_places(text, diagnostics)
+      call diagnostics%sort()
+   end subroutine read_deck
+
+   !> The checks of the model know the statement; here the words are found.
+   subroutine narrow_places(text, diagnostics)
+      character(len=*), intent(in) :: text
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: i
+
+      do i = 1, diagnostics%kept
+         associate (item => diagnostics%item(i))
+            if (item%place%first == 0 .or. item%place%last > 0) cycle
+            if (item%words(1) > 0) then
+               item%place = operand_span(text, item%place%first, item%words(1), item%words(2))
+            else
+               item%place = operand_span(text, item%place%first, 1, huge(1) - 1)
+            end if
+         end associate
+      end do
+   end subroutine narrow_places
+
+   !> The line and the column, both from 1, of a position in the text.
+   pure subroutine locate(text, position, line, column)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: position
+      integer, intent(out) :: line, column
+      integer :: i, start
+
+      line = 1
+      start = 1
+      do i = 1, min(position - 1, len(text))
+         if (text(i:i) /= achar(10)) cycle
+         line = line + 1
+         start = i + 1
+      end do
+      column = position - start + 1
+   end subroutine locate
+end module flexact_deck

@@ -1,0 +1,250 @@
+!> Element statements into the element arrays of the model; nodes come into
+!> being here, because an element names them.
+module flexact_deck_elements
+   use flexact_deck_scene, only: scene_t
+   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_element_table, only: element_kinds, vector_none, vector_optional, vector_required
+   use flexact_keywords, only: role_element
+   use flexact_kinds, only: wp
+   use flexact_lexer, only: operand_span
+   use flexact_model, only: model_t, node_planar_position, node_position, node_angle, node_orientation, &
+                            is_position, has_axis, slots, most_deformations, class_none, class_fixed, class_dependent
+   use flexact_numbering, only: numbering_t, make_numbering
+   use flexact_operands, only: operands_t, operands_of
+   use flexact_statement, only: statement_t
+   implicit none
+   private
+   public :: read_elements
+
+   character(len=14), parameter :: slot_name(slots) = [character(len=14) :: &
+                                                       'position p', 'orientation p', 'position q', 'orientation q']
+
+contains
+
+   !> Read all element statements, make the nodes that they name, and find
+   !> which element has which number.
+   subroutine read_elements(text, statements, scene, diagnostics)
+      character(len=*), intent(in) :: text
+      type(statement_t), intent(in) :: statements(:)
+      type(scene_t), intent(inout) :: scene
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: i, k
+
+      associate (model => scene%model)
+         model%elements = count(statements%role == role_element)
+         call allocate_elements(model)
+         allocate (scene%element_names(model%elements))
+         k = 0
+         do i = 1, size(statements)
+            if (statements(i)%role /= role_element) cycle
+            k = k + 1
+            scene%element_names(k) = statements(i)%comment
+            call read_element(text, statements(i), model, k, diagnostics)
+         end do
+         scene%nodes = make_numbering(reshape(model%element_node, [slots*model%elements]))
+         call make_nodes(text, model, scene%nodes, diagnostics)
+      end associate
+      call find_elements(text, scene, diagnostics)
+   end subroutine read_elements
+
+   subroutine allocate_elements(model)
+      type(model_t), intent(inout) :: model
+
+      allocate (model%element_number(model%elements), source=0)
+      allocate (model%element_kind(model%elements), source=0)
+      allocate (model%element_node(slots, model%elements), source=0)
+      allocate (model%element_vector(3, model%elements), source=0.0_wp)
+      allocate (model%deformation_class(most_deformations, model%elements), source=class_none)
+      allocate (model%element_origin(model%elements), source=0)
+   end subroutine allocate_elements
+
+   !> One statement; the node slots hold numbers until all are known. An
+   !> element whose statement is wrong keeps its number, so that statements
+   !> about it are not reported as well, and loses its nodes where they are unknown.
+   subroutine read_element(text, statement, model, k, diagnostics)
+      character(len=*), intent(in) :: text
+      type(statement_t), intent(in) :: statement
+      type(model_t), intent(inout) :: model
+      integer, intent(in) :: k
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(operands_t) :: operands
+      integer :: slot
+
+      associate (kind => element_kinds(statement%what))
+         model%element_kind(k) = statement%what
+         model%element_origin(k) = statement%keyword%first
+         model%deformation_class(:kind%deformations, k) = class_fixed
+         operands = operands_of(statement)
+         call operands%positive_integer(text, 'element number', model%element_number(k), diagnostics)
+         do slot = 1, slots
+            if (kind%slot_kind(slot) == 0) cycle
+            call operands%positive_integer(text, 'node number ('//trim(slot_name(slot))//')', &
+                                           model%element_node(slot, k), diagnostics)
+         end do
+         call read_vector(text, operands, kind%vector, model%element_vector(:, k), diagnostics)
+         if (operands%fine) call operands%finish(text, form_of(statement%what), diagnostics)
+      end associate
+   end subroutine read_element
+
+   subroutine read_vector(text, operands, use_of_vector, vector, diagnostics)
+      character(len=*), intent(in) :: text
+      type(operands_t), intent(inout) :: operands
+      integer, intent(in) :: use_of_vector
+      real(wp), intent(inout) :: vector(3)
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(operands_t) :: ahead
+      type(span_t) :: place
+      character(len=*), parameter :: component(3) = ['x', 'y', 'z']
+      character(len=:), allocatable :: what
+      integer :: i
+
+      if (use_of_vector == vector_none .or. .not. operands%fine) return
+      if (use_of_vector == vector_optional) then
+         ahead = operands
+         if (.not. ahead%another(text)) return
+      end if
+      what = merge('axis    ', 'y vector', use_of_vector == vector_required)
+      do i = 1, 3
+         call operands%real_number(text, component(i)//' of the '//trim(what), vector(i), diagnostics)
+         if (i == 1) place = operands%word
+         place%last = operands%word%last
+      end do
+      if (operands%fine .and. all(abs(vector) <= 0.0_wp)) call diagnostics%error('zero-vector', place, &
+                                                                               'the '//trim(what)//' is zero', 'has no direction', &
+                                                                                 'give a vector that is not zero')
+   end subroutine read_vector
+
+   !> How a statement of this kind is written.
+   function form_of(kind) result(form)
+      integer, intent(in) :: kind
+      character(len=:), allocatable :: form
+      character(len=2), parameter :: slot_letters(slots) = ['p ', 'op', 'q ', 'oq']
+      integer :: slot
+
+      form = trim(element_kinds(kind)%keyword)//' e'
+      do slot = 1, slots
+         if (element_kinds(kind)%slot_kind(slot) /= 0) form = form//' '//trim(slot_letters(slot))
+      end do
+      if (element_kinds(kind)%vector == vector_required) form = form//' ax ay az'
+      if (element_kinds(kind)%vector == vector_optional) form = form//' [yx yy yz]'
+   end function form_of
+
+   !> Replace node numbers by indices; give each node its kind, the identity
+   !> or zero as its value, and its coordinates, all dependent.
+   subroutine make_nodes(text, model, nodes, diagnostics)
+      character(len=*), intent(in) :: text
+      type(model_t), intent(inout) :: model
+      type(numbering_t), intent(in) :: nodes
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: first_user(size(nodes%number)), k, slot, node, axis
+
+      model%nodes = size(nodes%number)
+      allocate (model%node_number(model%nodes), source=nodes%number)
+      allocate (model%node_kind(model%nodes), source=0)
+      allocate (model%node_value(4, model%nodes), source=0.0_wp)
+      allocate (model%coordinate_class(3, model%nodes), source=class_none)
+      first_user = 0
+      do k = 1, model%elements
+         do slot = 1, slots
+            node = nodes%find(model%element_node(slot, k))
+            model%element_node(slot, k) = node
+            if (node == 0) cycle
+            call take_kind(text, model, k, slot, first_user(node), diagnostics)
+         end do
+      end do
+      do node = 1, model%nodes
+         if (model%node_kind(node) == node_orientation) model%node_value(1, node) = 1.0_wp
+         do axis = 1, 3
+            if (has_axis(model%node_kind(node), axis)) model%coordinate_class(axis, node) = class_dependent
+         end do
+      end do
+   end subroutine make_nodes
+
+   !> A node is what its first slot says; a planar position that a spatial
+   !> element uses too has three components.
+   subroutine take_kind(text, model, k, slot, first_user, diagnostics)
+      character(len=*), intent(in) :: text
+      type(model_t), intent(inout) :: model
+      integer, intent(in) :: k, slot
+      integer, intent(inout) :: first_user
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(span_t) :: place
+      integer :: wanted, word
+
+      wanted = element_kinds(model%element_kind(k))%slot_kind(slot)
+      associate (kind => model%node_kind(model%element_node(slot, k)))
+         if (kind == 0) then
+            kind = wanted
+            first_user = k
+         else if (is_position(kind) .and. is_position(wanted)) then
+            kind = max(kind, wanted)
+         else if (kind /= wanted) then
+            word = word_of_slot(model%element_kind(k), slot)
+            place = operand_span(text, model%element_origin(k), word, word)
+            call diagnostics%error('two-kinds-of-node', place, &
+                                   'node '//text(place%first:place%last)//' is used as '//kind_name(wanted)// &
+                                   ' and as '//kind_name(kind), 'here as '//kind_name(wanted), &
+                                   'position and orientation of one point are two nodes with two numbers', &
+                                   place_of_node(text, model, first_user, model%element_node(slot, k)))
+         end if
+      end associate
+   end subroutine take_kind
+
+   !> The word of an element's statement that names its node in this slot.
+   pure integer function word_of_slot(kind, slot) result(word)
+      integer, intent(in) :: kind, slot
+      word = 2 + count(element_kinds(kind)%slot_kind(:slot) /= 0)
+   end function word_of_slot
+
+   pure function place_of_node(text, model, k, node) result(place)
+      character(len=*), intent(in) :: text
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k, node
+      type(span_t) :: place
+      integer :: slot, word
+
+      slot = findloc(model%element_node(:, k), node, dim=1)
+      word = word_of_slot(model%element_kind(k), slot)
+      place = operand_span(text, model%element_origin(k), word, word)
+   end function place_of_node
+
+   pure function kind_name(kind) result(name)
+      integer, intent(in) :: kind
+      character(len=:), allocatable :: name
+
+      select case (kind)
+      case (node_planar_position, node_position)
+         name = 'a position'
+      case (node_angle)
+         name = 'a planar angle'
+      case default
+         name = 'an orientation'
+      end select
+   end function kind_name
+
+   !> The element of each number; a number that two elements have is reported
+   !> with both places.
+   subroutine find_elements(text, scene, diagnostics)
+      character(len=*), intent(in) :: text
+      type(scene_t), intent(inout) :: scene
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: k, index
+
+      associate (model => scene%model)
+         scene%element_numbers = make_numbering(model%element_number)
+         allocate (scene%element_of(size(scene%element_numbers%number)), source=0)
+         do k = 1, model%elements
+            index = scene%element_numbers%find(model%element_number(k))
+            if (index == 0) cycle
+            if (scene%element_of(index) == 0) then
+               scene%element_of(index) = k
+            else
+               call diagnostics%error('duplicate-element', operand_span(text, model%element_origin(k), 2, 2), &
+                                      'two elements have one number', 'used again here', &
+                                      'give each element a number of its own', &
+                                      operand_span(text, model%element_origin(scene%element_of(index)), 2, 2))
+            end if
+         end do
+      end associate
+   end subroutine find_elements
+end module flexact_deck_elements

@@ -1,0 +1,115 @@
+!> Statements that the analysis does not use: dynamics, in/out, picture. Their
+!> form is checked, and what they name must exist.
+module flexact_deck_forms
+   use flexact_deck_scene, only: scene_t, take_node, take_element
+   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_keywords, only: keyword_t, keywords, role_form, block_kinematics
+   use flexact_kinds, only: wp
+   use flexact_operands, only: operands_t, operands_of
+   use flexact_statement, only: statement_t
+   implicit none
+   private
+   public :: read_forms
+
+contains
+
+   !> Check the form of every such statement, and say once how many there were.
+   subroutine read_forms(text, statements, scene, unused, diagnostics)
+      character(len=*), intent(in) :: text
+      type(statement_t), intent(in) :: statements(:)
+      type(scene_t), intent(in) :: scene
+      integer, intent(out) :: unused
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(span_t) :: first
+      character(len=12) :: number
+      integer :: i
+
+      unused = 0
+      do i = 1, size(statements)
+         if (statements(i)%role /= role_form) cycle
+         call check_form(text, statements(i), keywords(statements(i)%what), scene, diagnostics)
+         if (statements(i)%block == block_kinematics) cycle
+         unused = unused + 1
+         if (unused == 1) first = statements(i)%keyword
+      end do
+      if (unused == 0) return
+      write (number, '(i0)') unused
+      if (unused == 1) then
+         call diagnostics%note('not-used', first, '1 statement describes dynamics or pictures and was not used', 'this one', &
+                               'the determinacy analysis needs the kinematics block alone')
+      else
+         call diagnostics%note('not-used', first, trim(number)//' statements describe dynamics or pictures '// &
+                               'and were not used', 'the first of them', &
+                               'the determinacy analysis needs the kinematics block alone')
+      end if
+   end subroutine read_forms
+
+   subroutine check_form(text, statement, keyword, scene, diagnostics)
+      character(len=*), intent(in) :: text
+      type(statement_t), intent(in) :: statement
+      type(keyword_t), intent(in) :: keyword
+      type(scene_t), intent(in) :: scene
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(operands_t) :: operands, ahead
+      integer :: number
+
+      operands = operands_of(statement)
+      number = 0
+      do
+         ahead = operands
+         if (number >= keyword%least) then
+            if (.not. ahead%another(text)) return
+         end if
+         if (number == keyword%most) exit
+         number = number + 1
+         call take_by_form(text, keyword%form(min(number, len_trim(keyword%form)):), scene, operands, diagnostics)
+         if (.not. operands%fine) return
+      end do
+      call operands%finish(text, trim(keyword%name)//form_in_words(keyword), diagnostics)
+   end subroutine check_form
+
+   subroutine take_by_form(text, letter, scene, operands, diagnostics)
+      character(len=*), intent(in) :: text
+      character, intent(in) :: letter
+      type(scene_t), intent(in) :: scene
+      type(operands_t), intent(inout) :: operands
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: whole
+      real(wp) :: real_value
+
+      select case (letter)
+      case ('e')
+         call take_element(text, scene, operands, whole, diagnostics)
+      case ('n')
+         call take_node(text, scene, operands, whole, diagnostics)
+      case ('w')
+         call operands%word_operand(text, 'word', diagnostics)
+      case ('i')
+         call operands%positive_integer(text, 'component', whole, diagnostics)
+      case default
+         call operands%real_number(text, 'number', real_value, diagnostics)
+      end select
+   end subroutine take_by_form
+
+   pure function form_in_words(keyword) result(words)
+      type(keyword_t), intent(in) :: keyword
+      character(len=:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, min(keyword%most, 8)
+         select case (keyword%form(min(i, len_trim(keyword%form)):min(i, len_trim(keyword%form))))
+         case ('e')
+            words = words//' element'
+         case ('n')
+            words = words//' node'
+         case ('i')
+            words = words//' component'
+         case ('w')
+            words = words//' word'
+         case default
+            words = words//' value'
+         end select
+      end do
+   end function form_in_words
+end module flexact_deck_forms

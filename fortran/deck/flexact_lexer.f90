@@ -1,0 +1,129 @@
+!> Lines and words of a deck. Nothing here knows what a word means.
+module flexact_lexer
+   use flexact_diagnostics, only: span_t
+   implicit none
+   private
+   public :: line_t, next_line, next_word, operand_span, upper_case
+
+   !> One line of the text: what stands before its comment, and the comment
+   !> without its mark and the blanks around it (last < first: there is none).
+   type :: line_t
+      type(span_t) :: body
+      type(span_t) :: comment
+   end type line_t
+
+   character, parameter :: tab = achar(9)
+   character, parameter :: line_feed = achar(10)
+   character, parameter :: carriage_return = achar(13)
+
+contains
+
+   !> Take the line that starts at `position` and move `position` behind it.
+   !> In the picture block a semicolon opens a comment, too.
+   pure subroutine next_line(text, position, in_picture, line)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: position
+      logical, intent(in) :: in_picture
+      type(line_t), intent(out) :: line
+      integer :: i, finish, mark
+
+      finish = len(text)
+      mark = 0
+      do i = position, len(text)
+         select case (text(i:i))
+         case (line_feed)
+            finish = i - 1
+            exit
+         case ('%', '#')
+            if (mark == 0) mark = i
+         case (';')
+            if (in_picture .and. mark == 0) mark = i
+         case ('*')
+            if (i == position) mark = i
+         end select
+      end do
+      if (mark == 0) then
+         line%body = span_t(position, finish)
+      else
+         line%body = span_t(position, mark - 1)
+         line%comment = trimmed(text, mark + 1, finish)
+      end if
+      position = finish + 2
+   end subroutine next_line
+
+   !> Take the next word at or behind `position`, none (first = 0) behind `last`.
+   pure subroutine next_word(text, position, last, word)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: position
+      integer, intent(in) :: last
+      type(span_t), intent(out) :: word
+      integer :: start
+
+      do start = position, last
+         if (.not. is_blank(text(start:start))) exit
+      end do
+      position = start
+      if (start > last) return
+      do position = start + 1, last
+         if (is_blank(text(position:position))) exit
+      end do
+      word = span_t(start, position - 1)
+   end subroutine next_word
+
+   !> From the word number `first` (1 is the keyword) to the word number `last`
+   !> of the statement that starts at `origin`; up to its end where it has fewer.
+   pure function operand_span(text, origin, first, last) result(span)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: origin, first, last
+      type(span_t) :: span, word
+      type(line_t) :: line
+      integer :: position, number
+
+      position = origin
+      call next_line(text, position, .false., line)
+      position = origin
+      do number = 1, last
+         call next_word(text, position, line%body%last, word)
+         if (word%first == 0) exit
+         if (number <= first) span%first = word%first
+         span%last = word%last
+      end do
+   end function operand_span
+
+   pure function trimmed(text, first, last) result(span)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first, last
+      type(span_t) :: span
+
+      span = span_t(first, last)
+      do while (span%first <= span%last)
+         if (.not. (is_blank(text(span%first:span%first)) .or. scan(text(span%first:span%first), '%#') > 0)) exit
+         span%first = span%first + 1
+      end do
+      do while (span%last >= span%first)
+         if (.not. is_blank(text(span%last:span%last))) exit
+         span%last = span%last - 1
+      end do
+      if (span%first > span%last) span = span_t()
+   end function trimmed
+
+   !> Blanks, tabs, carriage returns; form feeds count as well.
+   pure elemental logical function is_blank(c)
+      character, intent(in) :: c
+      is_blank = c == ' ' .or. c == tab .or. c == carriage_return .or. c == achar(12) .or. c == achar(11)
+   end function is_blank
+
+   pure function upper_case(word) result(upper)
+      character(len=*), intent(in) :: word
+      character(len=len(word)) :: upper
+      integer :: i
+
+      do i = 1, len(word)
+         if (word(i:i) >= 'a' .and. word(i:i) <= 'z') then
+            upper(i:i) = achar(iachar(word(i:i)) - 32)
+         else
+            upper(i:i) = word(i:i)
+         end if
+      end do
+   end function upper_case
+end module flexact_lexer

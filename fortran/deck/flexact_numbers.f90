@@ -1,0 +1,172 @@
+!> Numbers of a deck, read to the last bit, with a reason where they cannot be.
+module flexact_numbers
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_fortran_env, only: int64
+   use flexact_kinds, only: wp
+   use flexact_lexer, only: upper_case
+   implicit none
+   private
+   public :: read_integer, read_real
+   public :: number_fine, number_malformed, number_not_whole, number_not_finite, number_too_large
+
+   integer, parameter :: number_fine = 0
+   integer, parameter :: number_malformed = 1
+   integer, parameter :: number_not_whole = 2
+   integer, parameter :: number_not_finite = 3
+   integer, parameter :: number_too_large = 4
+
+   !> A mantissa below 2**53 times or over an exact power of ten rounds once,
+   !> hence correctly (Clinger 1990).
+   integer(int64), parameter :: exact_mantissa = 2_int64**53
+   !> A mantissa up to here takes one more digit.
+   integer(int64), parameter :: roomy_mantissa = 10_int64**17
+   integer, parameter :: exact_power = 22
+   integer :: k
+   real(wp), parameter :: power_of_ten(0:exact_power) = [(10.0_wp**k, k=0, exact_power)]
+
+   !> A number taken apart: mantissa times ten to the exponent.
+   type :: decimal_t
+      integer(int64) :: mantissa = 0
+      integer :: exponent = 0
+      integer :: digits = 0
+      logical :: negative = .false.
+      logical :: whole = .true.
+      !> More digits than the mantissa holds.
+      logical :: long = .false.
+   end type decimal_t
+
+contains
+
+   !> A whole number such as an element, a node or a component.
+   pure subroutine read_integer(word, value, status)
+      character(len=*), intent(in) :: word
+      integer, intent(out) :: value, status
+      type(decimal_t) :: decimal
+
+      value = 0
+      call take_apart(word, decimal, status)
+      if (status /= number_fine) return
+      if (.not. decimal%whole) then
+         status = number_not_whole
+      else if (decimal%long .or. decimal%mantissa > huge(value)) then
+         status = number_too_large
+      else
+         value = int(decimal%mantissa)
+         if (decimal%negative) value = -value
+      end if
+   end subroutine read_integer
+
+   !> A real number: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3.
+   subroutine read_real(word, value, status)
+      character(len=*), intent(in) :: word
+      real(wp), intent(out) :: value
+      integer, intent(out) :: status
+      type(decimal_t) :: decimal
+      integer :: io
+
+      value = 0.0_wp
+      call take_apart(word, decimal, status)
+      if (status /= number_fine) return
+      if (decimal%mantissa < exact_mantissa .and. abs(decimal%exponent) <= exact_power .and. .not. decimal%long) then
+         value = real(decimal%mantissa, wp)
+         if (decimal%exponent < 0) then
+            value = value/power_of_ten(-decimal%exponent)
+         else
+            value = value*power_of_ten(decimal%exponent)
+         end if
+         if (decimal%negative) value = -value
+      else
+         read (word, *, iostat=io) value
+         if (io /= 0 .or. .not. ieee_is_finite(value)) then
+            value = 0.0_wp
+            ! A vanishing mantissa or exponent reads as zero; only the other end fails.
+            if (decimal%exponent > 0) status = number_too_large
+         end if
+      end if
+   end subroutine read_real
+
+   pure subroutine take_apart(word, decimal, status)
+      character(len=*), intent(in) :: word
+      type(decimal_t), intent(out) :: decimal
+      integer, intent(out) :: status
+      integer :: i, digit
+      logical :: behind_point
+
+      behind_point = .false.
+      status = number_malformed
+      i = 1
+      if (word(1:1) == '-' .or. word(1:1) == '+') i = 2
+      decimal%negative = word(1:1) == '-'
+      do i = i, len(word)
+         digit = iachar(word(i:i)) - iachar('0')
+         if (digit >= 0 .and. digit <= 9) then
+            call add_digit(decimal, digit, behind_point)
+         else if (word(i:i) == '.' .and. .not. behind_point) then
+            behind_point = .true.
+            decimal%whole = .false.
+         else
+            exit
+         end if
+      end do
+      if (decimal%digits == 0) then
+         if (is_infinite_or_nan(word(i:))) status = number_not_finite
+         return
+      end if
+      if (i <= len(word)) then
+         decimal%whole = .false.
+         call take_exponent(word(i:), decimal, status)
+      else
+         status = number_fine
+      end if
+   end subroutine take_apart
+
+   pure subroutine add_digit(decimal, digit, behind_point)
+      type(decimal_t), intent(inout) :: decimal
+      integer, intent(in) :: digit
+      logical, intent(in) :: behind_point
+
+      decimal%digits = decimal%digits + 1
+      if (decimal%mantissa > roomy_mantissa) then
+         decimal%long = .true.
+         if (.not. behind_point) decimal%exponent = decimal%exponent + 1
+      else
+         decimal%mantissa = 10*decimal%mantissa + digit
+         if (behind_point) decimal%exponent = decimal%exponent - 1
+      end if
+   end subroutine add_digit
+
+   pure subroutine take_exponent(tail, decimal, status)
+      character(len=*), intent(in) :: tail
+      type(decimal_t), intent(inout) :: decimal
+      integer, intent(out) :: status
+      integer :: i, start, digit, exponent
+
+      status = number_malformed
+      if (scan(tail(1:1), 'eEdD') == 0) return
+      start = 2
+      if (len(tail) >= 2) then
+         if (scan(tail(2:2), '+-') > 0) start = 3
+      end if
+      if (start > len(tail)) return
+      exponent = 0
+      do i = start, len(tail)
+         digit = iachar(tail(i:i)) - iachar('0')
+         if (digit < 0 .or. digit > 9) return
+         ! Far beyond any real number, and short of overflow.
+         exponent = min(10*exponent + digit, 100000)
+      end do
+      if (tail(2:2) == '-') exponent = -exponent
+      decimal%exponent = decimal%exponent + exponent
+      status = number_fine
+   end subroutine take_exponent
+
+   pure logical function is_infinite_or_nan(word)
+      character(len=*), intent(in) :: word
+      select case (upper_case(word))
+      case ('NAN', 'INF', 'INFINITY')
+         is_infinite_or_nan = .true.
+      case default
+         is_infinite_or_nan = .false.
+      end select
+   end function is_infinite_or_nan
+end module flexact_numbers

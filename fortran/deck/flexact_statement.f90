@@ -1,0 +1,245 @@
+!> From the text to statements: which block each line stands in, and what its
+!> keyword is. Operands are left to those who know what they mean.
+module flexact_statement
+   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_element_table, only: find_element_kind
+   use flexact_keywords, only: keywords, find_keyword, nearest_keyword, block_kinematics, block_dynamics, &
+                               block_closed, block_inout, block_picture, role_element, role_uncovered
+   use flexact_lexer, only: line_t, next_line, next_word, upper_case
+   implicit none
+   private
+   public :: statement_t, read_statements, find_unreadable
+
+   !> One statement: its keyword's place and role, where its operands may
+   !> stand, and the comment behind it.
+   type :: statement_t
+      integer :: block = block_kinematics
+      integer :: role = 0
+      !> Row of the keyword table, or element kind where the role is an element.
+      integer :: what = 0
+      type(span_t) :: keyword
+      !> Last character of the statement, its comment left out.
+      integer :: last = 0
+      type(span_t) :: comment
+   end type statement_t
+
+   !> What is remembered from line to line.
+   type :: reader_t
+      integer :: block = block_kinematics
+      logical :: block_is_empty = .true.
+      logical :: told_of_tail = .false.
+      !> The last keyword and what it was: decks repeat themselves.
+      character(len=16) :: word = ''
+      integer :: role = 0
+      integer :: what = 0
+      integer :: found_in = 0
+   end type reader_t
+
+contains
+
+   !> All statements of the text that mean something, in order.
+   subroutine read_statements(text, statements, count, diagnostics)
+      character(len=*), intent(in) :: text
+      type(statement_t), allocatable, intent(out) :: statements(:)
+      integer, intent(out) :: count
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(reader_t) :: reader
+      type(statement_t) :: statement
+      type(line_t) :: line
+      type(span_t) :: word
+      integer :: position, start
+      logical :: meaningful
+
+      allocate (statements(64))
+      count = 0
+      position = 1
+      if (len(text) >= 3) then
+         ! The byte order mark of UTF-8.
+         if (text(1:3) == char(239)//char(187)//char(191)) position = 4
+      end if
+      do while (position <= len(text))
+         call next_line(text, position, reader%block == block_picture, line)
+         start = line%body%first
+         call next_word(text, start, line%body%last, word)
+         if (word%first == 0) cycle
+         statement = statement_t(reader%block, 0, 0, word, line%body%last, line%comment)
+         call classify(text, reader, statement, meaningful, diagnostics)
+         if (.not. meaningful) cycle
+         reader%block_is_empty = .false.
+         if (count == size(statements)) call grow(statements)
+         count = count + 1
+         statements(count) = statement
+      end do
+   end subroutine read_statements
+
+   !> The first character that no text holds (a NUL, another control
+   !> character), 0 where all is readable.
+   pure integer function find_unreadable(text) result(position)
+      character(len=*), intent(in) :: text
+      integer :: code
+
+      do position = 1, len(text)
+         code = iachar(text(position:position))
+         if (code >= 32) cycle
+         if (code >= 9 .and. code <= 13) cycle
+         return
+      end do
+      position = 0
+   end function find_unreadable
+
+   !> Fill in what the keyword is; move from block to block where it says so.
+   subroutine classify(text, reader, statement, meaningful, diagnostics)
+      character(len=*), intent(in) :: text
+      type(reader_t), intent(inout) :: reader
+      type(statement_t), intent(inout) :: statement
+      logical, intent(out) :: meaningful
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      associate (key => statement%keyword)
+         call look_up(text(key%first:key%last), reader)
+      end associate
+      meaningful = .false.
+      if (reader%word == 'END' .or. reader%word == 'HALT') then
+         call change_block(reader, statement, diagnostics)
+         return
+      end if
+      if (reader%block == block_dynamics .or. reader%block == block_closed .or. reader%block == block_inout) then
+         if (reader%word == 'VISUALIZATION') reader%block = block_picture
+      end if
+      if (reader%block == block_closed) then
+         if (.not. reader%told_of_tail) call diagnostics%warning('not-read', statement%keyword, &
+                                                                 'what stands behind the second END is not read', 'from here on', &
+                                                      'move the statement before END, or open the picture block with VISUALIZATION')
+         reader%told_of_tail = .true.
+         return
+      end if
+      statement%block = reader%block
+      statement%role = reader%role
+      statement%what = reader%what
+      if (reader%role == 0) then
+         call unknown_keyword(text, reader, statement, diagnostics)
+      else if (reader%found_in /= reader%block) then
+         call wrong_block(reader, statement, diagnostics)
+         statement%role = 0
+      else if (reader%role == role_uncovered) then
+         call diagnostics%error('not-covered', statement%keyword, trim(reader%word)//' is outside what Flexact covers', &
+                                'no deformations are known for it', &
+                                'model it with the elements that the manual lists, or take it away')
+      end if
+      meaningful = statement%role /= 0 .and. statement%role /= role_uncovered
+   end subroutine classify
+
+   !> Look the word up, unless it is the last one again.
+   subroutine look_up(word, reader)
+      character(len=*), intent(in) :: word
+      type(reader_t), intent(inout) :: reader
+      integer :: row
+
+      if (len(word) > len(reader%word)) then
+         reader%word = word
+         reader%role = 0
+         reader%found_in = 0
+         return
+      end if
+      if (reader%word == word .and. reader%found_in == reader%block) return
+      reader%word = upper_case(word)
+      reader%role = role_element
+      reader%found_in = block_kinematics
+      reader%what = find_element_kind(trim(reader%word))
+      if (reader%what > 0) return
+      row = find_keyword(trim(reader%word), reader%block)
+      reader%what = row
+      reader%role = 0
+      reader%found_in = 0
+      if (row == 0) return
+      reader%role = keywords(row)%role
+      reader%found_in = keywords(row)%block
+   end subroutine look_up
+
+   subroutine change_block(reader, statement, diagnostics)
+      type(reader_t), intent(inout) :: reader
+      type(statement_t), intent(in) :: statement
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      if (reader%block == block_picture) return
+      if (reader%word == 'END') then
+         reader%block = merge(block_dynamics, block_closed, reader%block == block_kinematics)
+      else if (reader%block == block_closed) then
+         reader%block = block_inout
+      else if (reader%block == block_kinematics .or. .not. reader%block_is_empty) then
+         call diagnostics%error('wrong-block', statement%keyword, 'HALT stands within a block', &
+                                'the block is not closed yet', 'write END before HALT')
+      end if
+      reader%block_is_empty = .true.
+   end subroutine change_block
+
+   !> An unknown word; one that nearly spells an element is read as that, so
+   !> that what is said of the element elsewhere is not reported too.
+   subroutine unknown_keyword(text, reader, statement, diagnostics)
+      character(len=*), intent(in) :: text
+      type(reader_t), intent(in) :: reader
+      type(statement_t), intent(inout) :: statement
+      type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=13) :: nearest
+      character(len=:), allocatable :: word
+
+      associate (key => statement%keyword)
+         word = upper_case(text(key%first:min(key%last, key%first + 39)))
+      end associate
+      nearest = ''
+      if (.not. diagnostics%is_full()) nearest = nearest_keyword(word, reader%block)
+      if (nearest == '' .and. reader%block == block_picture) then
+         call diagnostics%warning('unknown-keyword', statement%keyword, word//' is not a picture option that Flexact knows', &
+                                  'not used', 'nothing to do: pictures do not touch the analysis')
+      else if (nearest == '') then
+         call diagnostics%error('unknown-keyword', statement%keyword, word//' is not a keyword of the '// &
+                                trim(block_name(reader%block))//' block', 'unknown keyword', &
+                                'a line starts with a keyword; a comment starts with % or #')
+      else
+         call diagnostics%error('unknown-keyword', statement%keyword, word//' is not a keyword of the '// &
+                                trim(block_name(reader%block))//' block', 'unknown keyword', &
+                                'did you mean '//trim(nearest)//'?')
+         statement%what = find_element_kind(trim(nearest))
+         if (statement%what > 0) statement%role = role_element
+      end if
+   end subroutine unknown_keyword
+
+   subroutine wrong_block(reader, statement, diagnostics)
+      type(reader_t), intent(in) :: reader
+      type(statement_t), intent(in) :: statement
+      type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=:), allocatable :: help
+
+      select case (reader%found_in)
+      case (block_kinematics)
+         help = 'write it before the first END'
+      case (block_dynamics)
+         help = 'write it between the first END and the second'
+      case (block_picture)
+         help = 'write it behind VISUALIZATION, at the end of the deck'
+      case default
+         help = 'write it between a HALT behind the second END and the next END'
+      end select
+      call diagnostics%error('wrong-block', statement%keyword, &
+                             trim(reader%word)//' belongs in the '//trim(block_name(reader%found_in))// &
+                             ' block, not in the '//trim(block_name(reader%block))//' block', &
+                             'not in this block', help)
+   end subroutine wrong_block
+
+   pure function block_name(block) result(name)
+      integer, intent(in) :: block
+      character(len=12) :: name
+      character(len=12), parameter :: names(5) = [character(len=12) :: &
+                                                  'kinematics', 'dynamics', 'closed', 'in/out', 'picture']
+      name = names(block)
+   end function block_name
+
+   subroutine grow(statements)
+      type(statement_t), allocatable, intent(inout) :: statements(:)
+      type(statement_t), allocatable :: larger(:)
+
+      allocate (larger(2*size(statements)))
+      larger(:size(statements)) = statements
+      call move_alloc(larger, statements)
+   end subroutine grow
+end module flexact_statement

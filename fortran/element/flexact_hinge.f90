@@ -1,0 +1,42 @@
+!> HINGE: the rotation of q relative to p, with one axis singled out.
+module flexact_hinge
+   use flexact_kinds, only: wp
+   use flexact_pose, only: pose_t, reference_t
+   use flexact_vectors, only: cross
+   implicit none
+   private
+   public :: hinge_deformation
+
+contains
+
+   !> e1: angle about the axis in (-pi, pi], the twist that is left when the
+   !> shortest rotation has brought the axis of p onto that of q; e2 and e3:
+   !> components of the axis of q across that of p, for small rotations the
+   !> angles about ey and ez [rad].
+   pure subroutine hinge_deformation(reference, p, q, e, derivative)
+      type(reference_t), intent(in) :: reference
+      type(pose_t), intent(in) :: p, q
+      !> Deformations (6) and their derivatives (6, 12) with respect to the
+      !> position of p, rotation of p, position of q, rotation of q.
+      real(wp), intent(out) :: e(6), derivative(6, 12)
+      real(wp) :: frame_p(3, 3), frame_q(3, 3), sine, cosine
+
+      e = 0.0_wp
+      derivative = 0.0_wp
+      frame_p = matmul(p%rotation, reference%frame)
+      frame_q = matmul(q%rotation, reference%frame)
+      associate (exp => frame_p(:, 1), eyp => frame_p(:, 2), ezp => frame_p(:, 3), &
+                 exq => frame_q(:, 1), eyq => frame_q(:, 2), ezq => frame_q(:, 3))
+         sine = dot_product(eyq, ezp) - dot_product(ezq, eyp)
+         cosine = dot_product(eyq, eyp) + dot_product(ezq, ezp)
+         ! Both vanish where the axis has turned right over; no angle then.
+         if (abs(sine) + abs(cosine) > 0.0_wp) e(1) = atan2(sine, cosine)
+         e(2) = -dot_product(exq, ezp)
+         e(3) = dot_product(exq, eyp)
+         derivative(1, 10:12) = (exp + exq)/max(1 + dot_product(exp, exq), epsilon(1.0_wp))
+         derivative(2, 10:12) = -cross(exq, ezp)
+         derivative(3, 10:12) = cross(exq, eyp)
+      end associate
+      derivative(:, 4:6) = -derivative(:, 10:12)
+   end subroutine hinge_deformation
+end module flexact_hinge

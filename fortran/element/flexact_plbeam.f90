@@ -1,0 +1,54 @@
+!> PLBEAM: a slender beam in the xy plane. The signs of the bending
+!> deformations differ from those of e5 and e6 of the spatial beam.
+module flexact_plbeam
+   use flexact_kinds, only: wp
+   use flexact_pose, only: pose_t, reference_t
+   use flexact_chord, only: chord_t, make_chord, across_chord
+   use flexact_vectors, only: planar_turn
+   implicit none
+   private
+   public :: plbeam_deformation
+
+contains
+
+   !> e1 elongation, e2 and e3 bending at p and q [m], with the chord e_l:
+   !> e2 = -l0 e_l . eyp, e3 = l0 e_l . eyq,
+   !> e1 = l - l0 + (2 e2**2 + e2 e3 + 2 e3**2)/(30 l0).
+   pure subroutine plbeam_deformation(reference, p, q, e, derivative)
+      type(reference_t), intent(in) :: reference
+      type(pose_t), intent(in) :: p, q
+      !> Deformations (6) and their derivatives (6, 12) with respect to the
+      !> position of p, rotation of p, position of q, rotation of q.
+      real(wp), intent(out) :: e(6), derivative(6, 12)
+      type(chord_t) :: chord
+      real(wp) :: eyp(3), eyq(3), g2, g3
+
+      e = 0.0_wp
+      derivative = 0.0_wp
+      call make_chord(reference, p, q, chord)
+      eyp = planar_turn(p%angle, reference%frame(:, 2))
+      eyq = planar_turn(q%angle, reference%frame(:, 2))
+      associate (el => chord%direction, l0 => reference%length)
+         ! In units of l0.
+         g2 = -dot_product(el, eyp)
+         g3 = dot_product(el, eyq)
+         e(1) = chord%elongation + l0*(2*g2**2 + g2*g3 + 2*g3**2)/30
+         e(2) = l0*g2
+         e(3) = l0*g3
+
+         derivative(2, 7:9) = -across_chord(chord, eyp)
+         derivative(3, 7:9) = across_chord(chord, eyq)
+         derivative(1, 7:9) = el
+         derivative(2, 6) = l0*turning(el, eyp)
+         derivative(3, 12) = -l0*turning(el, eyq)
+      end associate
+      derivative(:, 1:3) = -derivative(:, 7:9)
+      derivative(1, :) = derivative(1, :) + ((4*g2 + g3)*derivative(2, :) + (g2 + 4*g3)*derivative(3, :))/30
+   end subroutine plbeam_deformation
+
+   !> Minus the derivative of e_l . ey with respect to the angle of ey.
+   pure real(wp) function turning(el, ey)
+      real(wp), intent(in) :: el(3), ey(3)
+      turning = el(1)*ey(2) - el(2)*ey(1)
+   end function turning
+end module flexact_plbeam

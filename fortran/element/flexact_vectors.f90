@@ -1,0 +1,87 @@
+!> Small vectors and right-handed frames.
+module flexact_vectors
+   use flexact_kinds, only: wp
+   implicit none
+   private
+   public :: cross, unit, frame_along, planar_frame_along, planar_turn
+
+contains
+
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
+
+   !> The direction of a vector of any magnitude, subnormal ones included; zero
+   !> for the zero vector.
+   pure function unit(vector) result(direction)
+      real(wp), intent(in) :: vector(3)
+      real(wp) :: direction(3)
+      real(wp) :: largest
+
+      largest = maxval(abs(vector))
+      direction = 0.0_wp
+      if (.not. largest > 0.0_wp) return
+      direction = scale(vector, -exponent(largest))
+      direction = direction/norm2(direction)
+   end function unit
+
+   !> Columns ex, ey, ez with ex along the first vector and ey as near to the
+   !> hint as can be. Where the hint is zero or parallel to ex, it is the
+   !> global axis along which |ex| is smallest. A zero first vector gives the
+   !> global axes.
+   pure function frame_along(vector, hint) result(frame)
+      real(wp), intent(in) :: vector(3), hint(3)
+      real(wp) :: frame(3, 3)
+      real(wp) :: axis(3)
+
+      frame(:, 1) = unit(vector)
+      if (.not. norm2(frame(:, 1)) > 0.0_wp) then
+         frame = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+         return
+      end if
+      frame(:, 2) = across(frame(:, 1), unit(hint))
+      if (.not. norm2(frame(:, 2)) > 0.0_wp) then
+         axis = 0.0_wp
+         axis(minloc(abs(frame(:, 1)), 1)) = 1.0_wp
+         frame(:, 2) = across(frame(:, 1), axis)
+      end if
+      frame(:, 3) = cross(frame(:, 1), frame(:, 2))
+   end function frame_along
+
+   !> The direction of that part of a unit vector that is perpendicular to ex;
+   !> zero where nothing but rounding is left. Projecting twice keeps ey
+   !> perpendicular to ex although the two vectors may be nearly parallel.
+   pure function across(ex, vector) result(ey)
+      real(wp), intent(in) :: ex(3), vector(3)
+      real(wp) :: ey(3)
+
+      ey = vector - dot_product(ex, vector)*ex
+      if (norm2(ey) < 8*epsilon(1.0_wp)) then
+         ey = 0.0_wp
+      else
+         ey = unit(ey)
+         ey = unit(ey - dot_product(ex, ey)*ex)
+      end if
+   end function across
+
+   !> As `frame_along` in the xy plane: ez is the global z axis.
+   pure function planar_frame_along(vector) result(frame)
+      real(wp), intent(in) :: vector(3)
+      real(wp) :: frame(3, 3)
+
+      frame = 0.0_wp
+      frame(:, 1) = unit([vector(1:2), 0.0_wp])
+      frame(:, 2) = [-frame(2, 1), frame(1, 1), 0.0_wp]
+      frame(3, 3) = 1.0_wp
+   end function planar_frame_along
+
+   !> A vector turned about the global z axis by an angle in radians.
+   pure function planar_turn(angle, vector) result(turned)
+      real(wp), intent(in) :: angle, vector(3)
+      real(wp) :: turned(3)
+      turned = [cos(angle)*vector(1) - sin(angle)*vector(2), &
+                sin(angle)*vector(1) + cos(angle)*vector(2), vector(3)]
+   end function planar_turn
+end module flexact_vectors

@@ -1,0 +1,178 @@
+!> What must hold of every model, from a deck or not, before it is analysed.
+module flexact_checks
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_element_table, only: element_kinds, vector_none, vector_required
+   use flexact_kinds, only: wp
+   use flexact_model, only: model_t, slots, is_position
+   implicit none
+   private
+   public :: check_model, is_consistent
+
+   !> Sine of the angle below which a vector counts as parallel to its beam.
+   real(wp), parameter :: parallel_sine = 1.0e-6_wp
+   !> Two points this near to each other, relative to their distance from the
+   !> origin, differ by rounding alone.
+   real(wp), parameter :: same_point = 4*epsilon(1.0_wp)
+   !> Lengths whose cubes and quotients stay within the range of numbers.
+   real(wp), parameter :: shortest = 1.0e-90_wp
+   real(wp), parameter :: longest = 1.0e90_wp
+
+contains
+
+   !> Report all that is wrong with a model; elements whose nodes are not known
+   !> (their statements were reported) are passed over.
+   subroutine check_model(model, diagnostics)
+      type(model_t), intent(in) :: model
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: k
+
+      if (model%elements == 0) then
+         if (.not. diagnostics%has_errors()) call diagnostics%error( &
+            'nothing-to-analyse', span_t(), 'there is nothing to analyse: no elements', '', &
+            'state at least one element, such as TRUSS 1 1 2')
+         return
+      end if
+      do k = 1, model%elements
+         call check_element(model, k, diagnostics)
+      end do
+   end subroutine check_model
+
+   subroutine check_element(model, k, diagnostics)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      type(diagnostics_t), intent(inout) :: diagnostics
+      type(span_t) :: place
+      real(wp) :: offset(3), length, size_of_scene
+      integer :: p, q
+
+      associate (kind => element_kinds(model%element_kind(k)), node => model%element_node(:, k))
+         if (any(kind%slot_kind /= 0 .and. node == 0)) return
+         place = span_t(model%element_origin(k), 0)
+         if (has_twice(node)) then
+            call diagnostics%error('same-node', place, element_name(model, k)//' has one node at both ends', &
+                                   'both ends are one node', 'the two ends of an element are different nodes')
+            return
+         end if
+         if (kind%vector == vector_required) call check_axis(model, k, place, diagnostics)
+         p = node(1)
+         q = node(3)
+         if (p == 0 .or. q == 0) return
+         if (.not. all(ieee_is_finite(model%node_value(:3, [p, q])))) then
+            call diagnostics%error('not-finite', place, element_name(model, k)//' has a node at no finite place', &
+                                   'its coordinates are not finite', 'give its nodes finite coordinates')
+            return
+         end if
+         offset = model%node_value(:3, q)/2 - model%node_value(:3, p)/2
+         length = 2*min(norm2(offset), huge(length)/2)
+         size_of_scene = max(maxval(abs(model%node_value(:3, p))), maxval(abs(model%node_value(:3, q))))
+         if (kind%needs_length .and. length <= same_point*size_of_scene) then
+            call diagnostics%error('zero-length', place, element_name(model, k)//' has zero length: its nodes '// &
+                                   node_pair(model, p, q)//' are at one place', 'zero length', &
+                                   'give its nodes different positions with X')
+         else if (length > longest .or. (length < shortest .and. length > 0.0_wp)) then
+            call diagnostics%error('length-out-of-range', place, element_name(model, k)// &
+                                   ' is longer or shorter than can be computed with', 'length out of range', &
+                                   'lengths from 1e-90 to 1e90 can be analysed: choose another unit')
+         else if (kind%vector /= vector_none .and. kind%vector /= vector_required) then
+            call check_vector(model, k, offset/norm2(offset), place, diagnostics)
+         end if
+      end associate
+   end subroutine check_element
+
+   pure logical function has_twice(node)
+      integer, intent(in) :: node(slots)
+      has_twice = (node(1) == node(3) .and. node(1) > 0) .or. (node(2) == node(4) .and. node(2) > 0)
+   end function has_twice
+
+   subroutine check_axis(model, k, place, diagnostics)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      type(span_t), intent(in) :: place
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      if (.not. all(ieee_is_finite(model%element_vector(:, k)))) then
+         call diagnostics%error('not-finite', place, 'the axis of '//element_name(model, k)//' is not finite', &
+                                'not finite', 'give a finite vector')
+      else if (all(abs(model%element_vector(:, k)) <= 0.0_wp) .and. model%element_origin(k) == 0) then
+         ! A deck's own zero vector was reported where it stands.
+         call diagnostics%error('zero-vector', place, 'the axis of '//element_name(model, k)//' is zero', &
+                                'has no direction', 'give a vector that is not zero')
+      end if
+   end subroutine check_axis
+
+   subroutine check_vector(model, k, ex, place, diagnostics)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      real(wp), intent(in) :: ex(3)
+      type(span_t), intent(in) :: place
+      type(diagnostics_t), intent(inout) :: diagnostics
+      real(wp) :: direction(3)
+      integer :: words(2)
+
+      associate (vector => model%element_vector(:, k), kind => element_kinds(model%element_kind(k)))
+         if (all(abs(vector) <= 0.0_wp)) return
+         words(1) = 3 + count(kind%slot_kind /= 0)
+         words(2) = words(1) + 2
+         if (.not. all(ieee_is_finite(vector))) then
+            call diagnostics%error('not-finite', place, 'the y vector of '//element_name(model, k)//' is not finite', &
+                                   'not finite', 'give a finite vector')
+            return
+         end if
+         direction = vector/maxval(abs(vector))
+         direction = direction/norm2(direction)
+         if (norm2(direction - dot_product(direction, ex)*ex) < parallel_sine) then
+            call diagnostics%error('parallel-vector', place, 'the y vector of '//element_name(model, k)// &
+                                   ' is parallel to it', 'parallel to the line from p to q', &
+                                   'give a vector across the element, or none', words=words)
+         end if
+      end associate
+   end subroutine check_vector
+
+   !> Whether the arrays fit together: kinds that exist, nodes that exist and
+   !> are of the kind that their slots ask for.
+   pure logical function is_consistent(model)
+      type(model_t), intent(in) :: model
+      integer :: k, slot, wanted, node
+
+      is_consistent = .false.
+      do k = 1, model%elements
+         if (model%element_kind(k) < 1 .or. model%element_kind(k) > size(element_kinds)) return
+         do slot = 1, slots
+            wanted = element_kinds(model%element_kind(k))%slot_kind(slot)
+            node = model%element_node(slot, k)
+            if (wanted == 0) then
+               if (node /= 0) return
+            else if (node < 1 .or. node > model%nodes) then
+               return
+            else if (is_position(wanted)) then
+               if (.not. is_position(model%node_kind(node))) return
+            else if (model%node_kind(node) /= wanted) then
+               return
+            end if
+         end do
+      end do
+      is_consistent = .true.
+   end function is_consistent
+
+   pure function element_name(model, k) result(name)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      character(len=:), allocatable :: name
+      character(len=12) :: number
+
+      write (number, '(i0)') model%element_number(k)
+      name = trim(element_kinds(model%element_kind(k))%keyword)//' '//trim(number)
+   end function element_name
+
+   pure function node_pair(model, p, q) result(pair)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: p, q
+      character(len=:), allocatable :: pair
+      character(len=12) :: first, second
+
+      write (first, '(i0)') model%node_number(p)
+      write (second, '(i0)') model%node_number(q)
+      pair = trim(first)//' and '//trim(second)
+   end function node_pair
+end module flexact_checks
