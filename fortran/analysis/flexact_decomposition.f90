@@ -3,6 +3,7 @@
 module flexact_decomposition
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_kinds, only: wp
+   use flexact_vectors, only: length_of
    use flexact_lapack, only: dgesdd, dgeqrf, dorgqr
    implicit none
    private
@@ -102,7 +103,7 @@ contains
       m = size(basis, 1)
       k = size(basis, 2)
       status = status_fine
-      if (k == 1) basis = basis/norm2(basis)
+      if (k == 1) basis = basis/length_of(basis(:, 1))
       if (m == 0 .or. k < 2) return
       status = status_no_memory
       allocate (tau(k), stat=info)

@@ -186,6 +186,8 @@ contains
                                    ' and as '//kind_name(kind), 'here as '//kind_name(wanted), &
                                    'position and orientation of one point are two nodes with two numbers', &
                                    place_of_node(text, model, first_user, model%element_node(slot, k)))
+            ! Not known: the element is not checked further.
+            model%element_node(slot, k) = 0
          end if
       end associate
    end subroutine take_kind

@@ -1,5 +1,6 @@
 !> The X statements: reference values of the nodes.
 module flexact_deck_values
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use flexact_deck_scene, only: scene_t, take_node
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_keywords, only: role_value
@@ -39,6 +40,8 @@ contains
          end if
          stated(node) = operands%word
          call read_value(text, operands, scene%model%node_kind(node), scene%model%node_value(:, node), diagnostics)
+         ! Not known: what is measured with it is not reported as well.
+         if (.not. operands%fine) scene%model%node_value(:, node) = ieee_value(1.0_wp, ieee_quiet_nan)
       end do
    end subroutine read_values
 

@@ -74,8 +74,8 @@ contains
       associate (word => text(self%word%first:self%word%last))
          call read_integer(word, value, status)
          if (status == number_fine .and. value < 1) then
-            call diagnostics%error('bad-number', self%word, quoted(word)//' is not a number for a '//what, &
-                                   'should be 1 or more', 'numbers count from 1')
+            call diagnostics%error('bad-number', self%word, quoted(word)//' is less than 1', &
+                                   'expected here: '//what, 'elements, nodes and components count from 1')
             value = 0
             self%fine = .false.
          else if (status /= number_fine) then

@@ -2,7 +2,7 @@
 module flexact_chord
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
-   use flexact_vectors, only: unit
+   use flexact_vectors, only: length_of, unit
    implicit none
    private
    public :: chord_t, make_chord, across_chord
@@ -30,7 +30,7 @@ contains
       real(wp) :: offset(3), length
 
       offset = q%position - p%position
-      length = norm2(offset)
+      length = length_of(offset)
       chord%direction = unit(offset)
       chord%elongation = 0.0_wp
       chord%ratio = 0.0_wp

@@ -4,7 +4,7 @@ module flexact_element
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, node_planar_position, node_position, node_angle
    use flexact_pose, only: pose_t, reference_t
-   use flexact_vectors, only: frame_along, planar_frame_along
+   use flexact_vectors, only: length_of, frame_along, planar_frame_along
    use flexact_euler, only: relative_rotation
    use flexact_element_table, only: kind_truss, kind_beam, kind_rbeam, kind_pinbody, kind_hinge, &
                                     kind_pltruss, kind_plbeam, kind_plrbeam, kind_plhinge
@@ -33,7 +33,7 @@ contains
 
       call make_poses(model, k, model%node_value, p, q)
       reference%offset = q%position - p%position
-      reference%length = norm2(reference%offset)
+      reference%length = length_of(reference%offset)
       select case (model%element_kind(k))
       case (kind_beam, kind_rbeam, kind_pinbody)
          reference%frame = frame_along(reference%offset, model%element_vector(:, k))

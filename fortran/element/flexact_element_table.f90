@@ -50,16 +50,16 @@ module flexact_element_table
    integer, parameter :: r3 = node_orientation
    integer, parameter :: f = dual_force
    integer, parameter :: m = dual_moment
-   integer, parameter :: ml = dual_moment_over_length
+   integer, parameter :: b = dual_moment_over_length
 
    type(element_kind_t), parameter :: element_kinds(9) = [ &
                                       element_kind_t('TRUSS', [x3, 0, x3, 0], 1, vector_none, .true., [f, 0, 0, 0, 0, 0]), &
-                                    element_kind_t('BEAM', [x3, r3, x3, r3], 6, vector_optional, .true., [f, ml, ml, ml, ml, ml]), &
+                                      element_kind_t('BEAM', [x3, r3, x3, r3], 6, vector_optional, .true., [f, b, b, b, b, b]), &
                                       element_kind_t('RBEAM', [x3, r3, x3, 0], 3, vector_optional, .true., [f, f, f, 0, 0, 0]), &
                                       element_kind_t('PINBODY', [x3, r3, x3, 0], 3, vector_none, .false., [f, f, f, 0, 0, 0]), &
                                       element_kind_t('HINGE', [0, r3, 0, r3], 3, vector_required, .false., [m, m, m, 0, 0, 0]), &
                                       element_kind_t('PLTRUSS', [x2, 0, x2, 0], 1, vector_none, .true., [f, 0, 0, 0, 0, 0]), &
-                                      element_kind_t('PLBEAM', [x2, r1, x2, r1], 3, vector_none, .true., [f, ml, ml, 0, 0, 0]), &
+                                      element_kind_t('PLBEAM', [x2, r1, x2, r1], 3, vector_none, .true., [f, b, b, 0, 0, 0]), &
                                       element_kind_t('PLRBEAM', [x2, r1, x2, 0], 2, vector_none, .true., [f, f, 0, 0, 0, 0]), &
                                       element_kind_t('PLHINGE', [0, r1, 0, r1], 1, vector_none, .false., [m, 0, 0, 0, 0, 0])]
 

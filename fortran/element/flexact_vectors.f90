@@ -3,7 +3,7 @@ module flexact_vectors
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: cross, unit, frame_along, planar_frame_along, planar_turn
+   public :: cross, length_of, unit, frame_along, planar_frame_along, planar_turn
 
 contains
 
@@ -13,18 +13,23 @@ contains
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
 
-   !> The direction of a vector of any magnitude, subnormal ones included; zero
-   !> for the zero vector.
+   !> The Euclidean norm of a vector of any magnitude. Intrinsic norm2 of
+   !> gfortran 12 gives zero where the squares underflow.
+   pure real(wp) function length_of(vector) result(length)
+      real(wp), intent(in) :: vector(:)
+      integer :: power
+
+      power = exponent(maxval(abs(vector)))
+      length = scale(norm2(scale(vector, -power)), power)
+   end function length_of
+
+   !> The direction of a vector of any magnitude; zero for the zero vector.
    pure function unit(vector) result(direction)
       real(wp), intent(in) :: vector(3)
       real(wp) :: direction(3)
-      real(wp) :: largest
 
-      largest = maxval(abs(vector))
-      direction = 0.0_wp
-      if (.not. largest > 0.0_wp) return
-      direction = scale(vector, -exponent(largest))
-      direction = direction/norm2(direction)
+      direction = scale(vector, -exponent(maxval(abs(vector))))
+      if (any(abs(direction) > 0)) direction = direction/norm2(direction)
    end function unit
 
    !> Columns ex, ey, ez with ex along the first vector and ey as near to the
@@ -37,12 +42,12 @@ contains
       real(wp) :: axis(3)
 
       frame(:, 1) = unit(vector)
-      if (.not. norm2(frame(:, 1)) > 0.0_wp) then
+      if (.not. any(abs(frame(:, 1)) > 0)) then
          frame = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
          return
       end if
       frame(:, 2) = across(frame(:, 1), unit(hint))
-      if (.not. norm2(frame(:, 2)) > 0.0_wp) then
+      if (.not. any(abs(frame(:, 2)) > 0)) then
          axis = 0.0_wp
          axis(minloc(abs(frame(:, 1)), 1)) = 1.0_wp
          frame(:, 2) = across(frame(:, 1), axis)

@@ -59,8 +59,10 @@ contains
          q = node(3)
          if (p == 0 .or. q == 0) return
          if (.not. all(ieee_is_finite(model%node_value(:3, [p, q])))) then
-            call diagnostics%error('not-finite', place, element_name(model, k)//' has a node at no finite place', &
-                                   'its coordinates are not finite', 'give its nodes finite coordinates')
+            ! A deck's own numbers were reported where they stand.
+            if (place%first == 0) call diagnostics%error('not-finite', place, element_name(model, k)// &
+                                                       ' has a node at no finite place', 'its coordinates are not finite', &
+                                                         'give its nodes finite coordinates')
             return
          end if
          offset = model%node_value(:3, q)/2 - model%node_value(:3, p)/2

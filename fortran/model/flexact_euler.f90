@@ -2,6 +2,7 @@
 !> the scalar part first; they need not be of unit length.
 module flexact_euler
    use flexact_kinds, only: wp
+   use flexact_vectors, only: length_of
    implicit none
    private
    public :: rotation_matrix, relative_rotation
@@ -53,7 +54,7 @@ contains
       real(wp) :: unit(4)
       real(wp) :: length
 
-      length = norm2(euler)
+      length = length_of(euler)
       unit = no_rotation
       if (length > 0.0_wp) unit = euler/length
    end function normalised

@@ -1,0 +1,171 @@
+!> Rank, motions and self-stresses of mechanisms with known answers.
+program test_determinacy
+   use flexact_kinds, only: wp
+   use flexact_model, only: model_t, node_position
+   use flexact_partition, only: model_count_t, count_model, partition_t, make_partition
+   use flexact_jacobian, only: jacobian_t, make_jacobian, fill_dense
+   use flexact_element_table, only: kind_truss
+   use flexact_determinacy, only: determinacy_t, analyse
+   use flexact_testing, only: tally_t
+   use flexact_test_models, only: new_model, set_node, set_element, fix, twelve_trusses, folded_sheet, &
+                                  parallel_guide
+   implicit none
+
+   type(tally_t) :: tally
+   real(wp), parameter :: lengths(5) = [1.0e-9_wp, 1.0e-3_wp, 1.0_wp, 1.0e3_wp, 1.0e6_wp]
+   real(wp), allocatable :: motions(:, :), stresses(:, :)
+   type(determinacy_t) :: answer
+
+   call test_twelve_trusses()
+   call test_far_from_origin()
+   call test_collinear_bars()
+   call test_folded_sheet()
+   call test_parallel_guide()
+   call test_empty_shapes()
+   call tally%finish()
+
+contains
+
+   subroutine run(model, name, free, stressed)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: free, stressed
+      type(model_count_t) :: counts
+
+      call count_model(model, counts)
+      if (allocated(motions)) deallocate (motions, stresses)
+      allocate (motions(counts%columns, counts%columns), stresses(counts%rows, counts%rows))
+      call analyse(model, motions, stresses, answer)
+      call tally%check(answer%status == 0, name//': status')
+      call tally%check(counts%columns - answer%rank == free, name//': motions')
+      call tally%check(counts%rows - answer%rank == stressed, name//': self-stresses')
+      call check_null_spaces(model, name)
+   end subroutine run
+
+   !> D V = 0 and U' D = 0 to rounding, entry by entry against the sizes of
+   !> what is added up, and orthonormal bases.
+   subroutine check_null_spaces(model, name)
+      type(model_t), intent(in) :: model
+      character(len=*), intent(in) :: name
+      type(partition_t) :: partition
+      type(jacobian_t) :: jacobian
+      real(wp) :: d(size(stresses, 1), size(motions, 1))
+      integer :: free, stressed
+
+      free = size(motions, 2) - answer%rank
+      stressed = size(stresses, 2) - answer%rank
+      call make_partition(model, partition)
+      call make_jacobian(model, model%node_value, jacobian)
+      call fill_dense(jacobian, partition, d)
+      associate (v => motions(:, :free), u => stresses(:, :stressed))
+         call tally%check(all(abs(matmul(d, v)) <= 1.0e-13_wp*maxval(abs(d))), name//': motion residual')
+         call tally%check(all(abs(matmul(transpose(d), u)) <= 1.0e-13_wp*maxval(abs(d))), name//': stress residual')
+         call check_orthonormal(v, name)
+         call check_orthonormal(u, name)
+      end associate
+   end subroutine check_null_spaces
+
+   subroutine check_orthonormal(basis, name)
+      real(wp), intent(in) :: basis(:, :)
+      character(len=*), intent(in) :: name
+      real(wp) :: gram(size(basis, 2), size(basis, 2))
+      integer :: i
+
+      gram = matmul(transpose(basis), basis)
+      do i = 1, size(gram, 1)
+         gram(i, i) = gram(i, i) - 1
+      end do
+      call tally%check(all(abs(gram) < 1.0e-14_wp), name//': orthonormal')
+   end subroutine check_orthonormal
+
+   !> Table 2 and the text of the paper; singular values of D(c) recomputed
+   !> by hand from the symmetry of the ring.
+   subroutine test_twelve_trusses()
+      real(wp), parameter :: golden = (1 + sqrt(5.0_wp))/2
+      real(wp), parameter :: table2(12) = [0.0_wp, -0.5_wp, 0.0_wp, -0.5_wp, 0.0_wp, 0.0_wp, &
+                                           0.0_wp, 0.5_wp, 0.0_wp, 0.5_wp, 0.0_wp, 0.0_wp]
+      real(wp), parameter :: values(12) = [sqrt(3.0_wp), golden, golden, sqrt(2.0_wp), 1.0_wp, 1.0_wp, &
+                                           1.0_wp, 1.0_wp, 1.0_wp, golden - 1, golden - 1, 0.0_wp]
+
+      call run(twelve_trusses(), 'twelve trusses', 1, 1)
+      call tally%near(answer%singular_values, values, 1.0e-14_wp, 'their singular values')
+      call tally%near(abs(dot_product(table2, motions(:, 1)))*[1.0_wp], [1.0_wp], 1.0e-15_wp, 'motion of Table 2')
+      call tally%near(abs(stresses(:, 1)), spread(sqrt(3.0_wp)/6, 1, 12), 1.0e-14_wp, 'stress')
+      call tally%check(count(stresses(:, 1) > 0) == 6, 'half of the stresses are negative')
+      call tally%near([answer%scaling%characteristic_length], [sqrt(2.0_wp)], 1.0e-15_wp, 'length')
+   end subroutine test_twelve_trusses
+
+   !> The verdict stays although the coordinates are rounded more and more.
+   subroutine test_far_from_origin()
+      type(model_t) :: model
+      integer :: power
+      character(len=32) :: name
+
+      do power = 0, 12
+         model = twelve_trusses()
+         model%node_value(1:3, :) = model%node_value(1:3, :)/3 + 10.0_wp**power*sqrt(2.0_wp)
+         write (name, '(a, i0, a)') 'trusses 10^', power, ' from the origin'
+         call run(model, trim(name), 1, 1)
+      end do
+   end subroutine test_far_from_origin
+
+   subroutine test_collinear_bars()
+      type(model_t) :: model
+      integer :: i
+
+      model = new_model(3, 2)
+      do i = 1, 3
+         call set_node(model, i, node_position, [0.1_wp, 0.2_wp, 0.3_wp]*(i - 2))
+      end do
+      call fix(model, [1, 3])
+      call set_element(model, 1, kind_truss, [1, 0, 2, 0])
+      call set_element(model, 2, kind_truss, [2, 0, 3, 0])
+      call run(model, 'collinear bars in space', 2, 1)
+   end subroutine test_collinear_bars
+
+   !> The stress is two equal and opposite in-plane moments at the clamped
+   !> ends, e3 of the first sheet and e4 of the second; verdict and scaled
+   !> values are the same in every unit of length.
+   subroutine test_folded_sheet()
+      real(wp), parameter :: expected(6) = [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]/sqrt(2.0_wp)
+      real(wp), allocatable :: scaled(:)
+      integer :: i
+
+      call run(folded_sheet(1.0_wp), 'folded sheet', 1, 1)
+      scaled = answer%scaled_values
+      do i = 1, size(lengths)
+         call run(folded_sheet(lengths(i)), 'folded sheet of any size', 1, 1)
+         call tally%near(answer%scaled_values, scaled, 1.0e-14_wp, 'scaled values of any size')
+         call tally%near(abs(stresses(:, 1)), expected, 1.0e-14_wp, 'moments at the clamped ends')
+      end do
+   end subroutine test_folded_sheet
+
+   !> One motion, the translation along y, and a constant in-plane moment in
+   !> both sheets. Rotations are compared after multiplication by a length.
+   subroutine test_parallel_guide()
+      real(wp), parameter :: along_y(9) = [0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+      real(wp) :: motion(9)
+      integer :: i
+
+      do i = 1, size(lengths)
+         call run(parallel_guide(lengths(i)), 'parallel guide', 1, 1)
+         motion = motions(:, 1)/answer%scaling%column
+         call tally%near(abs(motion)/norm2(motion), along_y/sqrt(2.0_wp), 1.0e-14_wp, 'it moves along y')
+         call tally%near(abs(stresses([2, 3, 5, 6], 1)), [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp], 1.0e-14_wp, &
+                         'constant in-plane moments')
+      end do
+   end subroutine test_parallel_guide
+
+   subroutine test_empty_shapes()
+      type(model_t) :: model
+
+      model = new_model(0, 0)
+      call run(model, 'nothing', 0, 0)
+      model = folded_sheet(1.0_wp)
+      call fix(model, [3, 4])
+      call run(model, 'no columns', 0, 6)
+      model = twelve_trusses()
+      model%deformation_class = merge(2, 0, model%deformation_class > 0)
+      call run(model, 'no rows', 12, 0)
+   end subroutine test_empty_shapes
+end program test_determinacy

@@ -1,0 +1,84 @@
+!> Numbers of a deck: values to the last bit, and why a word is none.
+program test_numbers
+   use, intrinsic :: iso_fortran_env, only: int64
+   use flexact_kinds, only: wp
+   use flexact_numbers, only: read_integer, read_real, number_fine, number_malformed, number_not_whole, &
+                              number_not_finite, number_too_large
+   use flexact_testing, only: tally_t
+   implicit none
+   type(tally_t) :: tally
+
+   call integers()
+   call reals()
+   call last_bits()
+   call tally%finish()
+
+contains
+
+   subroutine integers()
+      call expect_integer('7', 7, number_fine)
+      call expect_integer('+12', 12, number_fine)
+      call expect_integer('-3', -3, number_fine)
+      call expect_integer('2147483647', 2147483647, number_fine)
+      call expect_integer('2147483648', 0, number_too_large)
+      call expect_integer('99999999999999999999999', 0, number_too_large)
+      call expect_integer('1.', 0, number_not_whole)
+      call expect_integer('1e3', 0, number_not_whole)
+      call expect_integer('x', 0, number_malformed)
+      call expect_integer('-', 0, number_malformed)
+   end subroutine integers
+
+   subroutine reals()
+      call expect_real('1.', 1.0_wp, number_fine)
+      call expect_real('+0.0000', 0.0_wp, number_fine)
+      call expect_real('.1', 0.1_wp, number_fine)
+      call expect_real('-.5303', -0.5303_wp, number_fine)
+      call expect_real('1e-3', 1.0e-3_wp, number_fine)
+      call expect_real('1.0D-3', 1.0e-3_wp, number_fine)
+      call expect_real('2d+2', 200.0_wp, number_fine)
+      call expect_real('1e-400', 0.0_wp, number_fine)
+      call expect_real('0e999', 0.0_wp, number_fine)
+      call expect_real('1e400', 0.0_wp, number_too_large)
+      call expect_real('nan', 0.0_wp, number_not_finite)
+      call expect_real('-Inf', 0.0_wp, number_not_finite)
+      call expect_real('infinity', 0.0_wp, number_not_finite)
+      call expect_real('1..5', 0.0_wp, number_malformed)
+      call expect_real('.', 0.0_wp, number_malformed)
+      call expect_real('1e', 0.0_wp, number_malformed)
+      call expect_real('1e+', 0.0_wp, number_malformed)
+      call expect_real('1,5', 0.0_wp, number_malformed)
+      call expect_real('0x1p3', 0.0_wp, number_malformed)
+   end subroutine reals
+
+   !> The compiler's own conversion of the same digits is the reference.
+   subroutine last_bits()
+      call expect_real('0.8660254037844386', 0.8660254037844386_wp, number_fine)
+      call expect_real('0.70710678118654757', 0.70710678118654757_wp, number_fine)
+      call expect_real('-123456789012345678.9', -123456789012345678.9_wp, number_fine)
+      call expect_real('2.2250738585072014e-308', 2.2250738585072014e-308_wp, number_fine)
+      call expect_real('1.7976931348623157e308', 1.7976931348623157e308_wp, number_fine)
+      call expect_real('9007199254740993', 9007199254740993.0_wp, number_fine)
+      call expect_real('1e22', 1.0e22_wp, number_fine)
+      call expect_real('1e23', 1.0e23_wp, number_fine)
+   end subroutine last_bits
+
+   subroutine expect_integer(word, value, status)
+      character(len=*), intent(in) :: word
+      integer, intent(in) :: value, status
+      integer :: got, got_status
+
+      call read_integer(word, got, got_status)
+      call tally%check(got == value .and. got_status == status, 'integer '//word)
+   end subroutine expect_integer
+
+   subroutine expect_real(word, value, status)
+      character(len=*), intent(in) :: word
+      real(wp), intent(in) :: value
+      integer, intent(in) :: status
+      real(wp) :: got
+      integer :: got_status
+
+      call read_real(word, got, got_status)
+      call tally%check(transfer(got, 0_int64) == transfer(value, 0_int64) .and. got_status == status, 'real '//word)
+   end subroutine expect_real
+end program test_numbers

@@ -1,0 +1,79 @@
+#!/bin/sh
+# Install what Flexact needs into .venv, and from the system's packages what a
+# virtual environment cannot hold. Usage: tools/setup.sh run|test
+set -eu
+cd "$(dirname "$0")/.."
+purpose=${1:-run}
+python=${PYTHON:-python3}
+
+fail() {
+    printf '%s\n' "$@" >&2
+    exit 1
+}
+
+has_command() { command -v "$1" >/dev/null 2>&1; }
+
+has_lapack() {
+    for library in openblas lapack; do
+        if printf 'external dgesdd\ncall dgesdd()\nend\n' |
+            gfortran -x f95 - -o /dev/null -l"$library" >/dev/null 2>&1; then
+            return 0
+        fi
+    done
+    return 1
+}
+
+has_python_headers() {
+    "$python" - <<'PYTHON'
+import os, sys, sysconfig
+sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")))
+PYTHON
+}
+
+# What is missing of the system, as names of Debian's packages.
+missing_packages() {
+    has_command gfortran || echo gfortran libc6-dev
+    has_command cc || echo gcc libc6-dev
+    { has_command gfortran && has_lapack; } || echo libopenblas-dev
+    "$python" -c 'import venv, ensurepip' >/dev/null 2>&1 || echo python3-venv
+    has_python_headers || echo python3-dev
+}
+
+install_packages() {
+    advice="Install these system packages (names as in Debian and Ubuntu), then try again: $*"
+    has_command apt-get || fail "apt-get is not here, so nothing was installed." "$advice"
+    if [ "$(id -u)" = 0 ]; then
+        as_root=
+    elif has_command sudo; then
+        as_root=sudo
+    else
+        fail "Neither root nor sudo is at hand, so nothing was installed." "$advice"
+    fi
+    echo "Installing system packages: $*"
+    $as_root env DEBIAN_FRONTEND=noninteractive sh -c \
+        'apt-get update -qq && apt-get install -y -qq --no-install-recommends "$@" >/dev/null' sh "$@" ||
+        fail "The system packages could not be installed." "$advice"
+}
+
+has_command "$python" || fail "Python was not found. Install Python 3.10 or newer, or say where it is: make PYTHON=..."
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' ||
+    fail "Flexact needs Python 3.10 or newer; $python is $("$python" -V 2>&1)." "Say where a newer one is: make PYTHON=..."
+
+packages=$(missing_packages | tr ' ' '\n' | sort -u | tr '\n' ' ')
+# shellcheck disable=SC2086  # the names are words
+[ -z "$packages" ] || install_packages $packages
+still=$(missing_packages | tr '\n' ' ')
+[ -z "$still" ] || fail "Still missing after the installation: $still" \
+    "Headers and venv must belong to $python ($("$python" -V 2>&1))."
+
+[ -x .venv/bin/python ] || "$python" -m venv .venv
+requirements="meson-python>=0.17 meson ninja numpy meshio"
+[ "$purpose" = run ] || requirements="$requirements pytest hypothesis mpmath ruff mypy fprettify"
+echo "Preparing .venv"
+# shellcheck disable=SC2086
+.venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||
+    fail "The Python packages could not be installed: $requirements" "A package index must be within reach of pip."
+echo "Building Flexact"
+PATH="$PWD/.venv/bin:$PATH" .venv/bin/python -m pip install --quiet --disable-pip-version-check \
+    --no-build-isolation --no-deps -Cbuild-dir=build/python . || fail "The build failed: see above."
+touch ".venv/ready-to-$purpose"
