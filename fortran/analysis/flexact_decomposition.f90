@@ -8,7 +8,7 @@ module flexact_decomposition
    implicit none
    private
    public :: status_fine, status_no_convergence, status_no_memory
-   public :: decompose, singular_values, orthonormalise
+   public :: is_feasible, decompose, singular_values, orthonormalise
 
    integer, parameter :: status_fine = 0
    !> LAPACK gave up, or the matrix holds a number that is not finite.
@@ -17,6 +17,25 @@ module flexact_decomposition
    integer, parameter :: status_no_memory = 2
 
 contains
+
+   !> Whether a full decomposition of an m x n matrix, everything included, is
+   !> within LAPACK's integers and what the system grants in one piece. To be
+   !> asked before the matrix is filled: some systems grant single arrays of
+   !> which they cannot hold all.
+   logical function is_feasible(m, n)
+      integer, intent(in) :: m, n
+      ! Volatile, lest the compiler leave out what is never used.
+      real(wp), allocatable, volatile :: probe(:)
+      integer(int64) :: rows, columns
+      integer :: info
+
+      is_feasible = fits_integer(m, n)
+      if (.not. is_feasible) return
+      rows = m
+      columns = n
+      allocate (probe(rows*rows + columns*columns + rows*columns + 4*min(rows, columns)**2), stat=info)
+      is_feasible = info == 0
+   end function is_feasible
 
    !> A = U diag(values) V', eq. (16), with all columns of U (m, m) and all
    !> rows of V' (n, n); values (min(m, n)) descend. A (m, n) is destroyed.
@@ -73,7 +92,7 @@ contains
    !> Whether dgesdd can count its work array with default integers.
    pure logical function fits_integer(m, n)
       integer, intent(in) :: m, n
-      integer(int64) :: short, long
+      real(wp) :: short, long
 
       short = min(m, n)
       long = max(m, n)

@@ -6,7 +6,7 @@ module flexact_determinacy
    use flexact_partition, only: partition_t, make_partition
    use flexact_jacobian, only: jacobian_t, make_jacobian, fill_dense
    use flexact_scaling, only: scaling_t, make_scaling, rank_tolerance
-   use flexact_decomposition, only: decompose, singular_values, orthonormalise, &
+   use flexact_decomposition, only: is_feasible, decompose, singular_values, orthonormalise, &
                                     status_fine, status_no_memory
    implicit none
    private
@@ -36,7 +36,7 @@ contains
    !> `count_model` tells; the first columns - rank columns of the one and
    !> rows - rank of the other come back as orthonormal bases of the null
    !> spaces of D(c) and of its transpose. The rest is work space.
-   pure subroutine analyse(model, motions, stresses, result)
+   subroutine analyse(model, motions, stresses, result)
       type(model_t), intent(in) :: model
       real(wp), intent(inout), contiguous :: motions(:, :), stresses(:, :)
       type(determinacy_t), intent(out) :: result
@@ -52,11 +52,10 @@ contains
       columns = result%partition%count%columns
       values = min(rows, columns)
       allocate (result%singular_values(values), result%scaled_values(values), source=0.0_wp)
+      result%status = status_no_memory
+      if (.not. is_feasible(rows, columns)) return
       allocate (dense(rows, columns), stat=info)
-      if (info /= 0) then
-         result%status = status_no_memory
-         return
-      end if
+      if (info /= 0) return
 
       call fill_dense(jacobian, result%partition, dense, result%scaling%row, result%scaling%column)
       call decompose(dense, result%scaled_values, stresses, motions, result%status)

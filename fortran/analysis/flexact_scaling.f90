@@ -5,6 +5,8 @@ module flexact_scaling
    use flexact_model, only: model_t, is_position
    use flexact_partition, only: partition_t, axes
    use flexact_jacobian, only: jacobian_t
+   use flexact_rounding, only: uncertainty
+   use flexact_vectors, only: length_of
    implicit none
    private
    public :: scaling_t, make_scaling, rank_tolerance
@@ -16,14 +18,10 @@ module flexact_scaling
       real(wp) :: characteristic_length = 1.0_wp
       real(wp), allocatable :: row(:)
       real(wp), allocatable :: column(:)
-      !> Rounding of the coordinates turns the row of an element by about so
-      !> many times the machine precision: the root of the sum over rows of
-      !> (largest coordinate over length) squared.
-      real(wp) :: coordinate_rounding = 0.0_wp
+      !> By how much, in the Frobenius norm, the scaled matrix may differ from
+      !> that of the scene that was meant, because its numbers are rounded.
+      real(wp) :: error_of_rows = 0.0_wp
    end type scaling_t
-
-   !> How many roundings of the coordinates are allowed for.
-   real(wp), parameter :: safety = 16.0_wp
 
 contains
 
@@ -45,7 +43,7 @@ contains
             scaling%column(j) = 1/scaling%characteristic_length
       end do
       call scale_rows(model, partition, jacobian, scaling)
-      scaling%coordinate_rounding = rounding_of_coordinates(model, partition, jacobian%length)
+      scaling%error_of_rows = error_of_rows(model, partition, jacobian%length, scaling%characteristic_length)
    end subroutine make_scaling
 
    pure logical function is_rotation(model, node)
@@ -89,59 +87,51 @@ contains
       end where
    end subroutine scale_rows
 
-   pure real(wp) function rounding_of_coordinates(model, partition, length) result(rounding)
+   !> The root of the sum over rows of the squared error that the numbers of
+   !> the scene leave in a row of unit norm.
+   pure real(wp) function error_of_rows(model, partition, length, characteristic_length) result(error)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
-      real(wp), intent(in) :: length(:)
-      real(wp), allocatable :: ratio(:)
-      integer :: i
+      real(wp), intent(in) :: length(:), characteristic_length
+      real(wp), allocatable :: of_element(:)
+      integer :: k
 
-      allocate (ratio(partition%count%rows))
-      do i = 1, size(ratio)
-         associate (element => partition%row_label(1, i))
-            ratio(i) = coordinate_ratio(farthest_coordinate(model, element), length(element))
-         end associate
+      allocate (of_element(model%elements))
+      do k = 1, model%elements
+         of_element(k) = error_of_direction(model, k, merge(length(k), characteristic_length, length(k) > 0))
       end do
-      rounding = norm2(ratio)
-   end function rounding_of_coordinates
+      error = norm2(of_element(partition%row_label(1, :)))
+   end function error_of_rows
 
-   !> Largest |coordinate| of the positions of element k.
-   pure real(wp) function farthest_coordinate(model, k) result(farthest)
+   !> How far the directions of element k may be turned, no more than makes
+   !> them unknown.
+   pure real(wp) function error_of_direction(model, k, length) result(error)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
+      real(wp), intent(in) :: length
+      real(wp) :: misplaced
       integer :: slot
 
-      farthest = 0.0_wp
+      misplaced = 0.0_wp
       do slot = 1, 3, 2
          associate (node => model%element_node(slot, k))
-            if (node > 0) farthest = max(farthest, maxval(abs(model%node_value(1:axes, node))))
+            if (node > 0) misplaced = max(misplaced, maxval(uncertainty(model%node_value(1:axes, node))))
          end associate
       end do
-   end function farthest_coordinate
-
-   !> Coordinate over length; 1 without a length, and no more than makes the
-   !> direction of the element unknown.
-   pure real(wp) function coordinate_ratio(farthest, length) result(ratio)
-      real(wp), intent(in) :: farthest, length
-
-      if (.not. length > 0) then
-         ratio = 1.0_wp
-      else if (farthest*epsilon(length) >= length) then
-         ratio = 1/epsilon(length)
-      else
-         ratio = farthest/length
-      end if
-   end function coordinate_ratio
+      error = min(misplaced, length)/length
+      associate (vector => model%element_vector(:, k))
+         if (any(abs(vector) > 0)) error = max(error, maxval(uncertainty(vector))/length_of(vector))
+      end associate
+   end function error_of_direction
 
    !> Singular values of the scaled matrix up to this count as zero: what dgesdd
-   !> may get wrong, and what rounding the coordinates may do.
+   !> may get wrong, and what the rounding of the scene's numbers may do.
    pure real(wp) function rank_tolerance(scaling, values) result(tolerance)
       type(scaling_t), intent(in) :: scaling
       real(wp), intent(in) :: values(:)
-      real(wp) :: computing
 
-      computing = 0.0_wp
-      if (size(values) > 0) computing = max(size(scaling%row), size(scaling%column))*values(1)
-      tolerance = epsilon(tolerance)*(computing + safety*scaling%coordinate_rounding)
+      tolerance = scaling%error_of_rows
+      if (size(values) == 0) return
+      tolerance = tolerance + epsilon(tolerance)*max(size(scaling%row), size(scaling%column))*values(1)
    end function rank_tolerance
 end module flexact_scaling

@@ -109,9 +109,10 @@ contains
          if (i == 1) place = operands%word
          place%last = operands%word%last
       end do
-      if (operands%fine .and. all(abs(vector) <= 0.0_wp)) call diagnostics%error('zero-vector', place, &
-                                                                               'the '//trim(what)//' is zero', 'has no direction', &
-                                                                                 'give a vector that is not zero')
+      if (operands%fine .and. all(abs(vector) <= 0.0_wp)) then
+         call diagnostics%error('zero-vector', place, 'the '//trim(what)//' is zero', 'has no direction', &
+                                'give a vector that is not zero')
+      end if
    end subroutine read_vector
 
    !> How a statement of this kind is written.

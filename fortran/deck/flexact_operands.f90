@@ -129,9 +129,11 @@ contains
       if (required) return
       behind = self%word%last + 1
       ! One missing operand is said once, not once for each that would follow.
-      if (self%position < huge(1)) call diagnostics%error('missing-operand', span_t(behind, behind), &
-                                                          text(self%keyword%first:self%keyword%last)//' lacks an operand: '//what, &
-                                                          'expected here: '//what, 'add the '//what)
+      if (self%position < huge(1)) then
+         call diagnostics%error('missing-operand', span_t(behind, behind), &
+                                text(self%keyword%first:self%keyword%last)//' lacks an operand: '//what, &
+                                'expected here: '//what, 'add the '//what)
+      end if
       self%position = huge(1)
       self%fine = .false.
    end function required

@@ -107,9 +107,11 @@ contains
          if (reader%word == 'VISUALIZATION') reader%block = block_picture
       end if
       if (reader%block == block_closed) then
-         if (.not. reader%told_of_tail) call diagnostics%warning('not-read', statement%keyword, &
-                                                                 'what stands behind the second END is not read', 'from here on', &
-                                                      'move the statement before END, or open the picture block with VISUALIZATION')
+         if (.not. reader%told_of_tail) then
+            call diagnostics%warning('not-read', statement%keyword, &
+                                     'what stands behind the second END is not read', 'from here on', &
+                                     'move the statement before END, or open a picture block with VISUALIZATION')
+         end if
          reader%told_of_tail = .true.
          return
       end if

@@ -3,7 +3,7 @@ module flexact_vectors
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: cross, length_of, unit, frame_along, planar_frame_along, planar_turn
+   public :: cross, length_of, coincide, unit, frame_along, planar_frame_along, planar_turn
 
 contains
 
@@ -22,6 +22,14 @@ contains
       power = exponent(maxval(abs(vector)))
       length = scale(norm2(scale(vector, -power)), power)
    end function length_of
+
+   !> Whether two points are one up to the rounding of their coordinates.
+   pure logical function coincide(a, b)
+      real(wp), intent(in) :: a(:), b(:)
+
+      ! Halved, because a difference may overflow.
+      coincide = length_of(b/2 - a/2) <= 2*epsilon(1.0_wp)*max(maxval(abs(a)), maxval(abs(b)))
+   end function coincide
 
    !> The direction of a vector of any magnitude; zero for the zero vector.
    pure function unit(vector) result(direction)

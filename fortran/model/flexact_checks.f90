@@ -5,15 +5,13 @@ module flexact_checks
    use flexact_element_table, only: element_kinds, vector_none, vector_required
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, slots, is_position
+   use flexact_vectors, only: coincide, length_of, unit
    implicit none
    private
    public :: check_model, is_consistent
 
    !> Sine of the angle below which a vector counts as parallel to its beam.
    real(wp), parameter :: parallel_sine = 1.0e-6_wp
-   !> Two points this near to each other, relative to their distance from the
-   !> origin, differ by rounding alone.
-   real(wp), parameter :: same_point = 4*epsilon(1.0_wp)
    !> Lengths whose cubes and quotients stay within the range of numbers.
    real(wp), parameter :: shortest = 1.0e-90_wp
    real(wp), parameter :: longest = 1.0e90_wp
@@ -28,9 +26,10 @@ contains
       integer :: k
 
       if (model%elements == 0) then
-         if (.not. diagnostics%has_errors()) call diagnostics%error( &
-            'nothing-to-analyse', span_t(), 'there is nothing to analyse: no elements', '', &
-            'state at least one element, such as TRUSS 1 1 2')
+         if (.not. diagnostics%has_errors()) then
+            call diagnostics%error('nothing-to-analyse', span_t(), 'there is nothing to analyse: no elements', '', &
+                                   'state at least one element, such as TRUSS 1 1 2')
+         end if
          return
       end if
       do k = 1, model%elements
@@ -43,7 +42,7 @@ contains
       integer, intent(in) :: k
       type(diagnostics_t), intent(inout) :: diagnostics
       type(span_t) :: place
-      real(wp) :: offset(3), length, size_of_scene
+      real(wp) :: half(3), length
       integer :: p, q
 
       associate (kind => element_kinds(model%element_kind(k)), node => model%element_node(:, k))
@@ -60,24 +59,26 @@ contains
          if (p == 0 .or. q == 0) return
          if (.not. all(ieee_is_finite(model%node_value(:3, [p, q])))) then
             ! A deck's own numbers were reported where they stand.
-            if (place%first == 0) call diagnostics%error('not-finite', place, element_name(model, k)// &
-                                                       ' has a node at no finite place', 'its coordinates are not finite', &
-                                                         'give its nodes finite coordinates')
+            if (place%first == 0) then
+               call diagnostics%error('not-finite', place, element_name(model, k)//' has a node at no finite place', &
+                                      'its coordinates are not finite', 'give its nodes finite coordinates')
+            end if
             return
          end if
-         offset = model%node_value(:3, q)/2 - model%node_value(:3, p)/2
-         length = 2*min(norm2(offset), huge(length)/2)
-         size_of_scene = max(maxval(abs(model%node_value(:3, p))), maxval(abs(model%node_value(:3, q))))
-         if (kind%needs_length .and. length <= same_point*size_of_scene) then
+         ! Halved, because a difference may overflow.
+         half = model%node_value(:3, q)/2 - model%node_value(:3, p)/2
+         length = 2*min(length_of(half), huge(length)/2)
+         if (coincide(model%node_value(:3, p), model%node_value(:3, q))) then
+            if (.not. kind%needs_length) return
             call diagnostics%error('zero-length', place, element_name(model, k)//' has zero length: its nodes '// &
                                    node_pair(model, p, q)//' are at one place', 'zero length', &
                                    'give its nodes different positions with X')
-         else if (length > longest .or. (length < shortest .and. length > 0.0_wp)) then
+         else if (length > longest .or. length < shortest) then
             call diagnostics%error('length-out-of-range', place, element_name(model, k)// &
                                    ' is longer or shorter than can be computed with', 'length out of range', &
                                    'lengths from 1e-90 to 1e90 can be analysed: choose another unit')
          else if (kind%vector /= vector_none .and. kind%vector /= vector_required) then
-            call check_vector(model, k, offset/norm2(offset), place, diagnostics)
+            call check_vector(model, k, unit(half), place, diagnostics)
          end if
       end associate
    end subroutine check_element
@@ -121,8 +122,7 @@ contains
                                    'not finite', 'give a finite vector')
             return
          end if
-         direction = vector/maxval(abs(vector))
-         direction = direction/norm2(direction)
+         direction = unit(vector)
          if (norm2(direction - dot_product(direction, ex)*ex) < parallel_sine) then
             call diagnostics%error('parallel-vector', place, 'the y vector of '//element_name(model, k)// &
                                    ' is parallel to it', 'parallel to the line from p to q', &

@@ -5,7 +5,7 @@ program test_deck
    use flexact_diagnostics, only: diagnostics_t, severity_error, severity_warning, severity_note
    use flexact_kinds, only: wp
    use flexact_model, only: class_none, class_fixed, class_dependent, class_independent, &
-                            node_planar_position, node_position, node_angle, node_orientation
+                            node_planar_position, node_angle
    use flexact_testing, only: tally_t
    implicit none
    type(tally_t) :: tally

@@ -2,7 +2,7 @@
 program test_decomposition
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use flexact_kinds, only: wp
-   use flexact_decomposition, only: decompose, singular_values, orthonormalise, &
+   use flexact_decomposition, only: is_feasible, decompose, singular_values, orthonormalise, &
                                     status_fine, status_no_convergence
    use flexact_testing, only: tally_t, set_random
    implicit none
@@ -20,6 +20,9 @@ program test_decomposition
    call test_known()
    call test_not_finite()
    call test_orthonormalise()
+   call tally%check(is_feasible(0, 0) .and. is_feasible(35, 35), 'small ones are feasible')
+   call tally%check(.not. is_feasible(30000, 30000), 'beyond the integers of LAPACK')
+   call tally%check(.not. is_feasible(2000000000, 5), 'beyond any memory')
    call tally%finish()
 
 contains

@@ -19,6 +19,8 @@ program test_elements
    call test_beam_modes()
    call test_circular_arcs()
    call test_twist()
+   call test_paper_formulas()
+   call test_choice_of_frame()
    call test_rigid_beams()
    call test_hinge()
    call test_planar_hinge()
@@ -127,6 +129,57 @@ contains
       call tally%near(e, [c_t*sin(phi)**2/(2*l), l*sin(phi), 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, &
                       'twist, with its elongation')
    end subroutine test_twist
+
+   !> The ends of a beam along x that is bent in both planes and twisted.
+   subroutine bend(p, q)
+      type(pose_t), intent(out) :: p, q
+
+      p%position = [0.2_wp, -0.1_wp, 0.3_wp]
+      p%rotation = rotation_matrix([1.0_wp, 0.02_wp, -0.1_wp, 0.15_wp])
+      q%position = p%position + [2.8_wp, 0.5_wp, 0.7_wp]
+      q%rotation = rotation_matrix([1.0_wp, 0.2_wp, 0.05_wp, -0.12_wp])
+   end subroutine bend
+
+   !> Eqs. (3) and (4) as they are printed.
+   subroutine test_paper_formulas()
+      type(reference_t) :: reference
+      type(pose_t) :: p, q
+      real(wp) :: b(6), e(6), l, el(3)
+
+      reference = along_x(3.0_wp)
+      reference%c_t = 0.2_wp
+      call bend(p, q)
+      l = norm2(q%position - p%position)
+      el = (q%position - p%position)/l
+      associate (l0 => reference%length, c_t => reference%c_t, &
+                 eyp => p%rotation(:, 2), ezp => p%rotation(:, 3), eyq => q%rotation(:, 2), ezq => q%rotation(:, 3))
+         b = [l - l0, l0*(dot_product(ezp, eyq) - dot_product(eyp, ezq))/2, -l0*dot_product(el, ezp), &
+              l0*dot_product(el, ezq), l0*dot_product(el, eyp), -l0*dot_product(el, eyq)]
+         e(1) = b(1) + (2*b(3)**2 + b(3)*b(4) + 2*b(4)**2 + 2*b(5)**2 + b(5)*b(6) + 2*b(6)**2)/(30*l0) &
+                + c_t*b(2)**2/(2*l0**3)
+         e(2) = b(2) + (-b(3)*b(6) + b(4)*b(5))/l0
+         e(3) = b(3) + b(2)*(b(5) + b(6))/(6*l0)
+         e(4) = b(4) - b(2)*(b(5) + b(6))/(6*l0)
+         e(5) = b(5) - b(2)*(b(3) + b(4))/(6*l0)
+         e(6) = b(6) + b(2)*(b(3) + b(4))/(6*l0)
+      end associate
+      call tally%near(deformation_of(kind_beam, reference, p, q), e, 1.0e-14_wp, 'eqs. (3) and (4)')
+   end subroutine test_paper_formulas
+
+   !> Turning the local frame a quarter about the beam exchanges its bending
+   !> planes and leaves elongation and torsion.
+   subroutine test_choice_of_frame()
+      type(reference_t) :: reference
+      type(pose_t) :: p, q
+      real(wp) :: e(6), turned_e(6)
+
+      reference = along_x(3.0_wp)
+      call bend(p, q)
+      e = deformation_of(kind_beam, reference, p, q)
+      reference%frame = reshape([x, z, -y], [3, 3])
+      turned_e = deformation_of(kind_beam, reference, p, q)
+      call tally%near(turned_e, [e(1), e(2), e(5), e(6), -e(3), -e(4)], 1.0e-14_wp, 'frame turned by a quarter')
+   end subroutine test_choice_of_frame
 
    subroutine test_rigid_beams()
       type(reference_t) :: reference
