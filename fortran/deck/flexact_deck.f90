@@ -3,7 +3,7 @@ module flexact_deck
    use flexact_checks, only: check_model
    use flexact_deck_classes, only: read_classes
    use flexact_deck_elements, only: read_elements
-   use flexact_deck_forms, only: read_forms
+   use flexact_deck_forms, only: read_forms, note_unused
    use flexact_deck_scene, only: scene_t
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
@@ -38,9 +38,10 @@ contains
          call read_elements(text, all_statements, scene, diagnostics)
          call read_values(text, all_statements, scene, diagnostics)
          call read_classes(text, all_statements, scene, diagnostics)
-         call read_forms(text, all_statements, scene, unused, diagnostics)
+         call read_forms(text, all_statements, scene, diagnostics)
+         call check_model(scene%model, diagnostics)
+         if (.not. diagnostics%has_errors()) call note_unused(all_statements, unused, diagnostics)
       end associate
-      call check_model(scene%model, diagnostics)
       call narrow_places(text, diagnostics)
       call diagnostics%sort()
    end subroutine read_deck

@@ -16,8 +16,9 @@ module flexact_deck_elements
    private
    public :: read_elements
 
-   character(len=14), parameter :: slot_name(slots) = [character(len=14) :: &
-                                                       'position p', 'orientation p', 'position q', 'orientation q']
+   character(len=*), parameter :: node_in_slot(slots) = [character(len=27) :: &
+                                                         'node number (position p)', 'node number (orientation p)', &
+                                                         'node number (position q)', 'node number (orientation q)']
 
 contains
 
@@ -67,7 +68,7 @@ contains
       type(model_t), intent(inout) :: model
       integer, intent(in) :: k
       type(diagnostics_t), intent(inout) :: diagnostics
-      type(operands_t) :: operands
+      type(operands_t) :: operands, ahead
       integer :: slot
 
       associate (kind => element_kinds(statement%what))
@@ -78,11 +79,12 @@ contains
          call operands%positive_integer(text, 'element number', model%element_number(k), diagnostics)
          do slot = 1, slots
             if (kind%slot_kind(slot) == 0) cycle
-            call operands%positive_integer(text, 'node number ('//trim(slot_name(slot))//')', &
-                                           model%element_node(slot, k), diagnostics)
+            call operands%positive_integer(text, node_in_slot(slot), model%element_node(slot, k), diagnostics)
          end do
          call read_vector(text, operands, kind%vector, model%element_vector(:, k), diagnostics)
-         if (operands%fine) call operands%finish(text, form_of(statement%what), diagnostics)
+         if (.not. operands%fine) return
+         ahead = operands
+         if (ahead%another(text)) call operands%finish(text, form_of(statement%what), diagnostics)
       end associate
    end subroutine read_element
 
@@ -94,8 +96,9 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics
       type(operands_t) :: ahead
       type(span_t) :: place
-      character(len=*), parameter :: component(3) = ['x', 'y', 'z']
-      character(len=:), allocatable :: what
+      character(len=*), parameter :: component(3, 2) = reshape( &
+                                     ['x of the y vector', 'y of the y vector', 'z of the y vector', &
+                                      'x of the axis    ', 'y of the axis    ', 'z of the axis    '], [3, 2])
       integer :: i
 
       if (use_of_vector == vector_none .or. .not. operands%fine) return
@@ -103,14 +106,13 @@ contains
          ahead = operands
          if (.not. ahead%another(text)) return
       end if
-      what = merge('axis    ', 'y vector', use_of_vector == vector_required)
       do i = 1, 3
-         call operands%real_number(text, component(i)//' of the '//trim(what), vector(i), diagnostics)
+         call operands%real_number(text, component(i, use_of_vector), vector(i), diagnostics)
          if (i == 1) place = operands%word
          place%last = operands%word%last
       end do
       if (operands%fine .and. all(abs(vector) <= 0.0_wp)) then
-         call diagnostics%error('zero-vector', place, 'the '//trim(what)//' is zero', 'has no direction', &
+         call diagnostics%error('zero-vector', place, 'the vector is zero', 'has no direction', &
                                 'give a vector that is not zero')
       end if
    end subroutine read_vector

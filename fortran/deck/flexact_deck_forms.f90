@@ -9,15 +9,27 @@ module flexact_deck_forms
    use flexact_statement, only: statement_t
    implicit none
    private
-   public :: read_forms
+   public :: read_forms, note_unused
 
 contains
 
-   !> Check the form of every such statement, and say once how many there were.
-   subroutine read_forms(text, statements, scene, unused, diagnostics)
+   !> Check the form of every such statement.
+   subroutine read_forms(text, statements, scene, diagnostics)
       character(len=*), intent(in) :: text
       type(statement_t), intent(in) :: statements(:)
       type(scene_t), intent(in) :: scene
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: i
+
+      do i = 1, size(statements)
+         if (statements(i)%role == role_form) &
+            call check_form(text, statements(i), keywords(statements(i)%what), scene, diagnostics)
+      end do
+   end subroutine read_forms
+
+   !> Say once how many statements were read and not used.
+   subroutine note_unused(statements, unused, diagnostics)
+      type(statement_t), intent(in) :: statements(:)
       integer, intent(out) :: unused
       type(diagnostics_t), intent(inout) :: diagnostics
       type(span_t) :: first
@@ -25,12 +37,10 @@ contains
       integer :: i
 
       unused = 0
-      do i = 1, size(statements)
-         if (statements(i)%role /= role_form) cycle
-         call check_form(text, statements(i), keywords(statements(i)%what), scene, diagnostics)
-         if (statements(i)%block == block_kinematics) cycle
+      do i = size(statements), 1, -1
+         if (statements(i)%role /= role_form .or. statements(i)%block == block_kinematics) cycle
          unused = unused + 1
-         if (unused == 1) first = statements(i)%keyword
+         first = statements(i)%keyword
       end do
       if (unused == 0) return
       write (number, '(i0)') unused
@@ -42,7 +52,7 @@ contains
                                'and were not used', 'the first of them', &
                                'the determinacy analysis needs the kinematics block alone')
       end if
-   end subroutine read_forms
+   end subroutine note_unused
 
    subroutine check_form(text, statement, keyword, scene, diagnostics)
       character(len=*), intent(in) :: text

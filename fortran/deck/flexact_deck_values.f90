@@ -15,6 +15,10 @@ module flexact_deck_values
    !> Euler parameters are as good as typed when their norm is this near to one.
    real(wp), parameter :: norm_slack = 1.0e-6_wp
 
+   character(len=*), parameter :: coordinate(3) = ['coordinate x', 'coordinate y', 'coordinate z']
+   character(len=*), parameter :: euler_parameter(4) = ['Euler parameter 0', 'Euler parameter 1', &
+                                                        'Euler parameter 2', 'Euler parameter 3']
+
 contains
 
    !> Give the nodes the values that the X statements state; of two for one
@@ -56,12 +60,12 @@ contains
       select case (kind)
       case (node_planar_position)
          do i = 1, 2
-            call operands%real_number(text, 'coordinate '//'xy' (i:i), value(i), diagnostics)
+            call operands%real_number(text, coordinate(i), value(i), diagnostics)
          end do
          if (operands%fine) call operands%finish(text, 'X n x y for a node of planar elements', diagnostics)
       case (node_position)
          do i = 1, 3
-            call operands%real_number(text, 'coordinate '//'xyz' (i:i), value(i), diagnostics)
+            call operands%real_number(text, coordinate(i), value(i), diagnostics)
          end do
          if (operands%fine) call operands%finish(text, 'X n x y z', diagnostics)
       case (node_angle)
@@ -69,7 +73,7 @@ contains
          if (operands%fine) call operands%finish(text, 'X n angle for an orientation node of planar elements', diagnostics)
       case default
          do i = 1, 4
-            call operands%real_number(text, 'Euler parameter '//'0123' (i:i), value(i), diagnostics)
+            call operands%real_number(text, euler_parameter(i), value(i), diagnostics)
          end do
          if (operands%fine) call operands%finish(text, 'X n l0 l1 l2 l3 for an orientation node', diagnostics)
          if (operands%fine) call check_norm(operands, value, diagnostics)

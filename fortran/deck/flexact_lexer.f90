@@ -12,9 +12,7 @@ module flexact_lexer
       type(span_t) :: comment
    end type line_t
 
-   character, parameter :: tab = achar(9)
    character, parameter :: line_feed = achar(10)
-   character, parameter :: carriage_return = achar(13)
 
 contains
 
@@ -29,7 +27,10 @@ contains
 
       finish = len(text)
       mark = 0
+      if (text(position:position) == '*') mark = position
       do i = position, len(text)
+         ! Most characters come behind both marks and the line's end.
+         if (iachar(text(i:i)) > iachar('%') .and. .not. in_picture) cycle
          select case (text(i:i))
          case (line_feed)
             finish = i - 1
@@ -37,9 +38,7 @@ contains
          case ('%', '#')
             if (mark == 0) mark = i
          case (';')
-            if (in_picture .and. mark == 0) mark = i
-         case ('*')
-            if (i == position) mark = i
+            if (mark == 0 .and. in_picture) mark = i
          end select
       end do
       if (mark == 0) then
@@ -107,10 +106,11 @@ contains
       if (span%first > span%last) span = span_t()
    end function trimmed
 
-   !> Blanks, tabs, carriage returns; form feeds count as well.
+   !> Blanks, tabs and the other white space; no text that is read holds
+   !> further control characters.
    pure elemental logical function is_blank(c)
       character, intent(in) :: c
-      is_blank = c == ' ' .or. c == tab .or. c == carriage_return .or. c == achar(12) .or. c == achar(11)
+      is_blank = iachar(c) <= iachar(' ')
    end function is_blank
 
    pure function upper_case(word) result(upper)

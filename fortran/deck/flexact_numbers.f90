@@ -24,6 +24,9 @@ module flexact_numbers
    integer :: k
    real(wp), parameter :: power_of_ten(0:exact_power) = [(10.0_wp**k, k=0, exact_power)]
 
+   !> Any integer of so many digits fits.
+   integer, parameter :: few_digits = 9
+
    !> A number taken apart: mantissa times ten to the exponent.
    type :: decimal_t
       integer(int64) :: mantissa = 0
@@ -44,6 +47,8 @@ contains
       type(decimal_t) :: decimal
 
       value = 0
+      call read_few_digits(word, value, status)
+      if (status == number_fine) return
       call take_apart(word, decimal, status)
       if (status /= number_fine) return
       if (.not. decimal%whole) then
@@ -55,6 +60,26 @@ contains
          if (decimal%negative) value = -value
       end if
    end subroutine read_integer
+
+   !> What nearly all integers of a deck are, without the general way.
+   pure subroutine read_few_digits(word, value, status)
+      character(len=*), intent(in) :: word
+      integer, intent(out) :: value, status
+      integer :: i, digit
+
+      value = 0
+      status = number_malformed
+      if (len(word) > few_digits) return
+      do i = 1, len(word)
+         digit = iachar(word(i:i)) - iachar('0')
+         if (digit < 0 .or. digit > 9) then
+            value = 0
+            return
+         end if
+         value = 10*value + digit
+      end do
+      status = number_fine
+   end subroutine read_few_digits
 
    !> A real number: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3.
    subroutine read_real(word, value, status)

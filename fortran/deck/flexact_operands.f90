@@ -75,7 +75,7 @@ contains
          call read_integer(word, value, status)
          if (status == number_fine .and. value < 1) then
             call diagnostics%error('bad-number', self%word, quoted(word)//' is less than 1', &
-                                   'expected here: '//what, 'elements, nodes and components count from 1')
+                                   'expected here: '//trim(what), 'elements, nodes and components count from 1')
             value = 0
             self%fine = .false.
          else if (status /= number_fine) then
@@ -131,8 +131,8 @@ contains
       ! One missing operand is said once, not once for each that would follow.
       if (self%position < huge(1)) then
          call diagnostics%error('missing-operand', span_t(behind, behind), &
-                                text(self%keyword%first:self%keyword%last)//' lacks an operand: '//what, &
-                                'expected here: '//what, 'add the '//what)
+                                text(self%keyword%first:self%keyword%last)//' lacks an operand: '//trim(what), &
+                                'expected here: '//trim(what), 'add the '//trim(what))
       end if
       self%position = huge(1)
       self%fine = .false.
@@ -148,16 +148,16 @@ contains
       select case (status)
       case (number_malformed)
          call diagnostics%error('bad-number', self%word, quoted(word)//' is not a number', &
-                                'expected here: '//what, 'write a number such as 3, -0.5 or 1.0e-3')
+                                'expected here: '//trim(what), 'write a number such as 3, -0.5 or 1.0e-3')
       case (number_not_whole)
          call diagnostics%error('not-whole', self%word, quoted(word)//' is not a whole number', &
-                                'expected here: '//what, 'write it without point and exponent')
+                                'expected here: '//trim(what), 'write it without point and exponent')
       case (number_not_finite)
          call diagnostics%error('not-finite', self%word, quoted(word)//' is not a finite number', &
-                                'expected here: '//what, 'write a finite number')
+                                'expected here: '//trim(what), 'write a finite number')
       case (number_too_large)
          call diagnostics%error('number-too-large', self%word, quoted(word)//' is larger than a number can be', &
-                                'expected here: '//what, 'write a smaller number')
+                                'expected here: '//trim(what), 'write a smaller number')
       end select
    end subroutine wrong_number
 
