@@ -51,6 +51,7 @@ module flexact_diagnostics
       procedure :: note => add_note
       procedure :: has_errors
       procedure :: is_full
+      procedure :: count_error
       procedure :: sort => sort_by_place
    end type diagnostics_t
 
@@ -90,21 +91,21 @@ contains
       type(span_t), intent(in) :: place
       type(span_t), intent(in), optional :: other
       integer, intent(in), optional :: words(2)
+      integer :: at
 
       self%count(severity) = self%count(severity) + 1
       if (.not. allocated(self%item)) allocate (self%item(most_kept))
-      if (self%kept == most_kept) return
-      self%kept = self%kept + 1
-      associate (item => self%item(self%kept))
-         item%severity = severity
-         item%code = code
-         item%place = place
-         if (present(other)) item%other = other
-         item%message = message
-         item%label = label
-         item%help = help
-         if (present(words)) item%words = words
-      end associate
+      at = self%kept + 1
+      if (at > most_kept) then
+         ! An error takes the place of the last thing that is none.
+         if (severity /= severity_error) return
+         at = findloc(self%item%severity /= severity_error, .true., dim=1, back=.true.)
+         if (at == 0) return
+      end if
+      self%kept = max(self%kept, at)
+      self%item(at) = diagnostic_t(severity, code, place, message=message, label=label, help=help)
+      if (present(other)) self%item(at)%other = other
+      if (present(words)) self%item(at)%words = words
    end subroutine add
 
    pure logical function has_errors(self)
@@ -112,11 +113,18 @@ contains
       has_errors = self%count(severity_error) > 0
    end function has_errors
 
-   !> Whether a further diagnostic would only be counted.
+   !> Whether a further error would only be counted; then its words are not
+   !> worth making, and `count_error` does.
    pure logical function is_full(self)
       class(diagnostics_t), intent(in) :: self
-      is_full = self%kept == most_kept
+      is_full = self%count(severity_error) >= most_kept
    end function is_full
+
+   !> Count an error without words.
+   pure subroutine count_error(self)
+      class(diagnostics_t), intent(inout) :: self
+      self%count(severity_error) = self%count(severity_error) + 1
+   end subroutine count_error
 
    !> Into the order of the text, stable; those without a place come last.
    subroutine sort_by_place(self)

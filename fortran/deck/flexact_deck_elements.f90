@@ -243,6 +243,8 @@ contains
             if (index == 0) cycle
             if (scene%element_of(index) == 0) then
                scene%element_of(index) = k
+            else if (diagnostics%is_full()) then
+               call diagnostics%count_error()
             else
                call diagnostics%error('duplicate-element', operand_span(text, model%element_origin(k), 2, 2), &
                                       'two elements have one number', 'used again here', &

@@ -185,11 +185,14 @@ contains
       character(len=13) :: nearest
       character(len=:), allocatable :: word
 
+      if (diagnostics%is_full()) then
+         call diagnostics%count_error()
+         return
+      end if
       associate (key => statement%keyword)
          word = upper_case(text(key%first:min(key%last, key%first + 39)))
       end associate
-      nearest = ''
-      if (.not. diagnostics%is_full()) nearest = nearest_keyword(word, reader%block)
+      nearest = nearest_keyword(word, reader%block)
       if (nearest == '' .and. reader%block == block_picture) then
          call diagnostics%warning('unknown-keyword', statement%keyword, word//' is not a picture option that Flexact knows', &
                                   'not used', 'nothing to do: pictures do not touch the analysis')

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import flexact
 import pytest
+
+import flexact
 
 FOLDER = Path(__file__).parents[2] / "input_decks" / "broken"
 DECKS = sorted(FOLDER.glob("*.dat"))

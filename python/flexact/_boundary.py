@@ -1,0 +1,170 @@
+"""The only importer of the extension: what goes in is checked, what comes out is named.
+
+Every call is a function of its arguments. Arrays of a model are in Fortran order,
+`int32` and `float64`, and read-only once a `ModelArrays` holds them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import _core
+from .exchange import (
+    FloatArray,
+    ModelArrays,
+    RawAnalysis,
+    RawAssembly,
+    RawCount,
+    RawDeck,
+    RawDiagnostics,
+)
+
+#: Bytes of the shortest statement of an element, with its line's end.
+_SHORTEST_ELEMENT = len("BEAM 1 1 2")
+
+
+def describe_element_kinds() -> list[tuple[str, tuple[int, ...], int, int, bool, tuple[int, ...]]]:
+    """Rows of the core's element table: keyword, slots, deformations, vector, length, dual."""
+    table = []
+    for kind in range(1, _core.count_element_kinds() + 1):
+        keyword, slots, deformations, vector, needs_length, dual = _core.describe_element_kind(kind)
+        table.append(
+            (
+                keyword.tobytes().decode("ascii").strip(),
+                tuple(slots.tolist()),
+                int(deformations),
+                int(vector),
+                bool(needs_length),
+                tuple(dual.tolist()),
+            )
+        )
+    return table
+
+
+def read_deck(text: bytes) -> RawDeck:
+    """Read a deck; its problems come back as values.
+
+    Args:
+        text: bytes of the deck, without NUL, fewer than 2**31.
+    """
+    data = np.frombuffer(text, np.int8)
+    ne, nn, _ = _core.survey_deck(data)
+    ne = min(ne, len(text) // _SHORTEST_ELEMENT + 1)
+    nn = min(nn, 4 * ne)
+    room = ModelArrays(
+        np.empty(nn, np.int32),
+        np.empty(nn, np.int32),
+        np.empty((4, nn), np.float64, order="F"),
+        np.empty((3, nn), np.int32, order="F"),
+        np.empty(ne, np.int32),
+        np.empty(ne, np.int32),
+        np.empty((4, ne), np.int32, order="F"),
+        np.empty((3, ne), np.float64, order="F"),
+        np.empty((6, ne), np.int32, order="F"),
+    )
+    origin = np.empty(ne, np.int32)
+    name = np.empty((2, ne), np.int32, order="F")
+    sizes, counts, number, words = _core.read_deck(data, *room, origin, name)
+    nodes, elements, planar, unused = (int(size) for size in sizes[:4])
+    for array in (*room, origin, name):
+        array.flags.writeable = False
+    arrays = ModelArrays(
+        room.node_number[:nodes],
+        room.node_kind[:nodes],
+        room.node_value[:, :nodes],
+        room.coordinate_class[:, :nodes],
+        room.element_number[:elements],
+        room.element_kind[:elements],
+        room.element_node[:, :elements],
+        room.element_vector[:, :elements],
+        room.deformation_class[:, :elements],
+    )
+    problems = RawDiagnostics(counts, number, words)
+    return RawDeck(arrays, origin[:elements], name[:, :elements], planar == 1, unused, problems)
+
+
+def check_model(arrays: ModelArrays) -> RawDiagnostics:
+    """Everything that is wrong with a model, as for a deck but without places."""
+    return RawDiagnostics(*_core.check_model(*arrays))
+
+
+def count_model(arrays: ModelArrays) -> RawCount:
+    """Counts by class (eqs. 13 to 15) and the size of D(c)."""
+    if not arrays.element_number.size:
+        # f2py refuses arrays of shape (3, 0); without elements there are no nodes either.
+        return RawCount(np.zeros((2, 4), np.int32), 0, 0, 0)
+    return RawCount(
+        *_core.count_model(
+            arrays.node_kind,
+            arrays.coordinate_class,
+            arrays.element_kind,
+            arrays.deformation_class,
+        )
+    )
+
+
+def assemble(
+    arrays: ModelArrays, entries: int, configuration: FloatArray, c_t: FloatArray
+) -> RawAssembly:
+    """Deformation functions and their derivatives in a configuration.
+
+    Args:
+        arrays: the model.
+        entries: room for the entries, from `count_model`.
+        configuration: (4, nn) like `node_value`.
+        c_t: (ne,) torsion-elongation constants of eq. (3) [m^2].
+
+    Raises:
+        ValueError: a shape does not fit.
+        ArithmeticError: the functions are not defined there (a beam of no length).
+    """
+    nodes, elements = arrays.node_number.size, arrays.element_number.size
+    if configuration.shape != (4, nodes):
+        raise ValueError(f"configuration has shape {configuration.shape}, not {(4, nodes)}")
+    if c_t.shape != (elements,):
+        raise ValueError(f"c_t has shape {c_t.shape}, not {(elements,)}")
+    deformation, row_of, column_of, value, used, status = _core.assemble(
+        entries,
+        *arrays,
+        np.asfortranarray(configuration, np.float64),
+        np.ascontiguousarray(c_t, np.float64),
+    )
+    if status != 0:
+        raise ArithmeticError("the deformations are not defined in this configuration")
+    return RawAssembly(deformation, row_of[:used], column_of[:used], value[:used])
+
+
+def analyse_model(arrays: ModelArrays, rows: int, columns: int) -> RawAnalysis:
+    """Decompose D(c) of `rows` x `columns`, as counted by `count_model`."""
+    motions = np.empty((columns, columns), np.float64, order="F")
+    stresses = np.empty((rows, rows), np.float64, order="F")
+    (
+        row_label,
+        column_label,
+        length,
+        singular_values,
+        scaled_values,
+        row_scale,
+        column_scale,
+        numbers,
+        rank,
+        status,
+    ) = _core.analyse_model(min(rows, columns), *arrays, motions, stresses)
+    results = RawAnalysis(
+        row_label,
+        column_label,
+        length,
+        singular_values,
+        scaled_values,
+        row_scale,
+        column_scale,
+        float(numbers[0]),
+        float(numbers[1]),
+        rank,
+        status,
+        motions[:, : columns - rank],
+        stresses[:, : rows - rank],
+    )
+    for array in (*results[:7], *results[-2:]):
+        array.flags.writeable = False
+    return results

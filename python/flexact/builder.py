@@ -1,0 +1,272 @@
+"""The builder: methods that make nodes and elements and give classes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from . import targets
+from .diagnostics import model_error
+from .draft import Draft, Vector
+from .elements import Class, ElementKind, NodeKind, kind_of
+from .handles import Element, Node, Sheet
+from .model_data import ModelData
+
+_ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+class Builder:
+    """The half of `Model` that makes it.
+
+    Args:
+        planar: A model in the xy plane: two coordinates and one angle a point.
+        name: What the model is called in results.
+    """
+
+    def __init__(self, planar: bool = False, name: str = "") -> None:
+        """Start an empty model."""
+        self._start(bool(planar), name)
+
+    def _start(self, planar: bool, name: str) -> None:
+        self._name = name
+        self._planar = planar
+        self._owner = object()
+        self._draft: Draft | None = Draft(planar)
+        self._data: ModelData | None = None
+
+    def _change(self) -> Draft:
+        """The draft, to be changed; arrays that were made are dropped."""
+        if self._draft is None:
+            self._draft = Draft.of(self.data)
+        self._data = None
+        return self._draft
+
+    @property
+    def data(self) -> ModelData:
+        """The model as it is now; later changes do not touch it.
+
+        Raises:
+            ModelError: a class was given to a node that no element uses.
+        """
+        if self._data is None:
+            assert self._draft is not None
+            self._data = self._draft.freeze(self._name)
+        return self._data
+
+    # Nodes ------------------------------------------------------------------
+
+    def node(self, x: float, y: float, z: float = 0.0) -> Node:
+        """Add a point [m]; its orientation is used only if an element needs it."""
+        draft = self._change()
+        value = (*targets.vector((x, y, z), "position"), 0.0)
+        if draft.planar and value[2] != 0.0:
+            raise model_error("no-coordinate", "a planar model has no coordinate z")
+        kind = NodeKind.PLANAR_POSITION if draft.planar else NodeKind.POSITION
+        position = draft.add_node(kind, value)
+        return Node(position, self._orientation(draft), self._owner)
+
+    def pivot(self, node: Node) -> Node:
+        """Another point at the position of `node`, with an orientation of its own."""
+        draft = self._change()
+        position = targets.position(draft, self._owner, node)
+        return Node(position, self._orientation(draft), self._owner)
+
+    def handle(self, position: int, orientation: int = 0) -> Node:
+        """The point made of two nodes by their numbers, for a model from a deck.
+
+        Raises:
+            ModelError: there is no such node, or it is of the other kind.
+        """
+        return targets.handle(self._change(), self._owner, position, orientation)
+
+    @staticmethod
+    def _orientation(draft: Draft) -> int:
+        if draft.planar:
+            return draft.add_node(NodeKind.ANGLE, (0.0, 0.0, 0.0, 0.0))
+        return draft.add_node(NodeKind.ORIENTATION, (1.0, 0.0, 0.0, 0.0))
+
+    # Elements ---------------------------------------------------------------
+
+    def truss(self, p: Node | int, q: Node | int, name: str = "") -> Element:
+        """A bar: its elongation is held. A number stands for a position node."""
+        draft = self._change()
+        slots = (
+            targets.position(draft, self._owner, p),
+            0,
+            targets.position(draft, self._owner, q),
+            0,
+        )
+        number = draft.add_element(_kind("TRUSS", draft.planar), slots, name)
+        return Element(number, self._owner)
+
+    def beam(
+        self,
+        p: Node,
+        q: Node,
+        y: Sequence[float] | None = None,
+        release: Iterable[int] = (),
+        name: str = "",
+    ) -> Element:
+        """A beam; all deformations are held but those in `release`.
+
+        Args:
+            p: One end.
+            q: The other end.
+            y: Initial direction of the local y axis; by default the global axis that
+                is most nearly across the beam. Not for a planar beam.
+            release: Deformations that are free: 1 elongation, 2 torsion, 3 and 4 bending
+                in the local xz plane, 5 and 6 in the local xy plane at p and q; of a
+                planar beam 1 elongation, 2 and 3 bending.
+            name: What the element is called.
+        """
+        element = self._beam(p, q, y, (), name)
+        wanted = tuple(release)
+        if wanted:
+            self.release(element, *wanted)
+        return element
+
+    def wire(self, p: Node, q: Node, y: Sequence[float] | None = None, name: str = "") -> Element:
+        """A wire flexure: its elongation is held, torsion and bending are released."""
+        return self._beam(p, q, y, (2, 3) if self._planar else (2, 3, 4, 5, 6), name)
+
+    def sheet(
+        self,
+        p: Node,
+        q: Node,
+        width: Sequence[float] | None = None,
+        beams: int = 1,
+        name: str = "",
+    ) -> Sheet:
+        """A sheet flexure: elongation and in-plane bending are held, the rest released.
+
+        The local z axis of its beams lies in the plane of the sheet, as in section 4.2
+        of the paper, so that deformations 3 and 4 are the in-plane bending.
+
+        Args:
+            p: One end.
+            q: The other end.
+            width: Direction of the width, not along the sheet. A planar model sees the
+                sheet from its side and takes no width.
+            beams: Into how many equal beams the sheet is divided.
+            name: What the sheet is called.
+        """
+        draft = self._change()
+        normal = targets.sheet_normal(draft, self._owner, p, q, width)
+        points = targets.between(draft, self._owner, p, q, beams)
+        nodes = (p, *(self.node(*point) for point in points), q)
+        names = [name] if beams == 1 or not name else [f"{name}, {i + 1}" for i in range(beams)]
+        released = (2, 3) if self._planar else (2, 5, 6)
+        elements = tuple(
+            self._beam(nodes[i], nodes[i + 1], normal, released, names[i % len(names)])
+            for i in range(beams)
+        )
+        return Sheet(elements, nodes)
+
+    def rigid(self, p: Node, q: Node, name: str = "") -> Element:
+        """A rigid link that carries q with p.
+
+        It becomes an RBEAM, which holds the position of q alone, unless the orientation
+        of q is needed by another element or by a class that names its coordinates, or
+        the link itself is given a class; then it becomes a BEAM with everything held.
+        The deformations of `release` and `independent` are those of a BEAM.
+        """
+        element = self._beam(p, q, None, (), name)
+        draft = self._change()
+        draft.rigid.add(len(draft.kinds) - 1)
+        return element
+
+    def hinge(
+        self,
+        p: Node,
+        axis: Sequence[float] | None = None,
+        q: Node | None = None,
+        name: str = "",
+    ) -> Node:
+        """A hinge at p: the rotation about the axis is released, the others are held.
+
+        Args:
+            p: The point on one side.
+            axis: Direction of the axis; not for a planar model.
+            q: The point on the other side, at the same position node; by default a new
+                one, as `pivot` makes it.
+            name: What the element is called.
+
+        Returns:
+            The point beyond the hinge.
+        """
+        draft = self._change()
+        here = targets.orientation(draft, self._owner, p)
+        direction = targets.axis(draft, axis)
+        if q is None:
+            q = self.pivot(p)
+        there = targets.orientation(draft, self._owner, q)
+        if q.position != p.position:
+            raise model_error(
+                "two-positions",
+                "a hinge joins two points at one position node",
+                "make the second point with pivot(p), or leave it out",
+            )
+        kind = _kind("HINGE", draft.planar)
+        draft.add_element(kind, (0, here, 0, there), name, direction, (1,))
+        return q
+
+    def _beam(
+        self,
+        p: Node,
+        q: Node,
+        y: Sequence[float] | None,
+        released: tuple[int, ...],
+        name: str,
+    ) -> Element:
+        draft, owner = self._change(), self._owner
+        if y is not None and draft.planar:
+            raise model_error("surplus-vector", "a planar beam takes no y vector")
+        hint = _ZERO if y is None else targets.direction(y, "y vector")
+        slots = (
+            targets.position(draft, owner, p),
+            targets.orientation(draft, owner, p),
+            targets.position(draft, owner, q),
+            targets.orientation(draft, owner, q),
+        )
+        kind = _kind("BEAM", draft.planar)
+        return Element(draft.add_element(kind, slots, name, hint, released), owner)
+
+    # Classes ----------------------------------------------------------------
+
+    def fix(self, target: Node | int, *coordinates: str) -> None:
+        """Fix coordinates, eq. (7): a support.
+
+        Args:
+            target: A point, or the number of a node.
+            *coordinates: Names out of x, y, z, rx, ry, rz; by default all that the point
+                or node has.
+        """
+        targets.give_coordinates(self._change(), self._owner, target, coordinates, Class.FIXED)
+
+    def independent(self, target: Node | Element | Sheet | int, *which: str | int) -> None:
+        """Make coordinates or deformations independent: degrees of freedom, eq. (6).
+
+        Args:
+            target: A point or an element; or a number, of a node where coordinates are
+                named, of an element where deformations are numbered.
+            *which: Coordinates by name, or deformations by number; by default all.
+        """
+        draft = self._change()
+        if targets.means_element(target, which):
+            targets.give_deformations(draft, self._owner, target, which, Class.INDEPENDENT)
+        else:
+            targets.give_coordinates(draft, self._owner, target, which, Class.INDEPENDENT)
+
+    def release(self, element: Element | Sheet | int, *deformations: int) -> None:
+        """Release deformations, by default all: they are free to change.
+
+        Args:
+            element: An element, a sheet (each of its beams), or an element's number.
+            *deformations: Their numbers, from 1.
+        """
+        targets.give_deformations(
+            self._change(), self._owner, element, deformations, Class.DEPENDENT
+        )
+
+
+def _kind(keyword: str, planar: bool) -> ElementKind:
+    return kind_of("PL" + keyword if planar else keyword)

@@ -1,0 +1,115 @@
+"""``flexact analyse``: verdict, counts, motions and self-stresses of decks."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import flexact
+from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, exit_code, find_decks, run
+from flexact.cli import failures
+from flexact.cli.summary import summarise
+from flexact.cli.terminal import complain, end_progress, say, show_progress
+
+if TYPE_CHECKING:
+    from flexact.mesh_file import MeshFormat
+
+VERDICTS = {
+    "exact": flexact.Verdict.EXACT,
+    "under": flexact.Verdict.UNDER,
+    "over": flexact.Verdict.OVER,
+    "both": flexact.Verdict.BOTH,
+}
+
+
+def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add this verb to the command's parser."""
+    parser = verbs.add_parser(
+        "analyse",
+        help="verdict, counts, motions and self-stresses of decks",
+        description="Decide whether mechanisms are exactly, under- or over-constrained.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("decks", nargs="+", metavar="DECK", help="a deck, or a folder of *.dat")
+    parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="write NAME.json, NAME.log and the mesh NAME.vtu there",
+    )
+    parser.add_argument(
+        "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
+    )
+    parser.add_argument("--expect", choices=VERDICTS, help="exit with 3 for any other verdict")
+    parser.set_defaults(run=analyse_decks)
+
+
+def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
+    """Analyse the decks that were asked for, say and write the results."""
+    if chosen.format and not chosen.output:
+        raise BatchError("--format is for the mesh, which needs a folder: -o DIR")
+    decks = find_decks(chosen.decks)
+    work = _Work(chosen, decks)
+    outcomes = run(decks, work.step, lambda deck, error: failures.tell(deck, error, chosen.json))
+    end_progress()
+    if text := summarise(outcomes):
+        complain(text) if chosen.json else say(text)
+    return exit_code(outcomes)
+
+
+class _Work:
+    """One run of the verb: what was chosen, and where each deck's results go."""
+
+    def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
+        self.chosen = chosen
+        self.place = {deck.path: number for number, deck in enumerate(decks, start=1)}
+        self.format: MeshFormat | None = None
+        self.plan: dict[str, tuple[Path, ...]] = {}
+        if chosen.output:
+            from flexact.mesh_file import find_format
+            from flexact.outputs import plan_files
+
+            self.format = find_format(chosen.format or "vtu")
+            suffixes = (".json", ".log", self.format.suffix)
+            self.plan = plan_files(decks, chosen.output, suffixes)
+
+    def step(self, deck: DeckFile) -> Outcome:
+        """Analyse one deck, say and write its results."""
+        show_progress(self.place[deck.path], len(self.place), deck.path)
+        model = flexact.read(deck.path)
+        failures.remark(model)
+        analysis = flexact.analyse(model, name=deck.path)
+        if self.format is not None:
+            self._write(deck, analysis)
+        say(analysis.to_json() if self.chosen.json else _words(analysis))
+        return self._judge(deck, analysis.verdict)
+
+    def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> None:
+        from flexact.log import log_text
+        from flexact.mesh import to_meshio
+        from flexact.mesh_file import mesh_bytes
+        from flexact.outputs import write_together
+
+        assert self.format is not None
+        texts = (analysis.to_json() + "\n", log_text(analysis))
+        contents = [text.encode("utf-8", "backslashreplace") for text in texts]
+        contents.append(mesh_bytes(to_meshio(analysis), self.format))
+        write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
+
+    def _judge(self, deck: DeckFile, verdict: flexact.Verdict) -> Outcome:
+        code = ExitCode.ANALYSED
+        if self.chosen.expect and verdict is not VERDICTS[self.chosen.expect]:
+            code = ExitCode.DIFFERENT
+            wanted = VERDICTS[self.chosen.expect].value
+            complain(f"{deck.path}: {verdict.value}, but expected {wanted}")
+        return Outcome(deck.path, code, verdict.value)
+
+
+def _words(analysis: flexact.Analysis) -> str:
+    from flexact.words import describe
+
+    # What concerns the deck was told on stderr.
+    return f"{describe(analysis, about_model=False)}\n"

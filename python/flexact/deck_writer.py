@@ -1,0 +1,97 @@
+"""A model in the deck language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .draft import one_line
+from .elements import AXES, Class, NodeKind, element_kinds
+from .model_data import ModelData
+
+_IDENTITY = {
+    NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],
+    NodeKind.ORIENTATION: [1.0, 0.0, 0.0, 0.0],
+}
+_VALUES = {
+    NodeKind.PLANAR_POSITION: 2,
+    NodeKind.POSITION: 3,
+    NodeKind.ANGLE: 1,
+    NodeKind.ORIENTATION: 4,
+}
+#: Component of axis 0 by kind of node, less that axis: lambda1 is component 2.
+_FIRST_COMPONENT = {
+    NodeKind.PLANAR_POSITION: 1,
+    NodeKind.POSITION: 1,
+    NodeKind.ANGLE: -1,
+    NodeKind.ORIENTATION: 2,
+}
+
+
+def deck_of(data: ModelData) -> str:
+    """The deck of a model; numbers read back to the last bit."""
+    title = one_line(data.name)
+    blocks = [
+        [f"% {title}"] if title else [],
+        list(_elements(data)),
+        list(_values(data)),
+        list(_coordinates(data, Class.FIXED, "FIX")),
+        list(_coordinates(data, Class.INDEPENDENT, "DYNX")),
+        list(_deformations(data, Class.DEPENDENT, "RLSE")),
+        list(_deformations(data, Class.INDEPENDENT, "DYNE")),
+        ["END"],
+    ]
+    return "\n".join(line for block in blocks for line in block) + "\n"
+
+
+def _elements(data: ModelData) -> Iterator[str]:
+    keywords = ["", *(kind.keyword for kind in element_kinds())]
+    a = data.arrays
+    numbers = np.concatenate([np.zeros(1, np.int32), a.node_number])
+    for kind, number, nodes, vector, name in zip(
+        a.element_kind.tolist(),
+        a.element_number.tolist(),
+        numbers[a.element_node].T.tolist(),
+        a.element_vector.T.tolist(),
+        data.element_names,
+        strict=True,
+    ):
+        words = [keywords[kind], str(number), *(str(node) for node in nodes if node)]
+        if any(vector):
+            words += map(repr, vector)
+        if name:
+            words.append(f"% {name}")
+        yield " ".join(words)
+
+
+def _values(data: ModelData) -> Iterator[str]:
+    a = data.arrays
+    for number, kind, value in zip(
+        a.node_number.tolist(), a.node_kind.tolist(), a.node_value.T.tolist(), strict=True
+    ):
+        if value != _IDENTITY.get(kind):
+            yield f"X {number} {' '.join(map(repr, value[: _VALUES[kind]]))}"
+
+
+def _coordinates(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]:
+    a = data.arrays
+    chosen = a.coordinate_class == wanted
+    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
+        kind = int(a.node_kind[index])
+        axes = np.flatnonzero(chosen[:, index]).tolist()
+        words = [keyword, str(a.node_number[index])]
+        if len(axes) < len(AXES[kind]):
+            words += [str(axis + _FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
+        yield " ".join(words)
+
+
+def _deformations(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]:
+    a = data.arrays
+    chosen = a.deformation_class == wanted
+    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
+        modes = (np.flatnonzero(chosen[:, index]) + 1).tolist()
+        words = [keyword, str(a.element_number[index])]
+        if len(modes) < np.count_nonzero(a.deformation_class[:, index]):
+            words += map(str, modes)
+        yield " ".join(words)

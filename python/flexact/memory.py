@@ -1,0 +1,35 @@
+"""How much memory a dense decomposition needs, and how much there is."""
+
+from __future__ import annotations
+
+import math
+import os
+
+#: Needs below this are not compared with what there is [bytes].
+_SMALL = 2**26
+
+
+def needed(rows: int, columns: int) -> float:
+    """Bytes for D(c), its copies, U, V and the work of the decomposition."""
+    return (3.0 * rows * columns + rows * rows + columns * columns) * 8 * 1.5
+
+
+def is_enough(rows: int, columns: int) -> bool:
+    """Whether D(c) of this size can be decomposed."""
+    bytes_needed = needed(rows, columns)
+    return bytes_needed <= _SMALL or bytes_needed <= available()
+
+
+def available() -> float:
+    """Bytes of memory that can be had; infinity where the system does not say."""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as file:
+            for line in file:
+                if line.startswith("MemAvailable:"):
+                    return 1024.0 * int(line.split()[1])
+    except (OSError, ValueError):
+        pass
+    try:
+        return float(os.sysconf("SC_AVPHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError, OSError):
+        return math.inf

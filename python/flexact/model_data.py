@@ -1,0 +1,91 @@
+"""A model that does not change: arrays, names, and what was found in them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import overload
+
+from . import _boundary
+from .diagnostics import DeckError, Diagnostic, ModelError, Problems, Severity, problems_of
+from .exchange import IntArray, ModelArrays, RawCount
+from .source import Source, decode
+
+#: As the core says it of a deck.
+_NOTHING = Diagnostic(
+    Severity.ERROR,
+    "nothing-to-analyse",
+    "there is nothing to analyse: no elements",
+    help="add at least one element, such as truss(p, q)",
+)
+
+
+class DeckNames(Sequence[str]):
+    """Names of a deck's elements, cut out of its text when they are asked for."""
+
+    def __init__(self, text: bytes, places: IntArray) -> None:
+        """Keep the text and the first and last place of each name, (2, elements)."""
+        self._text = text
+        self._places = places
+
+    def __len__(self) -> int:
+        """Number of elements."""
+        return int(self._places.shape[1])
+
+    @overload
+    def __getitem__(self, index: int) -> str: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[str, ...]: ...
+    def __getitem__(self, index: int | slice) -> str | tuple[str, ...]:
+        """The name of an element by its index; empty where it has none."""
+        if isinstance(index, slice):
+            return tuple(self[i] for i in range(*index.indices(len(self))))
+        first, last = self._places[:, index].tolist()
+        return decode(self._text[first - 1 : last]) if first > 0 else ""
+
+
+@dataclass(frozen=True, eq=False)
+class ModelData:
+    """A model at one moment.
+
+    Attributes:
+        arrays: The arrays as the core takes them.
+        planar: Whether positions have two coordinates.
+        name: What the model is called.
+        element_names: One name an element, empty where it has none.
+        source: The deck's text, for a model that was read.
+        found: What reading the deck found; None for a model made in Python.
+    """
+
+    arrays: ModelArrays
+    planar: bool
+    name: str
+    element_names: Sequence[str]
+    source: Source | None = None
+    found: Problems | None = None
+
+    @cached_property
+    def problems(self) -> Problems:
+        """Errors, warnings and notes about the model."""
+        if self.found is not None:
+            return self.found
+        if not self.arrays.element_number.size:
+            return Problems.of([_NOTHING])
+        return problems_of(_boundary.check_model(self.arrays))
+
+    @cached_property
+    def count(self) -> RawCount:
+        """Counts by class and the size of D(c)."""
+        return _boundary.count_model(self.arrays)
+
+    def require_sound(self) -> None:
+        """Raise where the model cannot be analysed.
+
+        Raises:
+            DeckError: for a model that was read from a deck.
+            ModelError: for a model made in Python.
+        """
+        if self.problems.errors:
+            error = DeckError if self.source is not None else ModelError
+            raise error(self.problems, self.name, self.source)

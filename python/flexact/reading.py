@@ -1,0 +1,137 @@
+"""From a file or a text to a model; all that is wrong with it is a DeckError."""
+
+from __future__ import annotations
+
+import os
+import stat
+
+from . import _boundary
+from .diagnostics import DeckError, Diagnostic, Place, Problems, Severity, problems_of
+from .model import Model
+from .model_data import DeckNames, ModelData
+from .source import Source
+
+LARGEST_DECK = 2**31 - 2
+_UTF8_MARK = b"\xef\xbb\xbf"
+_UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+_SAMPLE = 65536
+_CONTROLS = bytes(c for c in range(32) if chr(c) not in "\t\n\r\f\v\x1a") + b"\x7f"
+
+
+def read(path: str | os.PathLike[str]) -> Model:
+    """Read a deck from a file.
+
+    Warnings and notes are kept in `Model.diagnostics`.
+
+    Args:
+        path: A regular file.
+
+    Raises:
+        DeckError: anything is wrong with the deck or the file.
+    """
+    name = os.fspath(path)
+    return _model(_file_bytes(name), str(name))
+
+
+def read_text(text: str | bytes, name: str = "deck") -> Model:
+    """Read a deck from its text.
+
+    Args:
+        text: The deck.
+        name: What it is called in results and problems.
+
+    Raises:
+        DeckError: anything is wrong with the deck.
+    """
+    raw = text.encode("utf-8", "replace") if isinstance(text, str) else bytes(text)
+    return _model(raw, name)
+
+
+def _file_bytes(path: str) -> bytes:
+    try:
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            raise _file_error(path, "is-a-folder", "this is a folder, not a deck")
+        if not stat.S_ISREG(status.st_mode):
+            raise _file_error(
+                path, "not-a-file", "this is not a regular file", "write the deck to a file first"
+            )
+        if status.st_size > LARGEST_DECK:
+            raise _too_large(path)
+        with open(path, "rb") as file:
+            return file.read(LARGEST_DECK + 1)
+    except FileNotFoundError:
+        raise _file_error(path, "no-such-file", "there is no such file") from None
+    except (OSError, ValueError) as error:
+        reason = (getattr(error, "strerror", None) or str(error)).lower()
+        raise _file_error(path, "cannot-read", f"the file cannot be read: {reason}") from None
+    except MemoryError:
+        raise _file_error(path, "too-large", "the file does not fit into memory") from None
+
+
+def _model(raw: bytes, name: str) -> Model:
+    if raw.startswith(_UTF8_MARK):
+        raw = raw[len(_UTF8_MARK) :]
+    raw = raw.removesuffix(b"\x1a")
+    _require_text(raw, name)
+    source = Source(raw, name)
+    try:
+        deck = _boundary.read_deck(raw)
+    except MemoryError:
+        raise _file_error(name, "too-large", "the deck does not fit into memory") from None
+    problems = problems_of(deck.problems, source)
+    if problems.errors:
+        raise DeckError(problems, name, source)
+    names = DeckNames(raw, deck.name)
+    return Model.from_data(ModelData(deck.arrays, deck.planar, name, names, source, problems))
+
+
+def _require_text(raw: bytes, name: str) -> None:
+    if not raw:
+        raise _file_error(
+            name,
+            "empty-deck",
+            "the deck is empty",
+            "state at least one element, such as TRUSS 1 1 2",
+        )
+    if len(raw) > LARGEST_DECK:
+        raise _too_large(name)
+    if raw.startswith(_UTF16_MARKS):
+        raise _file_error(
+            name, "not-text", "the deck is in UTF-16", "save it as UTF-8 or plain ASCII text"
+        )
+    zero = raw.find(b"\0")
+    sample = raw[:_SAMPLE]
+    controls = len(sample) - len(sample.translate(None, _CONTROLS))
+    if controls * 20 > len(sample) and controls > 4:
+        raise _file_error(name, "not-text", "this is not text, so it cannot be a deck")
+    if zero >= 0:
+        source = Source(raw, name)
+        line, column = source.place_of(zero)
+        column, _ = source.character_columns(line, column, column)
+        place = Place(line, column, column)
+        raise _file_error(
+            name,
+            "not-text",
+            "the deck holds a NUL byte, so it is not text",
+            "take the byte away",
+            place,
+            source,
+        )
+
+
+def _too_large(name: str) -> DeckError:
+    return _file_error(name, "too-large", "the deck is larger than two gigabytes")
+
+
+def _file_error(
+    name: str,
+    code: str,
+    message: str,
+    hint: str = "",
+    place: Place | None = None,
+    source: Source | None = None,
+) -> DeckError:
+    at = place or Place(0, 0, 0)
+    item = Diagnostic(Severity.ERROR, code, message, *at, help=hint)
+    return DeckError(Problems.of([item]), name, source)

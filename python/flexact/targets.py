@@ -1,0 +1,257 @@
+"""Checks of what a builder's methods are given: points, vectors, names of coordinates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from operator import index as whole_number
+
+from .diagnostics import ModelError, model_error
+from .draft import Draft, Vector
+from .elements import (
+    AXES,
+    POSITION_NAMES,
+    ROTATION_NAMES,
+    Class,
+    NodeKind,
+    coordinate_name,
+    is_position,
+)
+from .handles import Element, Node, Sheet
+
+_ZERO: Vector = (0.0, 0.0, 0.0)
+#: As the core's check of a y vector.
+_PARALLEL = 1.0e-6
+
+
+def vector(given: Sequence[float], what: str) -> Vector:
+    """Three finite numbers.
+
+    Raises:
+        ModelError: they are not.
+    """
+    try:
+        x, y, z = (float(part) for part in given)
+    except (TypeError, ValueError, OverflowError):
+        raise model_error("bad-number", f"the {what} must be three numbers") from None
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
+        raise model_error("bad-number", f"the {what} has a component that is not finite")
+    return x, y, z
+
+
+def direction(given: Sequence[float], what: str) -> Vector:
+    """Three finite numbers that are not all zero."""
+    made = vector(given, what)
+    if made == _ZERO:
+        raise model_error("zero-vector", f"the {what} is zero", "give a vector that is not zero")
+    return made
+
+
+def axis(draft: Draft, given: Sequence[float] | None) -> Vector:
+    """The axis of a hinge, which a spatial model needs and a planar one does not take."""
+    if draft.planar:
+        if given is not None and any(vector(given, "axis")[:2]):
+            raise model_error("surplus-vector", "the axis of a planar hinge is z")
+        return _ZERO
+    if given is None:
+        raise model_error("missing-vector", "a hinge needs an axis", "give axis=(x, y, z)")
+    return direction(given, "axis")
+
+
+def _wrong_model(what: str) -> ModelError:
+    return model_error("other-model", f"the {what} belongs to another model")
+
+
+def position(draft: Draft, owner: object, point: Node | int) -> int:
+    """Number of the position node of a point, or the number itself."""
+    if isinstance(point, Node):
+        if point.owner is not owner:
+            raise _wrong_model("node")
+        number = point.position
+    else:
+        number = _number(point, "node")
+        _known(draft, number)
+        if not is_position(draft.node_kind[number]):
+            raise model_error(
+                "two-kinds-of-node",
+                f"node {number} is an orientation and is used as a position",
+                "position and orientation of one point are two nodes with two numbers",
+            )
+    if draft.node_kind[number] == NodeKind.PLANAR_POSITION and not draft.planar:
+        draft.node_kind[number] = NodeKind.POSITION
+    return number
+
+
+def orientation(draft: Draft, owner: object, point: Node) -> int:
+    """Number of the orientation node of a point."""
+    if not isinstance(point, Node):
+        raise model_error(
+            "not-a-point",
+            "this element needs points with an orientation",
+            "make one with node(x, y, z), or with handle(position, orientation) from numbers",
+        )
+    if point.owner is not owner:
+        raise _wrong_model("node")
+    return point.orientation
+
+
+def handle(draft: Draft, owner: object, position_number: int, orientation_number: int) -> Node:
+    """The point of two node numbers; a missing orientation is made anew."""
+    position_number = position(draft, owner, position_number)
+    kind = NodeKind.ANGLE if draft.planar else NodeKind.ORIENTATION
+    if orientation_number == 0:
+        value = (0.0 if draft.planar else 1.0, 0.0, 0.0, 0.0)
+        return Node(position_number, draft.add_node(kind, value), owner)
+    orientation_number = _number(orientation_number, "node")
+    _known(draft, orientation_number)
+    if draft.node_kind[orientation_number] != kind:
+        raise model_error(
+            "two-kinds-of-node",
+            f"node {orientation_number} cannot be used as an orientation here",
+            "position and orientation of one point are two nodes with two numbers",
+        )
+    return Node(position_number, orientation_number, owner)
+
+
+def _number(given: object, what: str) -> int:
+    try:
+        return whole_number(given)  # type: ignore[arg-type]
+    except TypeError:
+        raise model_error(
+            "bad-number", f"a {what} is given by its handle or its number, not by {given!r}"
+        ) from None
+
+
+def _known(draft: Draft, number: int) -> None:
+    if number not in draft.node_kind:
+        raise model_error("no-such-node", f"there is no node {number}")
+
+
+def sheet_normal(
+    draft: Draft, owner: object, p: Node, q: Node, width: Sequence[float] | None
+) -> Vector | None:
+    """The y vector of a sheet's beams: normal to the sheet, so that z lies in its plane.
+
+    A width along the sheet is handed on as it is, for the check of the model to report.
+    """
+    if draft.planar:
+        if width is not None and any(vector(width, "width")[:2]):
+            raise model_error("surplus-vector", "the width of a sheet in a planar model is along z")
+        return None
+    if width is None:
+        raise model_error("missing-vector", "a sheet needs the direction of its width")
+    wide = direction(width, "width")
+    start, end = (draft.node_value[position(draft, owner, point)] for point in (p, q))
+    along = _unit((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
+    across = _unit(wide)
+    normal = (
+        across[1] * along[2] - across[2] * along[1],
+        across[2] * along[0] - across[0] * along[2],
+        across[0] * along[1] - across[1] * along[0],
+    )
+    return _unit(normal) if math.hypot(*normal) > _PARALLEL else wide
+
+
+def _unit(given: Vector) -> Vector:
+    largest = max(map(abs, given))
+    if largest == 0.0:
+        return _ZERO
+    x, y, z = (part / largest for part in given)
+    norm = math.hypot(x, y, z)
+    return x / norm, y / norm, z / norm
+
+
+def between(draft: Draft, owner: object, p: Node, q: Node, parts: int) -> list[Vector]:
+    """Points that divide the way from p to q into equal parts."""
+    parts = _number(parts, "number of beams")
+    if parts < 1:
+        raise model_error("out-of-range", f"a sheet cannot be divided into {parts} beams")
+    start, end = (draft.node_value[position(draft, owner, point)] for point in (p, q))
+    made = []
+    for i in range(1, parts):
+        t = i / parts
+        x, y, z = (start[k] * (1.0 - t) + end[k] * t for k in range(3))
+        made.append((x, y, z))
+    return made
+
+
+def means_element(target: object, which: Sequence[str | int]) -> bool:
+    """Whether a target is an element; a bare number is one where deformations are numbered."""
+    if isinstance(target, Node):
+        return False
+    if isinstance(target, (Element, Sheet)):
+        return True
+    if not which:
+        raise model_error(
+            "ambiguous-number",
+            "a number alone can be a node or an element",
+            "name coordinates of a node or number deformations of an element",
+        )
+    return not all(isinstance(item, str) for item in which)
+
+
+def give_coordinates(
+    draft: Draft,
+    owner: object,
+    target: object,
+    names: Sequence[str | int],
+    value: Class,
+) -> None:
+    """Give coordinates of a point or a node a class; all where none is named."""
+    if isinstance(target, Node):
+        if target.owner is not owner:
+            raise _wrong_model("node")
+        numbers = [target.position, target.orientation]
+    elif isinstance(target, (Element, Sheet)):
+        raise model_error("not-a-node", "an element has deformations, not coordinates")
+    else:
+        numbers = [_number(target, "node")]
+        _known(draft, numbers[0])
+    if not names:
+        every = ((number, k) for number in numbers for k in AXES[draft.node_kind[number]])
+        draft.state_coordinates(every, value)
+        draft.whole.append((numbers[0], numbers[-1]))
+    named = [_coordinate(draft, numbers, name) for name in names]
+    draft.state_coordinates(named, value)
+    draft.named.update(named)
+
+
+def _coordinate(draft: Draft, numbers: Sequence[int], name: str | int) -> tuple[int, int]:
+    for number in numbers:
+        kind = draft.node_kind[number]
+        known = POSITION_NAMES if is_position(kind) else ROTATION_NAMES
+        if name in known and known.index(name) in AXES[kind]:
+            return number, known.index(name)
+    has = [
+        coordinate_name(draft.node_kind[n], k) for n in numbers for k in AXES[draft.node_kind[n]]
+    ]
+    raise model_error(
+        "component-out-of-range",
+        f"node {numbers[0]} has no coordinate {name!r}",
+        f"it has {', '.join(has)}",
+    )
+
+
+def give_deformations(
+    draft: Draft,
+    owner: object,
+    target: object,
+    which: Sequence[str | int],
+    value: Class,
+) -> None:
+    """Give deformations of an element or of each beam of a sheet a class."""
+    if isinstance(target, Node):
+        raise model_error("not-an-element", "a node has coordinates, not deformations")
+    if isinstance(target, Sheet):
+        for element in target.elements:
+            give_deformations(draft, owner, element, which, value)
+        return
+    if isinstance(target, Element):
+        if target.owner is not owner:
+            raise _wrong_model("element")
+        index = draft.index_of(target.number)
+    else:
+        index = draft.index_of(_number(target, "element"))
+    numbers = [_number(item, "deformation") for item in which]
+    every = range(1, draft.deformations_of(index) + 1)
+    draft.state_deformations(index, numbers or every, value)

@@ -1,0 +1,153 @@
+"""The shape of a result: bases, labels, JSON, warnings, errors."""
+
+import dataclasses
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from known_models import folded_sheet, ring, twelve_trusses
+
+import flexact
+from flexact import Model, analyse, memory
+
+
+def test_gap_and_tolerance_stand_on_both_sides_of_the_decision() -> None:
+    analysis = analyse(twelve_trusses())
+    small, zero = analysis.gap
+    assert small is not None and zero is not None
+    assert zero <= analysis.tolerance < small
+    assert small == analysis.scaled_singular_values[10]
+    full = analyse(ring(3))
+    assert full.gap.largest_zero is None
+    assert full.gap.smallest_nonzero == full.scaled_singular_values[-1]
+
+
+def test_condition_number() -> None:
+    analysis = analyse(ring(3))
+    wanted = np.linalg.cond(analysis.dense_jacobian())
+    assert analysis.condition_number == pytest.approx(wanted, rel=1e-12)
+
+
+@pytest.mark.parametrize("model", [twelve_trusses(), ring(5), folded_sheet(False, 3)])
+def test_bases_span_the_null_spaces_of_the_dense_jacobian(model: Model) -> None:
+    analysis = analyse(model)
+    d = analysis.dense_jacobian()
+    assert d.shape == (analysis.rows, analysis.columns)
+    assert np.abs(np.linalg.svd(d)[1] - analysis.singular_values).max() < 1e-13
+    for mode in analysis.motions:
+        assert np.abs(d @ mode.vector).max() < 1e-13
+    for stress in analysis.self_stresses:
+        assert np.abs(stress.vector @ d).max() < 1e-13
+    for modes in (analysis.motions, analysis.self_stresses):
+        if modes:
+            basis = np.array([mode.vector for mode in modes])
+            assert np.abs(basis @ basis.T - np.eye(len(modes))).max() < 1e-13
+
+
+def test_labels_are_numbers_and_names() -> None:
+    analysis = analyse(folded_sheet(clamped=False))
+    assert analysis.row_labels == ((1, 1), (1, 3), (1, 4), (2, 1), (2, 3), (2, 4))
+    assert analysis.column_labels[:7] == (
+        *((3, c) for c in "xyz"),
+        *((4, c) for c in ("rx", "ry", "rz")),
+        (5, "x"),
+    )
+
+
+def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
+    analysis = analyse(twelve_trusses(), name="decks/twelve.dat")
+    text = analysis.to_json()
+    assert "\n" not in text
+    read = json.loads(text)
+    assert list(read) == [
+        *("deck", "flexact", "verdict", "under_constrained", "over_constrained", "rank", "rows"),
+        *("columns", "singular_values", "condition_number", "degrees_of_freedom", "counts"),
+        *("motions", "self_stresses", "warnings"),
+    ]
+    assert read["deck"] == "decks/twelve.dat"
+    assert read["flexact"] == flexact.__version__
+    assert read["verdict"] == "under-constrained and over-constrained"
+    assert read["singular_values"] == analysis.singular_values.tolist()
+    assert read["condition_number"] is None
+    wanted = {"total": 24, "fixed": 12, "dependent": 12, "independent": 0}
+    assert read["counts"]["coordinates"] == wanted
+    (motion,) = read["motions"]
+    assert {(c["node"], c["coordinate"]) for c in motion["components"]} >= {(9, "y"), (11, "x")}
+    of_nine = [c["value"] for c in motion["components"] if (c["node"], c["coordinate"]) == (9, "y")]
+    assert of_nine == [analysis.motions[0].displacement[4, 1]]
+    (stress,) = read["self_stresses"]
+    assert set(stress["components"][0]) == {"element", "deformation", "value"}
+    assert [c["value"] for c in stress["components"]] == analysis.self_stresses[0].vector.tolist()
+
+
+def test_json_of_an_empty_matrix() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.truss(a, b)
+    model.fix(a)
+    model.fix(b)
+    read = json.loads(analyse(model).to_json())
+    assert read["singular_values"] == [] and read["condition_number"] is None
+    (component,) = read["self_stresses"][0]["components"]
+    assert (component["element"], component["deformation"]) == (1, 1)
+    assert abs(component["value"]) == 1
+
+
+def test_warnings_of_the_deck_are_in_the_json() -> None:
+    deck = "TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nFIX 1\n"
+    analysis = analyse(flexact.read_text(deck, "a.dat"))
+    (warning,) = json.loads(analysis.to_json())["warnings"]
+    assert (warning["severity"], warning["line"], warning["column"]) == ("warning", 3, 3)
+    assert set(warning) == {"code", "severity", "line", "column", "message"}
+
+
+def test_close_decision_is_warned_of() -> None:
+    # Two wires at an angle of 1e-7: full rank in exact arithmetic (references.md, Numerics).
+    model = Model(planar=True)
+    a, b, c = model.node(0, 0), model.node(0, 1e-7), model.node(1, 0)
+    for end in (a, b):
+        model.truss(end, c)
+        model.fix(end)
+    analysis = analyse(model)
+    assert analysis.verdict is flexact.Verdict.EXACT
+    assert [item.code for item in analysis.warnings] == ["close-decision"]
+    assert analyse(twelve_trusses()).warnings == ()
+
+
+def test_analysis_is_frozen() -> None:
+    analysis = analyse(twelve_trusses())
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        analysis.name = "other"  # type: ignore[misc]
+    for array in (analysis.singular_values, analysis.motions[0].vector):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+
+
+def test_too_large_for_the_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(memory, "_SMALL", 0)
+    monkeypatch.setattr(memory, "available", lambda: 1e3)
+    with pytest.raises(flexact.AnalysisError, match=r"12 rows and 12 columns; .* GB of memory"):
+        analyse(twelve_trusses())
+
+
+def test_path_and_name(tmp_path: Path) -> None:
+    path = tmp_path / "twelve.dat"
+    path.write_text(twelve_trusses().to_deck())
+    assert analyse(path).name == str(path)
+    assert analyse(str(path), name="short").name == "short"
+    assert "D(c) 12 x 12 of rank 11" in repr(analyse(path))
+    assert "Motion 1" in repr(analyse(path).motions[0])
+    assert "SelfStress 1" in repr(analyse(path).self_stresses[0])
+
+
+def test_results_travel_between_processes() -> None:
+    analysis = analyse(twelve_trusses())
+    again = pickle.loads(pickle.dumps(analysis))
+    assert again.to_json() == analysis.to_json()
+    matrix = pickle.loads(pickle.dumps(flexact.jacobian(again.model)))
+    assert np.array_equal(matrix.toarray(), flexact.jacobian(analysis.model).toarray())
+    with pytest.raises(flexact.DeckError) as error:
+        flexact.read_text("TRUS 1 1 2", "a.dat")
+    assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)

@@ -1,0 +1,201 @@
+"""The boundary: doubles stay doubles, zero sizes work, wrong shapes are refused by name.
+
+One third cannot be held in single precision: what comes back from it differs in the
+ninth digit. f2py makes single precision of kinds that it does not know without a word.
+"""
+
+import numpy as np
+import pytest
+
+import flexact
+from flexact import _boundary, _core
+from flexact.exchange import model_arrays
+
+THIRD = 1.0 / 3.0
+ULP = 2.3e-16
+
+
+def truss(q: tuple[float, float, float]) -> flexact.Model:
+    model = flexact.Model()
+    a, b = model.node(0, 0, 0), model.node(*q)
+    model.truss(a, b)
+    model.fix(a)
+    return model
+
+
+def results(model: flexact.Model) -> flexact.Analysis:
+    return flexact.analyse(model)
+
+
+def test_node_value_and_length_are_double() -> None:
+    assert results(truss((THIRD, 0, 0))).raw.length[0] == THIRD
+
+
+def test_singular_values_and_bases_are_double() -> None:
+    model = truss((1, 2, 2))
+    analysis = results(model)
+    direction = np.array([1, 2, 2]) / 3
+    assert abs(analysis.singular_values[0] - 1) <= ULP
+    basis = np.array([motion.vector for motion in analysis.motions])
+    assert basis.shape == (2, 3)
+    assert np.abs(basis @ direction).max() < 4 * ULP
+    assert np.abs(basis @ basis.T - np.eye(2)).max() < 4 * ULP
+
+
+def test_one_entry_is_a_third() -> None:
+    model = flexact.Model()
+    a, b = model.node(0, 0, 0), model.node(1, 2, 2)
+    model.truss(a, b)
+    model.fix(a)
+    model.fix(b, "y", "z")
+    analysis = results(model)
+    assert abs(analysis.singular_values[0] - THIRD) <= ULP
+    assert abs(flexact.jacobian(model).values - np.array([-1, -2, -2, 1, 2, 2]) / 3).max() <= ULP
+
+
+def test_self_stress_is_double() -> None:
+    # A bar of length 1 and one of length 2 on the same two points: (1, -1) / sqrt(2).
+    model = flexact.Model()
+    a, b, c = model.node(0, 0, 0), model.node(1, 0, 0), model.node(3, 0, 0)
+    model.truss(a, b)
+    model.truss(b, c)
+    for node in (a, c):
+        model.fix(node)
+    stress = results(model).self_stresses[0].vector
+    assert np.abs(np.abs(stress) - np.sqrt(0.5)).max() <= ULP
+
+
+def test_element_vector_is_double() -> None:
+    model = flexact.Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.beam(a, b, y=(0, THIRD, 1))
+    matrix = flexact.jacobian(model)
+    row = matrix.row_labels.index((1, 5))
+    of_q = [matrix.column_labels.index((b.position, axis)) for axis in "yz"]
+    wanted = np.array([THIRD, 1]) / np.hypot(THIRD, 1)
+    assert np.abs(matrix.toarray()[row, of_q] - wanted).max() <= ULP
+
+
+def test_configuration_and_deformation_are_double() -> None:
+    model = truss((1, 0, 0))
+    start = model.reference()
+    delta = np.zeros((2, 3))
+    delta[1, 0] = THIRD
+    assert abs(flexact.deformations(model, start.moved(delta))[0] - THIRD) <= 2 * ULP
+
+
+def test_torsion_constant_is_double() -> None:
+    # A quarter turn of q: eq. (4) gives e2 = l0 in size, eq. (3) e1 = c_t / (2 l0).
+    model = flexact.Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.beam(a, b)
+    delta = np.zeros((4, 3))
+    delta[model.node_numbers.tolist().index(b.orientation), 0] = np.pi / 2
+    turned = model.reference().moved(delta)
+    assert abs(flexact.deformations(model, turned, c_t=THIRD)[0] - THIRD / 2) <= ULP
+
+
+def test_element_table_is_whole() -> None:
+    table = _boundary.describe_element_kinds()
+    assert len(table) == _core.count_element_kinds()
+    words = {row[0]: row for row in table}
+    assert words["BEAM"][1:3] == ((2, 4, 2, 4), 6)
+    assert words["PLBEAM"][1:3] == ((1, 3, 1, 3), 3)
+    assert words["HINGE"][5][:3] == (2, 2, 2)
+
+
+def test_no_columns() -> None:
+    # references.md: a sheet clamped at both ends, three self-stresses, D(c) without columns.
+    model = flexact.Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.sheet(a, b, (0, 0, 1))
+    model.fix(a)
+    model.fix(b)
+    analysis = results(model)
+    assert (analysis.rows, analysis.columns, analysis.rank) == (3, 0, 0)
+    assert analysis.raw.motions.shape == (0, 0)
+    assert len(analysis.self_stresses) == 3
+
+
+def test_no_rows_and_nothing_at_all() -> None:
+    model = flexact.Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    bar = model.truss(a, b)
+    model.release(bar)
+    analysis = results(model)
+    assert (analysis.rows, analysis.columns, analysis.under_constrained) == (0, 6, 6)
+    model.fix(a)
+    model.fix(b)
+    analysis = results(model)
+    assert (analysis.rows, analysis.columns) == (0, 0)
+    assert analysis.verdict is flexact.Verdict.EXACT
+    assert analysis.singular_values.size == 0
+
+
+def empty() -> dict[str, np.ndarray]:
+    return {
+        "node_number": np.zeros(0, int),
+        "node_kind": np.zeros(0, int),
+        "node_value": np.zeros((4, 0)),
+        "coordinate_class": np.zeros((3, 0), int),
+        "element_number": np.zeros(0, int),
+        "element_kind": np.zeros(0, int),
+        "element_node": np.zeros((4, 0), int),
+        "element_vector": np.zeros((3, 0)),
+        "deformation_class": np.zeros((6, 0), int),
+    }
+
+
+def test_empty_model_is_counted_and_refused() -> None:
+    arrays = model_arrays(**empty())
+    count = _boundary.count_model(arrays)
+    assert (count.rows, count.columns, count.counts.sum()) == (0, 0, 0)
+    with pytest.raises(flexact.ModelError, match="nothing to analyse"):
+        flexact.analyse(flexact.Model())
+
+
+@pytest.mark.parametrize("name", ["node_value", "coordinate_class", "element_node"])
+def test_one_dimension_too_few_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=name):
+        model_arrays(**{**empty(), name: np.zeros(0)})
+
+
+def test_transposed_array_is_refused() -> None:
+    arrays = {key: np.array(value) for key, value in truss((1, 0, 0)).data.arrays._asdict().items()}
+    arrays["coordinate_class"] = arrays["coordinate_class"].T
+    with pytest.raises(ValueError, match=r"coordinate_class has shape \(2, 3\)"):
+        model_arrays(**arrays)
+
+
+def test_wrong_types_are_refused() -> None:
+    arrays = truss((1, 0, 0)).data.arrays._asdict()
+    with pytest.raises(TypeError, match="node_kind must hold whole numbers"):
+        model_arrays(**{**arrays, "node_kind": np.array([2.0, 2.0])})
+    with pytest.raises(TypeError, match="node_value must hold real numbers"):
+        model_arrays(**{**arrays, "node_value": np.full((4, 2), "x")})
+    with pytest.raises(ValueError, match="32 bits"):
+        model_arrays(**{**arrays, "node_number": np.array([1, 2**31])})
+
+
+def test_arrays_are_read_only_and_in_fortran_order() -> None:
+    for array in truss((1, 0, 0)).data.arrays:
+        assert array.flags.f_contiguous
+        assert not array.flags.writeable
+
+
+def test_wrong_configurations_are_refused() -> None:
+    model = truss((1, 0, 0))
+    other = truss((1, 0, 0))
+    other.truss(other.node(0, 0, 1), other.node(0, 1, 1))
+    with pytest.raises(ValueError, match="configuration has shape"):
+        flexact.deformations(model, other.reference())
+    with pytest.raises(ValueError, match="c_t has shape"):
+        flexact.deformations(model, model.reference(), c_t=[1.0, 2.0])
+    with pytest.raises(ValueError, match="delta has shape"):
+        model.reference().moved(np.zeros(6))
+
+
+def test_sizes_that_are_not_the_models_are_refused_by_the_core() -> None:
+    model = truss((1, 0, 0))
+    raw = _boundary.analyse_model(model.data.arrays, 2, 2)
+    assert raw.status == 3

@@ -1,0 +1,118 @@
+"""The command in a process of its own: encodings, pipes, full disks, interruptions, noise."""
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+from test_cli import DECKS, json_lines, write
+
+import flexact
+from flexact.cli.main import main
+
+
+@pytest.fixture
+def decks(tmp_path: Path) -> Path:
+    """A folder with one deck of each verdict."""
+    for name, text in DECKS.items():
+        write(tmp_path / "decks" / f"{name}.dat", text)
+    return tmp_path / "decks"
+
+
+def command(
+    *arguments: object, environment: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[bytes]:
+    """Run the command in a process of its own."""
+    return subprocess.run(
+        [sys.executable, "-m", "flexact", *map(str, arguments)],
+        capture_output=True,
+        env=process_environment() | (environment or {}),
+        check=False,
+    )
+
+
+def process_environment() -> dict[str, str]:
+    """The environment in which this very package is found."""
+    package = str(Path(flexact.__file__).parent.parent)
+    path = os.pathsep.join(filter(None, (package, os.environ.get("PYTHONPATH", ""))))
+    return {**os.environ, "PYTHONPATH": path}
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"\x00\x01\x02" * 100, bytes(range(256)), b"\xff\xfe", None]
+)
+@pytest.mark.parametrize("verb", ["analyse", "check"])
+def test_what_is_no_deck_exits_with_2(verb: str, content: bytes | None, tmp_path: Path) -> None:
+    path = tmp_path / "noise.dat"
+    if content is not None:
+        path.write_bytes(content)
+    done = command(verb, path)
+    assert done.returncode == 2
+    assert b"Traceback" not in done.stderr
+    assert b"noise.dat" in done.stderr
+
+
+def test_progress_is_for_terminals_only(decks: Path) -> None:
+    assert command("analyse", decks, "--json").stderr.count(b"[1/4]") == 0
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+def test_any_encoding_of_stdout_will_do(encoding: str, tmp_path: Path) -> None:
+    name = "m\u00e9canisme \u2192 1.dat"
+    path = write(tmp_path / name, "PLTRUSS 1 1 2 % barre \u00e9l\u00e9gante\nX 2 1 0\nFIX 1\n")
+    write(tmp_path / "broken.dat", "PLTRUS 1 1 2 % \u2192\n")
+    surroundings = {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "1"}
+    for extra in ([], ["--json"]):
+        done = command("analyse", tmp_path, *extra, environment=surroundings)
+        assert done.returncode == 2
+        assert b"Traceback" not in done.stderr
+        done.stdout.decode(encoding)
+    lines = json_lines(done.stdout.decode(encoding))
+    assert str(path) in [line["deck"] for line in lines]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and signals of POSIX")
+@pytest.mark.parametrize("arguments", [("--help",), ("analyse", "{decks}", "--json")])
+def test_a_broken_pipe_ends_quietly(arguments: tuple[str, ...], decks: Path) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "flexact", *(a.format(decks=decks) for a in arguments)],
+            stdout=writer,
+            stderr=subprocess.PIPE,
+            env=process_environment(),
+            check=False,
+        )
+    finally:
+        os.close(writer)
+    assert done.stderr == b""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_behind_stdout_is_told(decks: Path) -> None:
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "flexact", "analyse", str(decks / "exact.dat")],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            env=process_environment(),
+            check=False,
+        )
+    assert done.returncode == 1
+    assert b"No space left" in done.stderr
+    assert b"Traceback" not in done.stderr
+
+
+def test_control_c_ends_quietly(
+    decks: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupt(*_: object, **__: object) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(flexact, "analyse", interrupt)
+    assert main(["analyse", str(decks / "exact.dat")]) == 130
+    assert "Traceback" not in capsys.readouterr().err

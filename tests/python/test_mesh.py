@@ -1,0 +1,201 @@
+"""The mesh: geometry, motions and self-stresses, and that files keep them.
+
+Expected values come from statics and kinematics by hand, named in each test.
+"""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import flexact
+from flexact.mesh import to_meshio
+from flexact.mesh_file import MeshFormatError, find_format, mesh_bytes
+
+meshio: Any = pytest.importorskip("meshio")
+
+COLLINEAR = """\
+PLTRUSS 7 1 2
+PLTRUSS 9 2 3
+X 1 -1 0
+X 3 1 0
+FIX 1
+FIX 3
+"""
+CLAMPED_SHEET = """\
+% one sheet in the xz plane between two clamps: no columns, three self-stresses
+BEAM 1 1 2 3 4 0 1 0
+X 3 2 0 0
+FIX 1
+FIX 2
+FIX 3
+FIX 4
+RLSE 1 2 5 6
+"""
+HINGED = """\
+% a rigid arm of length 2 on a hinge about z at (1, 0, 0), at the end of a rigid link to ground
+HINGE 1 2 4 0 0 1
+RBEAM 2 1 2 3
+RBEAM 3 3 4 5
+X 3 1 0 0
+X 5 3 0 0
+FIX 1
+FIX 2
+RLSE 1 1
+"""
+PLANAR_CLAMPED = "PLBEAM 1 1 2 3 4\nX 3 2 0\nFIX 1\nFIX 2\nFIX 3\nFIX 4\n"
+
+Read = Callable[[str], flexact.Analysis]
+
+
+@pytest.fixture
+def analyse(tmp_path: Path) -> Read:
+    def from_text(text: str) -> flexact.Analysis:
+        path = tmp_path / "deck.dat"
+        path.write_text(text)
+        return flexact.analyse(path)
+
+    return from_text
+
+
+def test_collinear_bars(analyse: Read) -> None:
+    """The middle joint moves across, both bars carry the same force."""
+    mesh = to_meshio(analyse(COLLINEAR))
+    assert [(block.type, block.data.tolist()) for block in mesh.cells] == [
+        ("line", [[0, 1], [2, 3]])
+    ]
+    np.testing.assert_array_equal(mesh.points, [[-1, 0, 0], [0, 0, 0], [0, 0, 0], [1, 0, 0]])
+    np.testing.assert_array_equal(mesh.point_data["node"], [1, 2, 2, 3])
+    motion = mesh.point_data["motion_1"]
+    np.testing.assert_allclose(np.abs(motion[:, 1]), [0, 1, 1, 0], atol=1e-15)
+    np.testing.assert_array_equal(motion[1], motion[2])
+    np.testing.assert_array_equal(mesh.cell_data["element"][0], [7, 9])
+    force = mesh.cell_data["selfstress_1_N"][0]
+    np.testing.assert_allclose(np.abs(force), np.sqrt([0.5, 0.5]), atol=1e-15)
+    assert force[0] * force[1] > 0.0
+
+
+def test_moments_of_a_clamped_sheet(analyse: Read) -> None:
+    """Its self-stresses span elongation and bending about y at both ends, l0 = 2.
+
+    An orthonormal basis of a space of unit vectors of sigma_1, sigma_3, sigma_4: the squares of
+    N sum up to 1 over the basis; a moment is sigma l0.
+    """
+    analysis = analyse(CLAMPED_SHEET)
+    cells = to_meshio(analysis).cell_data
+    names = [f"selfstress_{k}_" for k in (1, 2, 3)]
+    forces = np.array([cells[name + "N"][0][0] for name in names])
+    assert forces @ forces == pytest.approx(1.0, abs=1e-14)
+    for name, stress in zip(names, analysis.self_stresses, strict=True):
+        ends = 2.0 * stress.vector[[row[1] in (3, 4) for row in analysis.row_labels]]
+        assert abs(cells[name + "My"][0][0]) == pytest.approx(np.abs(ends).max(), abs=1e-14)
+        assert cells[name + "T"][0][0] == cells[name + "Mz"][0][0] == 0.0
+
+
+def test_a_hinge_is_a_vertex_that_its_parts_share(analyse: Read) -> None:
+    """The arm turns about z: its end moves along y by its length, 2, times the rotation."""
+    mesh = to_meshio(analyse(HINGED))
+    assert [(block.type, len(block.data)) for block in mesh.cells] == [("vertex", 1), ("line", 2)]
+    assert [blocks.tolist() for blocks in mesh.cell_data["element"]] == [[1], [2, 3]]
+    np.testing.assert_array_equal(mesh.points[0], [1, 0, 0])
+    motion, rotation = mesh.point_data["motion_1"], mesh.point_data["motion_1_rotation"]
+    turn = rotation[3, 2]
+    assert abs(turn) == pytest.approx(1 / np.sqrt(5), abs=1e-14)
+    np.testing.assert_allclose(motion[4], [0, 2 * turn, 0], atol=1e-14)
+    np.testing.assert_array_equal(rotation[4], rotation[3])
+    np.testing.assert_allclose(motion[:4], 0.0, atol=1e-14)
+
+
+def test_both_hinges_of_a_cardan_joint_sit_at_its_centre(analyse: Read) -> None:
+    """Node 10 stands between two hinges alone; the joint is at (1, 0, 0)."""
+    cardan = HINGED.replace("HINGE 1 2 4 0 0 1", "HINGE 1 2 10 0 0 1\nHINGE 4 10 4 0 1 0")
+    mesh = to_meshio(analyse(cardan))
+    np.testing.assert_array_equal(mesh.cell_data["element"][0], [1, 4])
+    np.testing.assert_array_equal(mesh.points[:2], [[1, 0, 0], [1, 0, 0]])
+
+
+def test_planar_moments_count_as_in_space(analyse: Read) -> None:
+    """A beam clamped at both ends in the plane and in space: opposite raw signs of bending.
+
+    Planar e2 = -l0 el.ey(p), spatial e5 = +l0 el.ey(p); references: deck language, eq. (4).
+    """
+    analysis = analyse(PLANAR_CLAMPED)
+    cells = to_meshio(analysis).cell_data
+    for k, stress in enumerate(analysis.self_stresses, start=1):
+        bending = 2.0 * stress.vector[1:]
+        expected = -bending[np.argmax(np.abs(bending))]
+        assert abs(cells[f"selfstress_{k}_Mz"][0][0]) == pytest.approx(abs(expected), abs=1e-14)
+        if abs(expected) > 1e-10 and abs(abs(bending[0]) - abs(bending[1])) > 1e-10:
+            assert cells[f"selfstress_{k}_Mz"][0][0] == pytest.approx(expected, abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("vtu", COLLINEAR),
+        ("vtu", HINGED),
+        ("vtk", COLLINEAR),
+        ("vtk", HINGED),
+        ("gmsh", COLLINEAR),
+        ("gmsh", HINGED),
+        ("xdmf", COLLINEAR),
+    ],
+)
+def test_files_keep_every_value(
+    name: str, text: str, analyse: Read, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = to_meshio(analyse(text))
+    form = find_format(name)
+    path = tmp_path / f"mesh{form.suffix}"
+    path.write_bytes(mesh_bytes(mesh, form))
+    if name == "xdmf":
+        # meshio imports h5py to read any XDMF file, and uses it for HDF data only.
+        monkeypatch.setitem(sys.modules, "h5py", ModuleType("h5py"))
+    back = meshio.read(path, file_format=form.names[-1])
+    np.testing.assert_allclose(back.points, mesh.points, rtol=1e-12, atol=1e-12)
+    assert [block.type for block in back.cells] == [block.type for block in mesh.cells]
+    for block, again in zip(mesh.cells, back.cells, strict=True):
+        np.testing.assert_array_equal(again.data, block.data)
+    for key, values in mesh.point_data.items():
+        np.testing.assert_allclose(back.point_data[key], values, rtol=1e-12, atol=1e-12)
+    for key, blocks in mesh.cell_data.items():
+        for values, again in zip(blocks, back.cell_data[key], strict=True):
+            np.testing.assert_allclose(again.ravel(), values, rtol=1e-12, atol=1e-12)
+
+
+def test_xdmf_with_vertices_is_as_its_standard_says(analyse: Read) -> None:
+    """Polyline 2 and polyvertex 1, each behind its number of points; meshio reads no vertices."""
+    content = ElementTree.fromstring(mesh_bytes(to_meshio(analyse(HINGED)), find_format("xdmf")))
+    topology = content.find(".//Topology/DataItem")
+    assert topology is not None and topology.text is not None
+    assert topology.text.split() == ["1", "1", "0", "2", "2", "1", "2", "2", "2", "3", "4"]
+    assert {item.get("Format") for item in content.iter("DataItem")} == {"XML"}
+
+
+@pytest.mark.parametrize("name", ["stl", "obj", "nastran", "off", "svg", "tetgen"])
+def test_formats_that_cannot_hold_it_say_why(
+    name: str, analyse: Read, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(MeshFormatError, match=f"mesh format {name} cannot hold this scene: .+"):
+        mesh_bytes(to_meshio(analyse(HINGED)), find_format(name))
+    assert capsys.readouterr() == ("", "")
+
+
+def test_unknown_formats_are_named_with_the_known_ones() -> None:
+    with pytest.raises(MeshFormatError, match=r"'nonsense' is not known; there are .*vtu"):
+        find_format("nonsense")
+
+
+@pytest.mark.parametrize("name", ["vtu", ".VTU", "VTU"])
+def test_formats_go_by_suffix_or_name(name: str) -> None:
+    assert find_format(name).suffix == ".vtu"
+
+
+def test_the_analysis_gives_its_mesh(analyse: Read) -> None:
+    analysis = analyse(COLLINEAR)
+    np.testing.assert_array_equal(analysis.to_meshio().points, to_meshio(analysis).points)

@@ -1,0 +1,99 @@
+"""What the builder says to wrong use: a ModelError with a code, at once."""
+
+import pytest
+
+import flexact
+from flexact import Model, ModelError
+
+
+def code_of(error: pytest.ExceptionInfo[ModelError]) -> str:
+    return error.value.diagnostics[0].code
+
+
+WRONG_USE = {
+    "component-out-of-range": lambda m, a, b, e: m.fix(a, "w"),
+    "class-conflict": lambda m, a, b, e: (m.fix(a, "x"), m.independent(a, "x")),
+    "other-model": lambda m, a, b, e: m.truss(a, Model().node(0, 0, 0)),
+    "no-such-element": lambda m, a, b, e: m.release(99, 1),
+    "no-such-node": lambda m, a, b, e: m.fix(99, "x"),
+    "two-kinds-of-node": lambda m, a, b, e: m.truss(a.orientation, b),
+    "bad-number": lambda m, a, b, e: m.node(float("nan"), 0, 0),
+    "zero-vector": lambda m, a, b, e: m.beam(a, b, y=(0, 0, 0)),
+    "missing-vector": lambda m, a, b, e: m.hinge(a),
+    "not-a-point": lambda m, a, b, e: m.wire(1, 3),
+    "ambiguous-number": lambda m, a, b, e: m.independent(1),
+    "two-positions": lambda m, a, b, e: m.hinge(a, (0, 0, 1), b),
+    "out-of-range": lambda m, a, b, e: m.sheet(a, b, (0, 0, 1), beams=0),
+    "not-an-element": lambda m, a, b, e: m.release(a, 1),
+    "not-a-node": lambda m, a, b, e: m.fix(e),
+}
+
+
+@pytest.mark.parametrize("code", WRONG_USE)
+def test_wrong_use_is_a_model_error_at_once(code: str) -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    element = model.truss(a, b)
+    with pytest.raises(ModelError) as error:
+        WRONG_USE[code](model, a, b, element)
+    assert code_of(error) == code
+    assert str(error.value).startswith(f"error[{code}]: ")
+
+
+@pytest.mark.parametrize("bad", ["a", 5, (1, 2), (1, 2, "q"), [[1], [2], [3]]])
+def test_bad_vectors_are_model_errors(bad: object) -> None:
+    model = Model()
+    with pytest.raises(ModelError, match="three numbers"):
+        model.beam(model.node(0, 0, 0), model.node(1, 0, 0), y=bad)  # type: ignore[arg-type]
+
+
+def test_wrong_use_changes_nothing() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    wire = model.beam(a, b)
+    model.independent(a, "y")
+    model.independent(wire, 3)
+    for wrong in (lambda: model.fix(a), lambda: model.release(wire)):
+        with pytest.raises(ModelError, match="two classes"):
+            wrong()
+    assert model.coordinate_classes[0].tolist() == [2, 3, 2]
+    assert model.deformation_classes[0].tolist() == [1, 1, 3, 1, 1, 1]
+
+
+def test_deformation_out_of_range() -> None:
+    model = Model()
+    bar = model.truss(model.node(0, 0, 0), model.node(1, 0, 0))
+    with pytest.raises(ModelError, match="element 1 has no deformation 2"):
+        model.release(bar, 2)
+
+
+def test_core_checks_are_model_errors() -> None:
+    model = Model()
+    a, b, c = model.node(1, 1, 1), model.node(1, 1, 1), model.node(2, 1, 1)
+    model.truss(a, b)
+    model.beam(a, c, y=(-3, 0, 0))
+    model.sheet(b, c, width=(2, 0, 0))
+    model.truss(a, a)
+    for call in (flexact.analyse, flexact.jacobian, Model.check):
+        with pytest.raises(ModelError) as error:
+            call(model)
+        codes = [item.code for item in error.value.diagnostics]
+        assert codes == ["zero-length", "parallel-vector", "parallel-vector", "same-node"]
+        assert "TRUSS 1" in str(error.value)
+
+
+def test_class_of_a_node_that_nobody_uses() -> None:
+    model = Model()
+    a, b, c = model.node(0, 0, 0), model.node(1, 0, 0), model.node(2, 0, 0)
+    model.truss(a, b)
+    model.fix(a)
+    assert model.coordinate_classes[0].tolist() == [1, 1, 1]
+    model.fix(c)
+    with pytest.raises(ModelError, match=f"node {c.position} .* no element uses it"):
+        flexact.analyse(model)
+    other = Model()
+    a, b = other.node(0, 0, 0), other.node(1, 0, 0)
+    other.truss(a, b)
+    other.fix(a, "rx")
+    with pytest.raises(ModelError, match=f"node {a.orientation} "):
+        flexact.analyse(other)

@@ -1,0 +1,129 @@
+"""Files of results: planned before anything is computed, written together or not at all."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, exit_code, find_decks
+from flexact.outputs import OutputError, plan_files, write_together
+
+
+def touch(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("")
+    return path
+
+
+def files_in(folder: Path) -> list[str]:
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+
+
+def test_a_folder_stands_for_its_decks_in_order(tmp_path: Path) -> None:
+    for name in ("b.dat", "a/z.DAT", "a/notes.txt", "c/d/e.dat"):
+        touch(tmp_path / name)
+    decks = find_decks([str(tmp_path)])
+    assert [deck.relative for deck in decks] == [Path("a/z"), Path("b"), Path("c/d/e")]
+    assert [Path(deck.path) for deck in decks] == [
+        tmp_path / name for name in ("a/z.DAT", "b.dat", "c/d/e.dat")
+    ]
+
+
+def test_a_file_is_taken_whatever_its_suffix(tmp_path: Path) -> None:
+    (deck,) = find_decks([str(tmp_path / "missing.v2.txt")])
+    assert deck == DeckFile(str(tmp_path / "missing.v2.txt"), Path("missing.v2"))
+
+
+def test_a_folder_without_decks_is_kept_to_be_told(tmp_path: Path) -> None:
+    (deck,) = find_decks([str(tmp_path)])
+    assert deck.empty_folder
+
+
+@pytest.mark.parametrize(
+    ("codes", "expected"),
+    [((0, 0), 0), ((0, 3), 3), ((3, 2, 0), 2), ((2, 3, 1), 1), ((), 0)],
+)
+def test_the_gravest_deck_decides_the_exit_code(codes: tuple[int, ...], expected: int) -> None:
+    assert exit_code(Outcome("deck", ExitCode(code), "") for code in codes) == expected
+
+
+def test_files_are_planned_by_deck(tmp_path: Path) -> None:
+    plan = plan_files([DeckFile("in/a/x.dat", Path("a/x.1"))], tmp_path, (".json", ".log"))
+    assert plan == {"in/a/x.dat": (tmp_path / "a/x.1.json", tmp_path / "a/x.1.log")}
+
+
+def test_two_decks_for_one_file_are_refused(tmp_path: Path) -> None:
+    decks = [DeckFile("one/x.dat", Path("x")), DeckFile("two/x.dat", Path("x"))]
+    with pytest.raises(OutputError, match=r"one/x\.dat and two/x\.dat would both write"):
+        plan_files(decks, tmp_path / "new", (".json",))
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_deck_is_not_overwritten(tmp_path: Path) -> None:
+    deck = touch(tmp_path / "x.json")
+    with pytest.raises(OutputError, match="would overwrite the deck"):
+        plan_files([DeckFile(str(deck), Path("x"))], tmp_path, (".json",))
+
+
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
+    file = touch(tmp_path / "file")
+    with pytest.raises(OutputError, match="is not a folder"):
+        plan_files([], file / "below", (".json",))
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may write everywhere")
+def test_a_folder_without_permission_is_refused(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    try:
+        with pytest.raises(OutputError, match="no permission"):
+            plan_files([], tmp_path / "new", (".json",))
+    finally:
+        tmp_path.chmod(0o700)
+
+
+def test_files_are_written_with_their_folders(tmp_path: Path) -> None:
+    write_together({tmp_path / "a/x.json": b"1", tmp_path / "a/x.log": b"2"})
+    assert files_in(tmp_path) == ["a/x.json", "a/x.log"]
+    assert (tmp_path / "a/x.log").read_bytes() == b"2"
+
+
+def test_files_are_replaced(tmp_path: Path) -> None:
+    for content in (b"old", b"new"):
+        write_together({tmp_path / "x.json": content})
+    assert (tmp_path / "x.json").read_bytes() == b"new"
+
+
+def test_a_folder_in_the_way_leaves_all_as_it_was(tmp_path: Path) -> None:
+    (tmp_path / "x.log").mkdir()
+    (tmp_path / "x.json").write_bytes(b"old")
+    with pytest.raises(OutputError, match="it is a folder"):
+        write_together({tmp_path / "x.json": b"new", tmp_path / "x.log": b"new"})
+    assert files_in(tmp_path) == ["x.json"]
+    assert (tmp_path / "x.json").read_bytes() == b"old"
+
+
+def test_a_write_that_fails_half_way_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = Path.write_bytes
+
+    def fill_up(path: Path, content: bytes) -> int:
+        if content == b"second":
+            write(path, content[:3])
+            raise OSError(28, "No space left on device")
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", fill_up)
+    with pytest.raises(OutputError, match=r"x\.log: No space left on device"):
+        write_together({tmp_path / "x.json": b"first", tmp_path / "x.log": b"second"})
+    assert files_in(tmp_path) == []
+
+
+def test_a_name_too_long_for_the_file_system_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="cannot write"):
+        write_together({tmp_path / ("x" * 300): b"content"})
+    assert files_in(tmp_path) == []
+
+
+def test_output_errors_are_errors_of_the_batch() -> None:
+    assert issubclass(OutputError, BatchError)

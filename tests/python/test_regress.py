@@ -1,0 +1,182 @@
+"""Stored answers: they come back whole, and what differs is said in words."""
+
+import dataclasses
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flexact
+from flexact.cli.main import main
+from flexact.regress import Tolerances, differences
+from flexact.stored_answer import Projector, StoredAnswer, StoredAnswerError, dumps, load, store
+
+COLLINEAR = """\
+PLTRUSS 1 1 2
+PLTRUSS 2 2 3
+X 1 -1 0
+X 3 1 0
+FIX 1
+FIX 3
+"""
+# The right-hand bar raised: its elongation now depends on the joint's y, and nothing is left over.
+RAISED = COLLINEAR.replace("X 3 1 0", "X 3 1 1")
+PLANE = tuple(f"1:{axis}" for axis in "xyz")
+
+
+@pytest.fixture
+def deck(tmp_path: Path) -> Path:
+    path = tmp_path / "in" / "sub" / "bars.dat"
+    path.parent.mkdir(parents=True)
+    path.write_text(COLLINEAR)
+    return path
+
+
+def stored(text: str) -> StoredAnswer:
+    return store(flexact.analyse(flexact.read_text(text)))
+
+
+def with_motions(vectors: np.ndarray, labels: tuple[str, ...] = PLANE) -> StoredAnswer:
+    """An answer whose motions are the span of the rows."""
+    basis = np.linalg.qr(vectors.T)[0]
+    return dataclasses.replace(stored(COLLINEAR), motions=Projector(labels, basis @ basis.T))
+
+
+def test_an_answer_comes_back_to_the_last_bit(tmp_path: Path) -> None:
+    answer = stored(RAISED.replace("X 2", "X 2 0.1 0.3"))
+    path = tmp_path / "answer.json"
+    path.write_text(dumps(answer))
+    again = load(path)
+    assert dumps(again) == dumps(answer)
+    np.testing.assert_array_equal(again.singular_values, answer.singular_values)
+
+
+def test_the_stored_form_is_the_documented_one() -> None:
+    """Two collinear bars: the joint moves along y alone; both bars carry sqrt(1/2)."""
+    content = json.loads(dumps(stored(COLLINEAR)))
+    assert list(content) == [
+        "format", "deck", "source", "verdict", "rank", "rows", "columns", "under_constrained",
+        "over_constrained", "degrees_of_freedom", "counts", "singular_values", "motions",
+        "self_stresses",
+    ]  # fmt: skip
+    assert content["motions"]["projector"] == [["2:y", "2:y", 1.0]]
+    pairs = [entry[:2] for entry in content["self_stresses"]["projector"]]
+    assert pairs == [["1:1", "1:1"], ["1:1", "2:1"], ["2:1", "2:1"]]
+    values = [entry[2] for entry in content["self_stresses"]["projector"]]
+    np.testing.assert_allclose(values, 0.5, atol=1e-15)
+
+
+def test_nothing_differs_from_itself() -> None:
+    assert differences(stored(COLLINEAR), stored(COLLINEAR)) == ()
+
+
+def test_sign_and_basis_do_not_matter() -> None:
+    plane = np.array([[1.0, 2.0, 3.0], [0.0, 1.0, -1.0]])
+    mixed = np.array([[-2.0, 1.0], [3.0, 5.0]]) @ plane
+    assert differences(with_motions(plane), with_motions(mixed)) == ()
+
+
+def test_the_order_of_labels_does_not_matter() -> None:
+    plane = np.array([[1.0, 2.0, 3.0], [0.0, 1.0, -1.0]])
+    turned = with_motions(plane[:, ::-1], PLANE[::-1])
+    assert differences(with_motions(plane), turned) == ()
+
+
+@pytest.mark.parametrize("degrees", [1e-4, 3.2, 60.0])
+def test_a_turned_subspace_is_told_with_its_angle(degrees: float) -> None:
+    angle = np.radians(degrees)
+    before = with_motions(np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))
+    now = with_motions(np.array([[1.0, 0.0, 0.0], [0.0, np.cos(angle), np.sin(angle)]]))
+    (told,) = differences(before, now)
+    assert told.startswith(f"motions: the subspace turned by {degrees:.2g} degrees")
+
+
+def test_who_takes_part_is_told() -> None:
+    labels = ("3:x", "5:x", "9:x")
+    before = with_motions(np.array([[1.0, 0.0, 1.0]]), labels)
+    now = with_motions(np.array([[1.0, 1.0, 0.0]]), labels)
+    (told,) = differences(before, now)
+    assert told.endswith("; node 5 takes part now; node 9 no longer takes part")
+
+
+def test_another_dimension_is_told() -> None:
+    (told,) = differences(with_motions(np.eye(3)[:1]), with_motions(np.eye(3)[:2]))
+    assert told == "motions: the subspace has 2 dimensions, stored with 1"
+
+
+def test_every_kind_of_difference_is_told() -> None:
+    told = differences(stored(COLLINEAR), stored(RAISED))
+    heads = [sentence.split(":")[0] for sentence in told]
+    assert heads == [
+        "verdict", "rank", "under constrained", "over constrained", "singular values", "motions",
+        "self-stresses",
+    ]  # fmt: skip
+    assert "node 2 no longer takes part" in told[5]
+    assert "elements 1, 2 no longer take part" in told[6]
+
+
+def test_singular_values_are_compared_by_the_largest() -> None:
+    answer = stored(RAISED)
+    largest = answer.singular_values[0]
+    for change, told in ((0.9e-9, 0), (1.1e-9, 1)):
+        values = answer.singular_values + np.array([0.0, change * largest])
+        other = dataclasses.replace(answer, singular_values=values)
+        assert len(differences(answer, other)) == told
+    assert differences(answer, other, Tolerances(singular_values=1e-8)) == ()
+
+
+# The command
+
+
+def test_store_then_compare(deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder, answers = str(deck.parent.parent), str(tmp_path / "answers")
+    assert main(["regress", folder, "--against", answers]) == 1
+    assert "no stored answer" in capsys.readouterr().err
+    assert main(["regress", folder, "--against", answers, "--store"]) == 0
+    assert (tmp_path / "answers" / "sub" / "bars.json").is_file()
+    assert main(["regress", folder, "--against", answers]) == 0
+    assert capsys.readouterr().out.endswith("bars.dat: as stored\n")
+    deck.write_text(RAISED)
+    assert main(["regress", folder, "--against", answers]) == 3
+    assert "verdict: exactly constrained, stored as" in capsys.readouterr().out
+
+
+def test_a_broken_deck_is_not_stored(deck: Path, tmp_path: Path) -> None:
+    deck.write_text("PLTRUSS 1 1\n")
+    answers = tmp_path / "answers"
+    assert main(["regress", str(deck), "--against", str(answers), "--store"]) == 2
+    assert not answers.exists()
+    assert main(["regress", str(deck), "--against", str(answers)]) == 2
+
+
+def test_a_tolerance_may_be_given(deck: Path, tmp_path: Path) -> None:
+    arguments = ["regress", str(deck), "--against", str(tmp_path)]
+    deck.write_text(RAISED)
+    main([*arguments, "--store"])
+    deck.write_text(COLLINEAR.replace("X 3 1 0", "X 3 1 1.000001"))
+    assert main(arguments) == 3
+    assert main([*arguments, "--tolerance", "1e-3"]) == 0
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "",
+        "[]",
+        "{}",
+        "\udcff",
+        '{"format": 2}',
+        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "singular_values": [1e999]}),
+        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "motions": {"projector": [1]}}),
+        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "motions": {"projector": [[1, 2, 3]]}}),
+        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "counts": [1]}),
+        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "rank": None}),
+    ],
+)
+def test_what_is_no_stored_answer_is_told(content: str, deck: Path, tmp_path: Path) -> None:
+    path = tmp_path / "bars.json"
+    path.write_text(content, encoding="utf-8", errors="surrogateescape")
+    with pytest.raises(StoredAnswerError, match=r"bars\.json: "):
+        load(path)
+    assert main(["regress", str(deck), "--against", str(tmp_path)]) == 1

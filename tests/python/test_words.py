@@ -1,0 +1,143 @@
+"""The result in words: the verdict first, and remedies that do what they say."""
+
+import re
+
+import numpy as np
+import pytest
+from known_models import folded_sheet, ring, twelve_trusses
+
+import flexact
+from flexact import Model, analyse, remedies
+from flexact.words import describe
+
+
+def text_of(model: Model) -> str:
+    return re.sub(r"\s+", " ", describe(analyse(model)))
+
+
+def test_verdict_comes_first() -> None:
+    assert text_of(twelve_trusses()).startswith(
+        "twelve trusses is under-constrained and over-constrained: 1 motion is left over that no "
+        "degree of freedom accounts for, and there is 1 self-stress (statically indeterminate "
+        "stress) more than the mechanism needs. "
+    )
+    assert text_of(ring(5)).startswith(
+        "The mechanism is exactly constrained: no motion is left over, and there is no self-stress."
+    )
+    assert text_of(folded_sheet(clamped=False)).startswith(
+        "folded sheet is under-constrained: 6 motions are left over that no degree of freedom "
+        "accounts for, and there is no self-stress."
+    )
+
+
+def test_over_constrained_without_columns() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.sheet(a, b, (0, 0, 1), name="leaf <1>")
+    model.fix(a)
+    model.fix(b)
+    text = text_of(model)
+    assert text.startswith(
+        "The mechanism is over-constrained: 3 self-stresses (statically indeterminate stresses) "
+        "more than the mechanism needs; no motion is left over."
+    )
+    assert "D(c) has 3 rows and 0 columns; its rank is 0." in text
+    assert "element 1 (leaf <1>) e3 bending xz at p" in text
+    html = analyse(model)._repr_html_()
+    assert "leaf &lt;1&gt;" in html and "<1>" not in html
+
+
+def test_numbers_parts_and_remedies_of_the_fold() -> None:
+    text = text_of(folded_sheet(clamped=True))
+    assert "D(c) has 6 rows and 6 columns; its rank is 5." in text
+    assert "1. node 4 rz " in text
+    assert "It goes when one of these is made independent or fixed: node 4 rz Or" in text
+    # references.md: independent bending belongs at the fold, e6 of the first or e5 of the second.
+    assert (
+        "released deformations is made independent or held: element 1 (first) e6 bending xy at q; "
+        "element 2 (second) e5 bending xy at p"
+    ) in text
+    assert (
+        "It goes when one of these deformations is released: element 1 (first) e3 bending xz at p; "
+        "element 2 (second) e4 bending xz at q"
+    ) in text
+
+
+def test_many_modes_are_counted_not_listed() -> None:
+    text = text_of(folded_sheet(clamped=True, beams=6))
+    assert "12. node" in text and "13. node" not in text
+    assert "... and 19 more motions" in text
+
+
+def test_lines_stay_short_and_notes_are_told_once() -> None:
+    deck = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nXM 2 1\nEND\n"
+    analysis = analyse(flexact.read_text(deck))
+    text = describe(analysis)
+    assert text.count("warning: ") == 1 and text.count("note: ") == 1
+    assert describe(analysis, about_model=False) == text[: text.index("\n\nwarning: ")]
+    assert "warning: the node has a value already (line 3)" in text
+    plain = describe(analyse(folded_sheet(False, 4)))
+    assert max(map(len, plain.split("\n"))) <= 100
+
+
+def test_mechanism_without_extent() -> None:
+    model = Model()
+    a = model.node(0, 0, 0)
+    b = model.hinge(a, (0, 0, 1))
+    model.hinge(b, (0, 1, 0))
+    analysis = analyse(model)
+    assert analysis.under_constrained == 5
+    assert "Motions left over" in describe(analysis)
+    assert np.isfinite(remedies.coordinates(analysis)).all()
+
+
+def counts(model: Model) -> tuple[int, int]:
+    analysis = analyse(model)
+    return analysis.under_constrained, analysis.over_constrained
+
+
+@pytest.mark.parametrize("make", [twelve_trusses, lambda: folded_sheet(True, 2), lambda: ring(6)])
+def test_each_remedy_removes_one(make) -> None:  # type: ignore[no-untyped-def]
+    analysis = analyse(make())
+    m, s = counts(make())
+    for row in remedies.releases(analysis):
+        model = make()
+        element, deformation = analysis.row_labels[row]
+        model.release(element, deformation)
+        assert counts(model) == (m, s - 1)
+    for column in remedies.coordinates(analysis):
+        model = make()
+        node, coordinate = analysis.column_labels[column]
+        model.independent(node, coordinate)
+        assert counts(model) == (m - 1, s)
+    for index, deformation in remedies.deformations(analysis):
+        model = make()
+        model.independent(int(model.element_numbers[index]), deformation)
+        assert counts(model) == (m - 1, s)
+
+
+@pytest.mark.parametrize("beams", [1, 2, 3])
+def test_sets_of_remedies_remove_all(beams: int) -> None:
+    model = folded_sheet(False, beams)
+    analysis = analyse(model)
+    for column in remedies.coordinate_set(analysis):
+        node, coordinate = analysis.column_labels[column]
+        model.independent(node, coordinate)
+    assert counts(model) == (0, 0)
+
+
+def test_release_set_removes_all_self_stresses() -> None:
+    def frame() -> Model:
+        model = Model()
+        corners = [model.node(x, y, 0) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        for k in range(4):
+            model.beam(corners[k], corners[(k + 1) % 4])
+        model.fix(corners[0])
+        return model
+
+    model = frame()
+    analysis = analyse(model)
+    assert counts(model) == (0, 6)
+    for row in remedies.release_set(analysis):
+        model.release(*analysis.row_labels[row])
+    assert counts(model) == (0, 0)
