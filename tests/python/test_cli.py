@@ -69,8 +69,9 @@ def test_words_say_the_verdict_under_the_path(
     path = decks / f"{name}.dat"
     assert main(["analyse", str(path)]) == 0
     out, err = capsys.readouterr()
-    assert str(path) in out.splitlines()[0]
-    assert VERDICTS[name] in " ".join(out.split())
+    first, second = out.splitlines()[:2]
+    assert first == str(path)
+    assert second.startswith(f"{VERDICTS[name].capitalize()}: ")
     assert err == ""
 
 

@@ -17,15 +17,15 @@ def text_of(model: Model) -> str:
 
 def test_verdict_comes_first() -> None:
     assert text_of(twelve_trusses()).startswith(
-        "twelve trusses is under-constrained and over-constrained: 1 motion is left over that no "
+        "twelve trusses Under-constrained and over-constrained: 1 motion is left over that no "
         "degree of freedom accounts for, and there is 1 self-stress (statically indeterminate "
         "stress) more than the mechanism needs. "
     )
     assert text_of(ring(5)).startswith(
-        "The mechanism is exactly constrained: no motion is left over, and there is no self-stress."
+        "Exactly constrained: no motion is left over, and there is no self-stress."
     )
     assert text_of(folded_sheet(clamped=False)).startswith(
-        "folded sheet is under-constrained: 6 motions are left over that no degree of freedom "
+        "folded sheet Under-constrained: 6 motions are left over that no degree of freedom "
         "accounts for, and there is no self-stress."
     )
 
@@ -38,7 +38,7 @@ def test_over_constrained_without_columns() -> None:
     model.fix(b)
     text = text_of(model)
     assert text.startswith(
-        "The mechanism is over-constrained: 3 self-stresses (statically indeterminate stresses) "
+        "Over-constrained: 3 self-stresses (statically indeterminate stresses) "
         "more than the mechanism needs; no motion is left over."
     )
     assert "D(c) has 3 rows and 0 columns; its rank is 0." in text
