@@ -39,7 +39,7 @@ def in_turn(a: Callable[[], object], b: Callable[[], object], runs: int) -> tupl
 
 def bar_grid(elements: int) -> str:
     """A planar grid of bars with diagonals, its joints off the lattice by random amounts."""
-    side = int((elements / 3) ** 0.5) + 1
+    side = int((elements / 3) ** 0.5) + 2
     place = np.random.default_rng(1).random((side, side, 2))
     lines = []
     for i in range(side):
