@@ -4,7 +4,7 @@ module flexact_deck_classes
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds
    use flexact_keywords, only: keywords, role_coordinate, role_deformation
-   use flexact_lexer, only: next_line, next_word, line_t
+   use flexact_lexer, only: operand_span
    use flexact_model, only: class_none, class_fixed, class_dependent, class_independent, most_deformations, &
                             node_planar_position, node_position, node_angle
    use flexact_operands, only: operands_t, operands_of
@@ -12,6 +12,17 @@ module flexact_deck_classes
    implicit none
    private
    public :: read_classes
+
+   !> What a statement about classes may name: the components of a node or the
+   !> deformations of an element, and which entry of the classes each one is (0
+   !> for lambda0, which is none).
+   type :: choice_t
+      character(len=16) :: owner = ''
+      character(len=16) :: what = ''
+      character(len=16) :: part = ''
+      character(len=40) :: range = ''
+      integer, allocatable :: entry(:)
+   end type choice_t
 
 contains
 
@@ -24,103 +35,69 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics
       !> Where each class was stated first, 0 where none was.
       integer, allocatable :: coordinate_origin(:, :), deformation_origin(:, :)
-      integer :: i
+      type(operands_t) :: operands
+      integer :: i, node, element, class
 
       allocate (coordinate_origin(3, scene%model%nodes), source=0)
       allocate (deformation_origin(most_deformations, scene%model%elements), source=0)
       do i = 1, size(statements)
+         operands = operands_of(statements(i))
          select case (statements(i)%role)
          case (role_coordinate)
-            call read_coordinates(text, statements(i), scene, coordinate_origin, diagnostics)
+            call take_node(text, scene, operands, node, diagnostics)
+            if (node == 0) cycle
+            class = class_of(keywords(statements(i)%what)%name)
+            call read_choice(text, operands, components_of(scene%model%node_kind(node)), class, &
+                             scene%model%coordinate_class(:, node), coordinate_origin(:, node), diagnostics)
          case (role_deformation)
-            call read_deformations(text, statements(i), scene, deformation_origin, diagnostics)
+            call take_element(text, scene, operands, element, diagnostics)
+            if (element == 0) cycle
+            class = class_of(keywords(statements(i)%what)%name)
+            call read_choice(text, operands, deformations_of(scene%model%element_kind(element)), class, &
+                             scene%model%deformation_class(:, element), deformation_origin(:, element), diagnostics)
          end select
       end do
    end subroutine read_classes
 
-   subroutine read_coordinates(text, statement, scene, origin, diagnostics)
+   !> Give the named entries their class, all of them where none is named.
+   subroutine read_choice(text, operands, choice, class, classes, origin, diagnostics)
       character(len=*), intent(in) :: text
-      type(statement_t), intent(in) :: statement
-      type(scene_t), intent(inout) :: scene
-      integer, intent(inout) :: origin(:, :)
+      type(operands_t), intent(inout) :: operands
+      type(choice_t), intent(in) :: choice
+      integer, intent(in) :: class
+      integer, intent(inout) :: classes(:), origin(:)
       type(diagnostics_t), intent(inout) :: diagnostics
-      type(operands_t) :: operands, ahead
-      integer :: node, component, axis, class
+      type(operands_t) :: ahead
+      integer :: number, i
 
-      operands = operands_of(statement)
-      call take_node(text, scene, operands, node, diagnostics)
-      if (node == 0) return
-      class = class_of(keywords(statement%what)%name)
-      associate (classes => scene%model%coordinate_class(:, node), kind => scene%model%node_kind(node))
+      ahead = operands
+      if (.not. ahead%another(text)) then
+         call give_class(text, choice, operands%word, classes /= class_none, class, classes, origin, diagnostics)
+         return
+      end if
+      do
          ahead = operands
-         if (.not. ahead%another(text)) then
-            call give_class(text, 'a coordinate', operands%word, classes /= class_none, class, classes, &
-                            origin(:, node), diagnostics)
-            return
+         if (.not. ahead%another(text)) exit
+         call operands%positive_integer(text, choice%part, number, diagnostics)
+         if (number == 0) cycle
+         if (number > size(choice%entry)) then
+            call diagnostics%error('component-out-of-range', operands%word, &
+                                   'the '//trim(choice%owner)//' has no '//trim(choice%part)//' '// &
+                                   text(operands%word%first:operands%word%last), choice%range, &
+                                   'name a '//trim(choice%part)//' that the '//trim(choice%owner)//' has')
+         else if (choice%entry(number) == 0) then
+            call first_euler_parameter(operands, class, diagnostics)
+         else
+            call give_class(text, choice, operands%word, choice%entry(number) == [(i, i=1, size(classes))], &
+                            class, classes, origin, diagnostics)
          end if
-         do
-            ahead = operands
-            if (.not. ahead%another(text)) exit
-            call operands%positive_integer(text, 'component', component, diagnostics)
-            if (component == 0) cycle
-            axis = axis_of(kind, component)
-            if (axis < 0) then
-               call diagnostics%error('component-out-of-range', operands%word, &
-                                      'the node has no component '//text(operands%word%first:operands%word%last), &
-                                      components_of(kind), 'name a component that the node has')
-            else if (axis == 0) then
-               call first_euler_parameter(operands, class, diagnostics)
-            else
-               call give_class(text, 'a coordinate', operands%word, axis == [1, 2, 3], class, classes, &
-                               origin(:, node), diagnostics)
-            end if
-         end do
-      end associate
-   end subroutine read_coordinates
-
-   subroutine read_deformations(text, statement, scene, origin, diagnostics)
-      character(len=*), intent(in) :: text
-      type(statement_t), intent(in) :: statement
-      type(scene_t), intent(inout) :: scene
-      integer, intent(inout) :: origin(:, :)
-      type(diagnostics_t), intent(inout) :: diagnostics
-      type(operands_t) :: operands, ahead
-      integer :: element, mode, class, i
-      character :: last
-
-      operands = operands_of(statement)
-      call take_element(text, scene, operands, element, diagnostics)
-      if (element == 0) return
-      class = class_of(keywords(statement%what)%name)
-      associate (classes => scene%model%deformation_class(:, element), &
-                 kind => element_kinds(scene%model%element_kind(element)))
-         ahead = operands
-         if (.not. ahead%another(text)) then
-            call give_class(text, 'a deformation', operands%word, classes /= class_none, class, classes, &
-                            origin(:, element), diagnostics)
-            return
-         end if
-         do
-            ahead = operands
-            if (.not. ahead%another(text)) exit
-            call operands%positive_integer(text, 'deformation', mode, diagnostics)
-            if (mode == 0) cycle
-            if (mode > kind%deformations) then
-               last = achar(iachar('0') + kind%deformations)
-               call diagnostics%error('component-out-of-range', operands%word, &
-                                      'the element has no deformation '//text(operands%word%first:operands%word%last), &
-                                      trim(kind%keyword)//' has 1 to '//last, 'name a deformation that the element has')
-            else
-               call give_class(text, 'a deformation', operands%word, mode == [(i, i=1, most_deformations)], class, &
-                               classes, origin(:, element), diagnostics)
-            end if
-         end do
-      end associate
-   end subroutine read_deformations
+      end do
+   end subroutine read_choice
 
    !> Give the chosen entries their class; one conflict is told for a word.
-   subroutine give_class(text, what, word, chosen, class, classes, origin, diagnostics)
-      character(len=*), intent(in) :: text, what
+   subroutine give_class(text, choice, word, chosen, class, classes, origin, diagnostics)
+      character(len=*), intent(in) :: text
+      type(choice_t), intent(in) :: choice
       type(span_t), intent(in) :: word
       logical, intent(in) :: chosen(:)
       integer, intent(in) :: class
@@ -132,10 +109,11 @@ contains
          if (.not. chosen(i)) cycle
          if (origin(i) > 0 .and. classes(i) /= class) then
             call diagnostics%error('class-conflict', word, &
-                                   what//' is given two classes: '//class_name(classes(i))//' and '//class_name(class), &
+                                   'a '//trim(choice%what)//' is given two classes: '// &
+                                   class_name(classes(i))//' and '//class_name(class), &
                                    'stated '//class_name(class)//' here', &
                                    'keep one of the two statements, or name other components', &
-                                   word_at(text, origin(i)))
+                                   operand_span(text, origin(i), 1, 1))
             return
          end if
          classes(i) = class
@@ -183,50 +161,42 @@ contains
       end select
    end function class_name
 
-   !> The axis of a component; 0 for lambda0, which has none, -1 where the
-   !> component does not exist.
-   pure integer function axis_of(kind, component) result(axis)
-      integer, intent(in) :: kind, component
-
-      axis = -1
-      select case (kind)
-      case (node_planar_position)
-         if (component <= 2) axis = component
-      case (node_position)
-         if (component <= 3) axis = component
-      case (node_angle)
-         if (component == 1) axis = 3
-      case default
-         if (component <= 4) axis = component - 1
-      end select
-   end function axis_of
-
-   pure function components_of(kind) result(label)
+   !> The components of a node; those of an orientation are its four Euler
+   !> parameters.
+   pure function components_of(kind) result(choice)
       integer, intent(in) :: kind
-      character(len=:), allocatable :: label
+      type(choice_t) :: choice
 
+      choice%owner = 'node'
+      choice%what = 'coordinate'
+      choice%part = 'component'
       select case (kind)
       case (node_planar_position)
-         label = 'a planar position has 1 and 2'
+         choice%range = 'a planar position has 1 and 2'
+         choice%entry = [1, 2]
       case (node_position)
-         label = 'a position has 1 to 3'
+         choice%range = 'a position has 1 to 3'
+         choice%entry = [1, 2, 3]
       case (node_angle)
-         label = 'a planar orientation has 1'
+         choice%range = 'a planar orientation has 1'
+         choice%entry = [3]
       case default
-         label = 'an orientation has 1 to 4'
+         choice%range = 'an orientation has 1 to 4'
+         choice%entry = [0, 1, 2, 3]
       end select
    end function components_of
 
-   pure function word_at(text, first) result(word)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: first
-      type(span_t) :: word
-      type(line_t) :: line
-      integer :: position
+   pure function deformations_of(kind) result(choice)
+      integer, intent(in) :: kind
+      type(choice_t) :: choice
+      integer :: i
 
-      position = first
-      call next_line(text, position, .false., line)
-      position = first
-      call next_word(text, position, line%body%last, word)
-   end function word_at
+      choice%owner = 'element'
+      choice%what = 'deformation'
+      choice%part = 'deformation'
+      associate (row => element_kinds(kind))
+         choice%range = trim(row%keyword)//' has 1 to '//achar(iachar('0') + row%deformations)
+         choice%entry = [(i, i=1, row%deformations)]
+      end associate
+   end function deformations_of
 end module flexact_deck_classes
