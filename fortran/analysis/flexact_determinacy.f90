@@ -4,6 +4,7 @@ module flexact_determinacy
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
+   use flexact_localise, only: localise
    use flexact_jacobian, only: jacobian_t, make_jacobian, fill_dense
    use flexact_scaling, only: scaling_t, make_scaling, rank_tolerance
    use flexact_decomposition, only: is_feasible, decompose, singular_values, orthonormalise, &
@@ -88,24 +89,8 @@ contains
          basis(:, j) = scale*basis(:, rank + j)
       end do
       call orthonormalise(basis(:, :found), status)
-      do j = 1, found
-         call choose_sign(basis(:, j))
-      end do
+      if (status == status_fine) call localise(basis(:, :found), scale)
    end subroutine keep_null_space
-
-   !> The entry of largest magnitude becomes positive, the first among equals.
-   pure subroutine choose_sign(vector)
-      real(wp), intent(inout) :: vector(:)
-      real(wp), parameter :: equal = 1.0e-9_wp
-      real(wp) :: largest
-      integer :: i
-
-      largest = (1 - equal)*maxval(abs(vector))
-      do i = 1, size(vector)
-         if (abs(vector(i)) >= largest) exit
-      end do
-      if (i <= size(vector)) vector = sign(1.0_wp, vector(i))*vector
-   end subroutine choose_sign
 
    pure subroutine transpose_in_place(a)
       real(wp), intent(inout) :: a(:, :)
