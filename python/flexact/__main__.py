@@ -2,7 +2,7 @@
 
 import sys
 
-from flexact.cli import main
+from flexact.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -1,7 +1,7 @@
 """The only importer of the extension: what goes in is checked, what comes out is named.
 
 Every call is a function of its arguments. Arrays of a model are in Fortran order,
-`int32` and `float64`, and read-only once a `ModelArrays` holds them.
+`int32` and `float64`.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from .exchange import (
     RawCount,
     RawDeck,
     RawDiagnostics,
+    first_of,
+    room_for,
 )
 
 #: Bytes of the shortest statement of an element, with its line's end.
@@ -51,36 +53,14 @@ def read_deck(text: bytes) -> RawDeck:
     ne, nn, _ = _core.survey_deck(data)
     ne = min(ne, len(text) // _SHORTEST_ELEMENT + 1)
     nn = min(nn, 4 * ne)
-    room = ModelArrays(
-        np.empty(nn, np.int32),
-        np.empty(nn, np.int32),
-        np.empty((4, nn), np.float64, order="F"),
-        np.empty((3, nn), np.int32, order="F"),
-        np.empty(ne, np.int32),
-        np.empty(ne, np.int32),
-        np.empty((4, ne), np.int32, order="F"),
-        np.empty((3, ne), np.float64, order="F"),
-        np.empty((6, ne), np.int32, order="F"),
-    )
+    room = room_for(nn, ne)
     origin = np.empty(ne, np.int32)
     name = np.empty((2, ne), np.int32, order="F")
     sizes, counts, number, words = _core.read_deck(data, *room, origin, name)
-    nodes, elements, planar, unused = (int(size) for size in sizes[:4])
-    for array in (*room, origin, name):
-        array.flags.writeable = False
-    arrays = ModelArrays(
-        room.node_number[:nodes],
-        room.node_kind[:nodes],
-        room.node_value[:, :nodes],
-        room.coordinate_class[:, :nodes],
-        room.element_number[:elements],
-        room.element_kind[:elements],
-        room.element_node[:, :elements],
-        room.element_vector[:, :elements],
-        room.deformation_class[:, :elements],
-    )
+    nodes, elements, planar = (int(size) for size in sizes[:3])
     problems = RawDiagnostics(counts, number, words)
-    return RawDeck(arrays, origin[:elements], name[:, :elements], planar == 1, unused, problems)
+    arrays = first_of(room, nodes, elements)
+    return RawDeck(arrays, name[:, :elements], planar == 1, problems)
 
 
 def check_model(arrays: ModelArrays) -> RawDiagnostics:
@@ -138,33 +118,14 @@ def analyse_model(arrays: ModelArrays, rows: int, columns: int) -> RawAnalysis:
     """Decompose D(c) of `rows` x `columns`, as counted by `count_model`."""
     motions = np.empty((columns, columns), np.float64, order="F")
     stresses = np.empty((rows, rows), np.float64, order="F")
-    (
-        row_label,
-        column_label,
-        length,
-        singular_values,
-        scaled_values,
-        row_scale,
-        column_scale,
-        numbers,
-        rank,
-        status,
-    ) = _core.analyse_model(min(rows, columns), *arrays, motions, stresses)
-    results = RawAnalysis(
-        row_label,
-        column_label,
-        length,
-        singular_values,
-        scaled_values,
-        row_scale,
-        column_scale,
-        float(numbers[0]),
-        float(numbers[1]),
-        rank,
-        status,
-        motions[:, : columns - rank],
-        stresses[:, : rows - rank],
+    found = _core.analyse_model(min(rows, columns), *arrays, motions, stresses)
+    numbers, rank, status = found[7:]
+    return RawAnalysis(
+        *found[:7],
+        tolerance=float(numbers[0]),
+        characteristic_length=float(numbers[1]),
+        rank=rank,
+        status=status,
+        motions=motions[:, : columns - rank],
+        stresses=stresses[:, : rows - rank],
     )
-    for array in (*results[:7], *results[-2:]):
-        array.flags.writeable = False
-    return results

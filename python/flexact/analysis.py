@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from . import _boundary, memory
 from .configuration import Labels, column_labels, jacobian, row_labels
 from .diagnostics import Diagnostic, FlexactError, Severity
 from .exchange import FloatArray, RawAnalysis
+from .frozen import Frozen
 from .model import Model
 from .model_data import ModelData
 from .modes import Motion, SelfStress
@@ -32,7 +31,7 @@ class AnalysisError(FlexactError):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Analysis:
+class Analysis(Frozen):
     """The result of an analysis, in the reference configuration.
 
     Attributes:
@@ -141,8 +140,7 @@ class Analysis:
     @cached_property
     def row_labels(self) -> tuple[tuple[int, int], ...]:
         """Element number and deformation (from 1) of each row of D(c)."""
-        label = self.raw.row_label
-        return row_labels(self.data.arrays, label - np.array([[1], [0]], np.int32))
+        return row_labels(self.data.arrays, self.raw.row_label - 1)
 
     @cached_property
     def column_labels(self) -> Labels:

@@ -1,15 +1,14 @@
-"""Which decks a command means, running them one after the other, and what came of each."""
+"""Which decks a command means, and what came of each."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
 
-from .analysis import AnalysisError
-from .diagnostics import DeckError
+from .diagnostics import FlexactError
 
 SUFFIX = ".dat"
 
@@ -24,11 +23,11 @@ class ExitCode(IntEnum):
     INTERRUPTED = 130
 
 
-class BatchError(Exception):
+class BatchError(FlexactError):
     """A deck could not be handled for a reason that is not in the deck itself."""
 
 
-class NoDecksError(Exception):
+class NoDecksError(FlexactError):
     """A folder holds no deck."""
 
 
@@ -87,36 +86,6 @@ def _walk(folder: str) -> Iterator[Path]:
 
     for place, _, names in os.walk(folder, onerror=refuse):
         yield from (Path(place, name) for name in names if name.lower().endswith(SUFFIX))
-
-
-def run(
-    decks: Sequence[DeckFile],
-    step: Callable[[DeckFile], Outcome],
-    on_failure: Callable[[DeckFile, Exception], None],
-) -> tuple[Outcome, ...]:
-    """Take one deck after the other through ``step``; a failing deck does not stop the rest.
-
-    Args:
-        decks: The decks.
-        step: What is done with a deck; it may raise DeckError, AnalysisError, BatchError.
-        on_failure: Told of each deck that failed, when it failed.
-
-    Returns:
-        One outcome a deck, in order.
-    """
-    outcomes = []
-    for deck in decks:
-        try:
-            if deck.empty_folder:
-                raise NoDecksError(f"{deck.path}: no deck (*{SUFFIX}) in this folder or below it")
-            outcome = step(deck)
-        except (DeckError, NoDecksError, AnalysisError, BatchError, MemoryError) as error:
-            on_failure(deck, error)
-            of_deck = isinstance(error, DeckError | NoDecksError)
-            code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
-            outcome = Outcome(deck.path, code, "failed")
-        outcomes.append(outcome)
-    return tuple(outcomes)
 
 
 def exit_code(outcomes: Iterable[Outcome]) -> ExitCode:

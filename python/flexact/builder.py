@@ -6,23 +6,16 @@ from collections.abc import Iterable, Sequence
 
 from . import targets
 from .diagnostics import model_error
-from .draft import Draft, Vector
+from .draft import NO_VECTOR, Draft
 from .elements import Class, ElementKind, NodeKind, kind_of
 from .handles import Element, Node, Sheet
 from .model_data import ModelData
 
-_ZERO: Vector = (0.0, 0.0, 0.0)
-
 
 class Builder:
-    """The half of `Model` that makes it.
+    """The half of `Model` that makes it; see there."""
 
-    Args:
-        planar: A model in the xy plane: two coordinates and one angle a point.
-        name: What the model is called in results.
-    """
-
-    def __init__(self, planar: bool = False, name: str = "") -> None:
+    def __init__(self, *, planar: bool = False, name: str = "") -> None:
         """Start an empty model."""
         self._start(bool(planar), name)
 
@@ -42,11 +35,7 @@ class Builder:
 
     @property
     def data(self) -> ModelData:
-        """The model as it is now; later changes do not touch it.
-
-        Raises:
-            ModelError: a class was given to a node that no element uses.
-        """
+        """The model as it is now; later changes do not touch it."""
         if self._data is None:
             assert self._draft is not None
             self._data = self._draft.freeze(self._name)
@@ -62,13 +51,13 @@ class Builder:
             raise model_error("no-coordinate", "a planar model has no coordinate z")
         kind = NodeKind.PLANAR_POSITION if draft.planar else NodeKind.POSITION
         position = draft.add_node(kind, value)
-        return Node(position, self._orientation(draft), self._owner)
+        return Node(position, draft.add_orientation(), self._owner)
 
     def pivot(self, node: Node) -> Node:
         """Another point at the position of `node`, with an orientation of its own."""
         draft = self._change()
         position = targets.position(draft, self._owner, node)
-        return Node(position, self._orientation(draft), self._owner)
+        return Node(position, draft.add_orientation(), self._owner)
 
     def handle(self, position: int, orientation: int = 0) -> Node:
         """The point made of two nodes by their numbers, for a model from a deck.
@@ -77,12 +66,6 @@ class Builder:
             ModelError: there is no such node, or it is of the other kind.
         """
         return targets.handle(self._change(), self._owner, position, orientation)
-
-    @staticmethod
-    def _orientation(draft: Draft) -> int:
-        if draft.planar:
-            return draft.add_node(NodeKind.ANGLE, (0.0, 0.0, 0.0, 0.0))
-        return draft.add_node(NodeKind.ORIENTATION, (1.0, 0.0, 0.0, 0.0))
 
     # Elements ---------------------------------------------------------------
 
@@ -118,10 +101,10 @@ class Builder:
                 planar beam 1 elongation, 2 and 3 bending.
             name: What the element is called.
         """
+        released = targets.deformations(_kind("BEAM", self._planar), release)
         element = self._beam(p, q, y, (), name)
-        wanted = tuple(release)
-        if wanted:
-            self.release(element, *wanted)
+        if released:
+            self.release(element, *released)
         return element
 
     def wire(self, p: Node, q: Node, y: Sequence[float] | None = None, name: str = "") -> Element:
@@ -153,11 +136,10 @@ class Builder:
         normal = targets.sheet_normal(draft, self._owner, p, q, width)
         points = targets.between(draft, self._owner, p, q, beams)
         nodes = (p, *(self.node(*point) for point in points), q)
-        names = [name] if beams == 1 or not name else [f"{name}, {i + 1}" for i in range(beams)]
+        names = [f"{name}, {i + 1}" if name and beams > 1 else name for i in range(beams)]
         released = (2, 3) if self._planar else (2, 5, 6)
         elements = tuple(
-            self._beam(nodes[i], nodes[i + 1], normal, released, names[i % len(names)])
-            for i in range(beams)
+            self._beam(nodes[i], nodes[i + 1], normal, released, names[i]) for i in range(beams)
         )
         return Sheet(elements, nodes)
 
@@ -220,7 +202,7 @@ class Builder:
         draft, owner = self._change(), self._owner
         if y is not None and draft.planar:
             raise model_error("surplus-vector", "a planar beam takes no y vector")
-        hint = _ZERO if y is None else targets.direction(y, "y vector")
+        hint = NO_VECTOR if y is None else targets.direction(y, "y vector")
         slots = (
             targets.position(draft, owner, p),
             targets.orientation(draft, owner, p),

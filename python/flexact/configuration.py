@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from . import _boundary
 from .elements import Class, NodeKind, coordinate_name
 from .exchange import FloatArray, IntArray, ModelArrays, RawAssembly
+from .frozen import Frozen
 
 if TYPE_CHECKING:
     from .model import Model
 
 
 @dataclass(frozen=True, eq=False)
-class Configuration:
+class Configuration(Frozen):
     """Where all nodes of a model are.
 
     Attributes:
@@ -31,12 +32,13 @@ class Configuration:
     value: FloatArray
 
     def __post_init__(self) -> None:
-        """Take a read-only copy of the values and check their shape."""
-        value = np.array(self.value, np.float64)
-        if value.shape != (self.kinds.size, 4):
-            raise ValueError(f"value has shape {value.shape}, not {(self.kinds.size, 4)}")
-        value.flags.writeable = False
+        """Take read-only copies and check their shape."""
+        kinds, value = np.array(self.kinds, np.int32), np.array(self.value, np.float64)
+        if value.shape != (kinds.size, 4):
+            raise ValueError(f"value has shape {value.shape}, not {(kinds.size, 4)}")
+        object.__setattr__(self, "kinds", kinds)
         object.__setattr__(self, "value", value)
+        super().__post_init__()
 
     def moved(self, delta: ArrayLike) -> Configuration:
         """This configuration moved by displacements and rotations.
@@ -78,7 +80,7 @@ def _turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False)
-class Jacobian:
+class Jacobian(Frozen):
     """All deformations differentiated with respect to all coordinates, eq. (8).
 
     Attributes:
@@ -92,9 +94,9 @@ class Jacobian:
     columns: IntArray
     values: FloatArray
     shape: tuple[int, int]
-    _arrays: ModelArrays
-    _row_label: IntArray
-    _column_label: IntArray
+    _arrays: ModelArrays = field(repr=False)
+    _row_label: IntArray = field(repr=False)
+    _column_label: IntArray = field(repr=False)
 
     @cached_property
     def row_labels(self) -> tuple[tuple[int, int], ...]:
@@ -117,9 +119,9 @@ Labels = tuple[tuple[int, str], ...]
 
 
 def row_labels(arrays: ModelArrays, label: NDArray[np.integer]) -> tuple[tuple[int, int], ...]:
-    """Element numbers and deformations of (2, m) element indices from 0 and deformations from 1."""
+    """Element numbers and deformations from 1 of (2, m) their indices, both from 0."""
     numbers = arrays.element_number[label[0]].tolist()
-    return tuple(zip(numbers, label[1].tolist(), strict=True))
+    return tuple(zip(numbers, (label[1] + 1).tolist(), strict=True))
 
 
 def column_labels(arrays: ModelArrays, label: NDArray[np.integer]) -> Labels:
@@ -152,7 +154,7 @@ def deformations(
         ModelError: the model is wrong.
         ValueError: the configuration or `c_t` is of another shape.
     """
-    raw = _assembled(model, configuration, c_t)
+    raw = assembled(model, configuration, c_t)
     exists = model.data.arrays.deformation_class != Class.NONE
     values: FloatArray = raw.deformation.T[exists.T]
     return values
@@ -176,11 +178,10 @@ def jacobian(
         ModelError: the model is wrong.
         ValueError: the configuration or `c_t` is of another shape.
     """
-    raw = _assembled(model, configuration or model.reference(), c_t)
+    raw = assembled(model, configuration or model.reference(), c_t)
     arrays = model.data.arrays
     row_index, row_label = _compact(arrays.deformation_class)
     column_index, column_label = _compact(arrays.coordinate_class)
-    row_label[1] += 1
     return Jacobian(
         row_index[raw.row_of],
         column_index[raw.column_of],
@@ -193,13 +194,16 @@ def jacobian(
 
 
 def _compact(classes: IntArray) -> tuple[IntArray, IntArray]:
-    """The index of each thing that exists, and of each index (2, k) owner and part."""
+    """Index of each part of each owner, -1 where it has none; owner and part (2, k) of each."""
     exists = (classes != Class.NONE).T
     index = np.where(exists, np.cumsum(exists).reshape(exists.shape) - 1, -1)
     return index.ravel().astype(np.int32), np.argwhere(exists).T.astype(np.int32)
 
 
-def _assembled(model: Model, configuration: Configuration, c_t: float | ArrayLike) -> RawAssembly:
+def assembled(
+    model: Model, configuration: Configuration, c_t: float | ArrayLike = 0.0
+) -> RawAssembly:
+    """What `deformations` and `jacobian` give, as the core numbers it; see there."""
     data = model.data
     data.require_sound()
     elements = data.arrays.element_number.size

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from .diagnostics import ModelError, model_error
+from .diagnostics import Diagnostic, ModelError, Problems, Severity, model_error
 from .elements import (
     AXES,
     Class,
@@ -20,8 +20,10 @@ from .model_data import ModelData
 
 Vector = tuple[float, float, float]
 
+#: What the vector of an element is where none is given.
+NO_VECTOR: Vector = (0.0, 0.0, 0.0)
+
 _LARGEST = 2**31 - 1
-_NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
@@ -86,12 +88,18 @@ class Draft:
         self.node_value[number] = value
         return number
 
+    def add_orientation(self) -> int:
+        """Add an unturned orientation, in the plane an angle, and return its number."""
+        if self.planar:
+            return self.add_node(NodeKind.ANGLE, (0.0, 0.0, 0.0, 0.0))
+        return self.add_node(NodeKind.ORIENTATION, (1.0, 0.0, 0.0, 0.0))
+
     def add_element(
         self,
         kind: ElementKind,
         slots: tuple[int, int, int, int],
         name: str,
-        vector: Vector = _NO_VECTOR,
+        vector: Vector = NO_VECTOR,
         released: Iterable[int] = (),
     ) -> int:
         """Add an element and return its number; `released` are part of what it is."""
@@ -163,14 +171,9 @@ class Draft:
         self.coordinate_class.update((place, value) for place in wanted)
 
     def freeze(self, name: str) -> ModelData:
-        """The model as it is now.
-
-        Raises:
-            ModelError: a class was given to a node that no element uses.
-        """
+        """The model as it is now, with an error for each class of a node that nobody uses."""
         kinds, slots, classes = self._decided()
         used = np.unique(slots[slots > 0])
-        self._check_use(set(used.tolist()))
         numbers = used.tolist()
         node_kind = np.array([self.node_kind[n] for n in numbers], np.int32)
         value = np.array([self.node_value[n] for n in numbers], np.float64).reshape(-1, 4)
@@ -186,7 +189,9 @@ class Draft:
             deformation_class=classes.T,
         )
         names = tuple(self.names.get(i, "") for i in range(len(self.kinds)))
-        return ModelData(arrays, self.planar, name, names)
+        wrong = [_unused(number) for number in self._given_in_vain(set(numbers))]
+        found = Problems.of(wrong) if wrong else None
+        return ModelData(arrays, self.planar, name, names, found=found)
 
     def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
         """Kinds, slots and classes, with the kind of every rigid element decided.
@@ -225,13 +230,13 @@ class Draft:
             classes[place[there], stated[there, 1]] = values[there]
         return classes.T
 
-    def _check_use(self, used: set[int]) -> None:
-        for number, _ in self.named:
-            if number not in used:
-                raise _unused(number)
+    def _given_in_vain(self, used: set[int]) -> list[int]:
+        """Nodes that were given a class and are not in use."""
+        vain = {number for number, _ in self.named if number not in used}
         for position, orientation in self.whole:
             if position not in used and orientation not in used:
-                raise _unused(position or orientation)
+                vain.add(position)
+        return sorted(vain)
 
 
 def one_line(name: str) -> str:
@@ -256,9 +261,10 @@ def _conflict(what: str, before: int, now: int) -> ModelError:
     )
 
 
-def _unused(number: int) -> ModelError:
-    return model_error(
+def _unused(number: int) -> Diagnostic:
+    return Diagnostic(
+        Severity.ERROR,
         "no-such-node",
         f"node {number} is given a class, but no element uses it",
-        "name the node in an element, or leave its class out",
+        help="name the node in an element, or leave its class out",
     )

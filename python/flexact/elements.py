@@ -13,7 +13,7 @@ from .exchange import IntArray
 
 
 class NodeKind(IntEnum):
-    """What a node is."""
+    """What a node is; the positions are those up to `POSITION`."""
 
     PLANAR_POSITION = 1
     POSITION = 2
@@ -53,7 +53,7 @@ AXES: dict[int, tuple[int, ...]] = {
 
 def is_position(kind: int) -> bool:
     """Whether nodes of this kind are positions (else they are rotations)."""
-    return kind in (NodeKind.PLANAR_POSITION, NodeKind.POSITION)
+    return kind <= NodeKind.POSITION
 
 
 def coordinate_name(kind: int, axis: int) -> str:
@@ -93,18 +93,8 @@ def kind_of(keyword: str) -> ElementKind:
 
 
 @cache
-def slot_table() -> IntArray:
-    """(kinds + 1, 4) node kind by element kind and slot; row 0 is empty."""
-    return _table([kind.slots for kind in element_kinds()], 4)
-
-
-@cache
 def dual_table() -> IntArray:
     """(kinds + 1, 6) `Dual` by element kind and deformation; row 0 is empty."""
-    return _table([kind.dual for kind in element_kinds()], 6)
-
-
-def _table(rows: list[tuple[int, ...]], width: int) -> IntArray:
-    table = np.array([(0,) * width, *rows], np.int32)
+    table = np.array([(0,) * 6, *(kind.dual for kind in element_kinds())], np.int32)
     table.flags.writeable = False
     return table

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -51,13 +50,9 @@ class RawDeck(NamedTuple):
     """What reading a deck gives."""
 
     arrays: ModelArrays
-    origin: IntArray
-    """(ne,) one-based place of each element's statement in the text."""
     name: IntArray
     """(2, ne) first and last place of each element's name, 0 without one."""
     planar: bool
-    unused: int
-    """Statements about dynamics and pictures that were read and not used."""
     problems: RawDiagnostics
 
 
@@ -97,7 +92,9 @@ class RawAnalysis(NamedTuple):
     scaled_values: FloatArray
     """(min(m, n),) of the scaled matrix on which the rank is decided."""
     row_scale: FloatArray
+    """(m,) factor of each row of D(c) in the scaled matrix."""
     column_scale: FloatArray
+    """(n,) factor of each column."""
     tolerance: float
     """Scaled singular values up to here count as zero."""
     characteristic_length: float
@@ -110,21 +107,37 @@ class RawAnalysis(NamedTuple):
     """(m, m - rank) orthonormal basis of the null space of its transpose."""
 
 
-_SHAPES = {
-    "node_number": ("nn",),
-    "node_kind": ("nn",),
-    "node_value": (4, "nn"),
-    "coordinate_class": (3, "nn"),
-    "element_number": ("ne",),
-    "element_kind": ("ne",),
-    "element_node": (4, "ne"),
-    "element_vector": (3, "ne"),
-    "deformation_class": (6, "ne"),
+#: Leading size (None: one dimension), last size and type of every array of a model.
+_LAYOUT: dict[str, tuple[int | None, str, type[np.int32] | type[np.float64]]] = {
+    "node_number": (None, "nn", np.int32),
+    "node_kind": (None, "nn", np.int32),
+    "node_value": (4, "nn", np.float64),
+    "coordinate_class": (3, "nn", np.int32),
+    "element_number": (None, "ne", np.int32),
+    "element_kind": (None, "ne", np.int32),
+    "element_node": (4, "ne", np.int32),
+    "element_vector": (3, "ne", np.float64),
+    "deformation_class": (6, "ne", np.int32),
 }
 
 
+def room_for(nodes: int, elements: int) -> ModelArrays:
+    """Arrays of a model that are still to be filled."""
+    return ModelArrays._make(
+        np.empty(_shape(name, nodes, elements), dtype, order="F")
+        for name, (_, _, dtype) in _LAYOUT.items()
+    )
+
+
+def first_of(arrays: ModelArrays, nodes: int, elements: int) -> ModelArrays:
+    """Views of the first nodes and elements."""
+    return ModelArrays._make(
+        array[..., : _shape(name, nodes, elements)[-1]] for name, array in arrays._asdict().items()
+    )
+
+
 def model_arrays(**given: ArrayLike) -> ModelArrays:
-    """Checked, converted and frozen arrays of a model.
+    """Checked and converted arrays of a model.
 
     Args:
         **given: the nine arrays of `ModelArrays` by name, of any layout.
@@ -133,42 +146,26 @@ def model_arrays(**given: ArrayLike) -> ModelArrays:
         ValueError: a shape does not fit, or a whole number does not fit 32 bits.
         TypeError: an array is not numeric.
     """
-    sizes = {
-        "nn": int(np.size(given["node_number"])),
-        "ne": int(np.size(given["element_number"])),
-    }
-    for name, pattern in _SHAPES.items():
-        shape = tuple(sizes[part] if isinstance(part, str) else part for part in pattern)
+    nodes, elements = np.size(given["node_number"]), np.size(given["element_number"])
+    for name in _LAYOUT:
+        shape = _shape(name, nodes, elements)
         if np.shape(given[name]) != shape:
             raise ValueError(f"{name} has shape {np.shape(given[name])}, but must have {shape}")
-    return ModelArrays(
-        _whole("node_number", given),
-        _whole("node_kind", given),
-        _real("node_value", given),
-        _whole("coordinate_class", given),
-        _whole("element_number", given),
-        _whole("element_kind", given),
-        _whole("element_node", given),
-        _real("element_vector", given),
-        _whole("deformation_class", given),
-    )
+    return ModelArrays(**{name: _converted(name, given[name]) for name in _LAYOUT})
 
 
-def _whole(name: str, given: Mapping[str, ArrayLike]) -> IntArray:
-    array = np.asarray(given[name])
-    if array.size and array.dtype.kind not in "iu":
-        raise TypeError(f"{name} must hold whole numbers, not {array.dtype}")
-    if array.size and (array.max() > 2**31 - 1 or array.min() < -(2**31)):
+def _shape(name: str, nodes: int, elements: int) -> tuple[int, ...]:
+    leading, last, _ = _LAYOUT[name]
+    size = nodes if last == "nn" else elements
+    return (size,) if leading is None else (leading, size)
+
+
+def _converted(name: str, given: ArrayLike) -> NDArray[Any]:
+    """A copy in Fortran order and of the core's type, where that loses nothing."""
+    array, dtype = np.asarray(given), _LAYOUT[name][2]
+    kinds, words = ("iu", "whole") if dtype is np.int32 else ("iuf", "real")
+    if array.size and array.dtype.kind not in kinds:
+        raise TypeError(f"{name} must hold {words} numbers, not {array.dtype}")
+    if dtype is np.int32 and array.size and (array.max() >= 2**31 or array.min() < -(2**31)):
         raise ValueError(f"{name} holds a number that does not fit 32 bits")
-    made: IntArray = np.array(array, np.int32, order="F")
-    made.flags.writeable = False
-    return made
-
-
-def _real(name: str, given: Mapping[str, ArrayLike]) -> FloatArray:
-    array = np.asarray(given[name])
-    if array.size and array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
-    made: FloatArray = np.array(array, np.float64, order="F")
-    made.flags.writeable = False
-    return made
+    return np.array(array, dtype, order="F")

@@ -29,13 +29,12 @@ from numpy.typing import NDArray
 
 from .analysis import Analysis
 from .elements import NodeKind, kind_of
-from .exchange import ModelArrays
+from .exchange import FloatArray, ModelArrays
 from .modes import SelfStress
 
 if TYPE_CHECKING:
     import meshio
 
-Reals = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
@@ -83,13 +82,14 @@ def _cell_values(analysis: Analysis, scene: _Scene) -> dict[str, NDArray[np.gene
     return values
 
 
-def _resultants(kind: Integers, stress: SelfStress) -> dict[str, Reals]:
+def _resultants(kind: Integers, stress: SelfStress) -> dict[str, FloatArray]:
     """N, T, My and Mz of every element, (elements,) each."""
     f, m = stress.forces, stress.moments
-    is_kind = {name: kind == kind_of(name).number for name in ("BEAM", "HINGE", "PLBEAM")}
-    beam, hinge, planar_beam = is_kind["BEAM"], is_kind["HINGE"], is_kind["PLBEAM"]
-    straight = beam | planar_beam | np.isin(kind, [kind_of(k).number for k in ("TRUSS", "PLTRUSS")])
-    planar_hinge = kind == kind_of("PLHINGE").number
+    beam, planar_beam, hinge, planar_hinge, truss, planar_truss = (
+        kind == kind_of(keyword).number
+        for keyword in ("BEAM", "PLBEAM", "HINGE", "PLHINGE", "TRUSS", "PLTRUSS")
+    )
+    straight = beam | planar_beam | truss | planar_truss
     return {
         "N": np.where(straight, f[:, 0], np.linalg.norm(f, axis=1)),
         "T": np.select([beam, hinge], [m[:, 1], m[:, 0]], 0.0),
@@ -102,7 +102,7 @@ def _resultants(kind: Integers, stress: SelfStress) -> dict[str, Reals]:
     }
 
 
-def _larger(at_p: Reals, at_q: Reals) -> Reals:
+def _larger(at_p: FloatArray, at_q: FloatArray) -> FloatArray:
     return np.where(np.abs(at_p) >= np.abs(at_q), at_p, at_q)
 
 
@@ -116,7 +116,7 @@ class _Scene:
         self.number = arrays.node_number.astype(np.int64)
         self.element = arrays.element_number.astype(np.int64)
         self.kind = arrays.element_kind.astype(np.int64)
-        placed = np.isin(arrays.node_kind, (NodeKind.PLANAR_POSITION, NodeKind.POSITION))
+        placed = arrays.node_kind <= NodeKind.POSITION
         self.position = np.where(placed, arrays.node_value[:3], 0.0).T
         slots = arrays.element_node.T.astype(np.int64) - 1
         self.is_line = (slots[:, 0] >= 0) & (slots[:, 2] >= 0)

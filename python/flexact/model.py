@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from .builder import Builder
 from .configuration import Configuration
-from .diagnostics import Diagnostic
-from .elements import element_kinds
+from .diagnostics import Diagnostic, model_error
+from .elements import NodeKind, element_kinds
 from .exchange import FloatArray, IntArray
 from .model_data import ModelData
 
@@ -79,7 +77,7 @@ class Model(Builder):
 
     @property
     def node_kinds(self) -> IntArray:
-        """(nodes,) 1 planar position, 2 position, 3 angle, 4 orientation (`NodeKind`)."""
+        """(nodes,) 1 planar position, 2 position, 3 angle, 4 orientation."""
         return self.data.arrays.node_kind
 
     @property
@@ -91,7 +89,7 @@ class Model(Builder):
     def positions(self) -> FloatArray:
         """(nodes, 3) reference positions [m]; zero for nodes that are orientations."""
         a = self.data.arrays
-        made = np.where((a.node_kind <= 2)[:, None], a.node_value.T[:, :3], 0.0)
+        made = np.where((a.node_kind <= NodeKind.POSITION)[:, None], a.node_value.T[:, :3], 0.0)
         made.flags.writeable = False
         return made
 
@@ -134,9 +132,37 @@ class Model(Builder):
         return self.data.arrays.deformation_class.T
 
     @property
-    def element_names(self) -> Sequence[str]:
+    def element_names(self) -> tuple[str, ...]:
         """(elements,) names, empty where an element has none."""
-        return self.data.element_names
+        return tuple(self.data.element_names)
+
+    def node_index(self, number: int) -> int:
+        """Where a node stands in what is given by node, such as `Motion.displacement`.
+
+        Args:
+            number: Such as `Node.position` or `Node.orientation`.
+
+        Raises:
+            ModelError: no element uses a node of this number.
+        """
+        index = self.data.node_index.get(number)
+        if index is None:
+            raise model_error("no-such-node", f"no element uses a node {number}")
+        return index
+
+    def element_index(self, number: int) -> int:
+        """Where an element stands in what is given by element, such as `SelfStress.moments`.
+
+        Args:
+            number: Such as `Element.number`.
+
+        Raises:
+            ModelError: there is no such element.
+        """
+        index = self.data.element_index.get(number)
+        if index is None:
+            raise model_error("no-such-element", f"there is no element {number}")
+        return index
 
     def reference(self) -> Configuration:
         """The configuration in which all deformations are zero."""
@@ -147,7 +173,11 @@ class Model(Builder):
 
         Numbers are written so that they read back to the last bit; names of elements
         stand as comments at the end of their lines.
+
+        Raises:
+            ModelError: the model is wrong, so that no deck can be read back.
         """
         from .deck_writer import deck_of
 
+        self.check()
         return deck_of(self.data)

@@ -10,6 +10,7 @@ from typing import overload
 from . import _boundary
 from .diagnostics import DeckError, Diagnostic, ModelError, Problems, Severity, problems_of
 from .exchange import IntArray, ModelArrays, RawCount
+from .frozen import Frozen
 from .source import Source, decode
 
 #: As the core says it of a deck.
@@ -46,7 +47,7 @@ class DeckNames(Sequence[str]):
 
 
 @dataclass(frozen=True, eq=False)
-class ModelData:
+class ModelData(Frozen):
     """A model at one moment.
 
     Attributes:
@@ -55,7 +56,8 @@ class ModelData:
         name: What the model is called.
         element_names: One name an element, empty where it has none.
         source: The deck's text, for a model that was read.
-        found: What reading the deck found; None for a model made in Python.
+        found: What reading the deck, or making the arrays, found; None where the arrays
+            are still to be checked.
     """
 
     arrays: ModelArrays
@@ -73,6 +75,16 @@ class ModelData:
         if not self.arrays.element_number.size:
             return Problems.of([_NOTHING])
         return problems_of(_boundary.check_model(self.arrays))
+
+    @cached_property
+    def node_index(self) -> dict[int, int]:
+        """Index of each node by its number."""
+        return {number: i for i, number in enumerate(self.arrays.node_number.tolist())}
+
+    @cached_property
+    def element_index(self) -> dict[int, int]:
+        """Index of each element by its number."""
+        return {number: i for i, number in enumerate(self.arrays.element_number.tolist())}
 
     @cached_property
     def count(self) -> RawCount:

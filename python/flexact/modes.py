@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .elements import Dual, NodeKind, dual_table
 from .exchange import FloatArray
+from .frozen import Frozen
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -60,7 +61,7 @@ def ranked(weighted: FloatArray, most: int) -> list[int]:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Motion:
+class Motion(Frozen):
     """A kinematically indeterminate motion: velocities that nothing determines.
 
     Attributes:
@@ -112,7 +113,7 @@ class Motion:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SelfStress:
+class SelfStress(Frozen):
     """A statically indeterminate stress: stress resultants that need no load.
 
     Attributes:

@@ -30,7 +30,7 @@ def read(path: str | os.PathLike[str]) -> Model:
         DeckError: anything is wrong with the deck or the file.
     """
     name = os.fspath(path)
-    return _model(_file_bytes(name), str(name))
+    return _model(_file_bytes(name), name)
 
 
 def read_text(text: str | bytes, name: str = "deck") -> Model:

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .exchange import FloatArray
 from .stored_answer import NUMBERS, Projector, StoredAnswer
 
 MOST_NAMED = 6
@@ -63,7 +63,7 @@ def _in_counts(stored: StoredAnswer, found: StoredAnswer) -> Iterator[str]:
 
 
 def _in_singular_values(
-    stored: NDArray[np.float64], found: NDArray[np.float64], tolerances: Tolerances
+    stored: FloatArray, found: FloatArray, tolerances: Tolerances
 ) -> Iterator[str]:
     if len(stored) != len(found):
         yield f"singular values: {len(found)} of them, stored are {len(stored)}"
@@ -98,7 +98,7 @@ def _in_subspaces(
     yield "; ".join((f"{name}: {what}", *_who(owner, labels, before, now)))
 
 
-def _spread(projector: Projector, labels: tuple[str, ...]) -> NDArray[np.float64]:
+def _spread(projector: Projector, labels: tuple[str, ...]) -> FloatArray:
     place = {label: k for k, label in enumerate(labels)}
     index = [place[label] for label in projector.labels]
     matrix = np.zeros((len(labels), len(labels)))
@@ -106,22 +106,19 @@ def _spread(projector: Projector, labels: tuple[str, ...]) -> NDArray[np.float64
     return matrix
 
 
-def _who(
-    owner: str, labels: tuple[str, ...], before: NDArray[np.float64], now: NDArray[np.float64]
-) -> Iterator[str]:
+def _who(owner: str, labels: tuple[str, ...], before: FloatArray, now: FloatArray) -> Iterator[str]:
     earlier, later = _taking_part(labels, before), _taking_part(labels, now)
-    for numbers, verb in ((later - earlier, ""), (earlier - later, "no longer ")):
+    for numbers, before_verb, after in (
+        (later - earlier, "", " now"),
+        (earlier - later, "no longer ", ""),
+    ):
         if numbers:
             named = ", ".join(str(number) for number in sorted(numbers)[:MOST_NAMED])
             more = f" and {len(numbers) - MOST_NAMED} more" if len(numbers) > MOST_NAMED else ""
-            takes = (
-                f"{owner} {named} {verb}takes"
-                if len(numbers) == 1
-                else (f"{owner}s {named}{more} {verb}take")
-            )
-            yield f"{takes} part now" if not verb else f"{takes} part"
+            who, takes = (owner, "takes") if len(numbers) == 1 else (f"{owner}s", "take")
+            yield f"{who} {named}{more} {before_verb}{takes} part{after}"
 
 
-def _taking_part(labels: tuple[str, ...], projector: NDArray[np.float64]) -> set[int]:
+def _taking_part(labels: tuple[str, ...], projector: FloatArray) -> set[int]:
     share = np.diag(projector) > TAKES_PART**2
     return {int(label.split(":")[0]) for label, used in zip(labels, share, strict=True) if used}

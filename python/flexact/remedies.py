@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .configuration import jacobian
+from .configuration import assembled
 from .elements import Class, Dual, dual_table
 from .exchange import FloatArray
 from .modes import column_weights, ranked, row_weights
@@ -29,30 +29,22 @@ def releases(analysis: Analysis) -> list[int]:
 
     Rows of independent deformations are not among them.
     """
-    basis, _ = _orthonormal(row_weights(analysis), analysis.raw.stresses)
-    element, deformation = analysis.raw.row_label - 1
-    classes = analysis.data.arrays.deformation_class[deformation, element]
-    return _largest(np.where(classes == Class.FIXED, _norms(basis), 0.0))
+    return _largest(_norms(_releasable(analysis)))
 
 
 def release_set(analysis: Analysis) -> list[int]:
     """Rows of D(c) that remove all self-stresses when all of them are released."""
-    basis, _ = _orthonormal(row_weights(analysis), analysis.raw.stresses)
-    element, deformation = analysis.raw.row_label - 1
-    classes = analysis.data.arrays.deformation_class[deformation, element]
-    return _independent_rows(np.where((classes == Class.FIXED)[:, None], basis, 0.0))
+    return _independent_rows(_releasable(analysis))
 
 
 def coordinates(analysis: Analysis) -> list[int]:
     """Columns of D(c) that can be fixed or made independent to remove a motion."""
-    basis, _ = _orthonormal(column_weights(analysis), analysis.raw.motions)
-    return _largest(_norms(basis))
+    return _largest(_norms(_motions(analysis)))
 
 
 def coordinate_set(analysis: Analysis) -> list[int]:
     """Columns of D(c) that remove all motions when all are fixed or made independent."""
-    basis, _ = _orthonormal(column_weights(analysis), analysis.raw.motions)
-    return _independent_rows(basis)
+    return _independent_rows(_motions(analysis))
 
 
 def deformations(analysis: Analysis) -> list[tuple[int, int]]:
@@ -61,28 +53,38 @@ def deformations(analysis: Analysis) -> list[tuple[int, int]]:
     To hold one, or to make it independent, removes a motion.
     """
     arrays = analysis.data.arrays
-    whole = jacobian(analysis.model)
-    element, mode = np.nonzero((arrays.deformation_class != Class.NONE).T)
-    released = arrays.deformation_class[mode, element] == Class.DEPENDENT
-    node, axis = np.nonzero((arrays.coordinate_class != Class.NONE).T)
-    column = np.full(whole.shape[1], -1)
-    column[arrays.coordinate_class[axis, node] == Class.DEPENDENT] = np.arange(analysis.columns)
-    kept = released[whole.rows] & (column[whole.columns] >= 0)
-    _, triangle = _orthonormal(column_weights(analysis), analysis.raw.motions)
-    motions = np.linalg.solve(triangle.T, analysis.raw.motions.T).T
-    rates = np.zeros((whole.shape[0], motions.shape[1]))
-    parts = whole.values[kept, None] * motions[column[whole.columns[kept]]]
-    np.add.at(rates, whole.rows[kept], parts)
-    angle = dual_table()[arrays.element_kind[element], mode] == Dual.MOMENT
+    whole = assembled(analysis.model, analysis.model.reference())
+    motions = _motions(analysis) / column_weights(analysis)[:, None]
+    node, axis = analysis.raw.column_label - 1
+    velocity = np.zeros((arrays.node_number.size, 3, motions.shape[1]))
+    velocity[node, axis] = motions
+    of_column = velocity.reshape(-1, motions.shape[1])
+    rates = np.zeros((6 * arrays.element_number.size, motions.shape[1]))
+    np.add.at(rates, whole.row_of, whole.value[:, None] * of_column[whole.column_of])
+    angle = dual_table()[arrays.element_kind] == Dual.MOMENT
     weight = np.where(angle, analysis.characteristic_length, 1.0)
-    order = _largest(_norms(rates) * weight)
-    return [(int(element[row]), int(mode[row]) + 1) for row in order]
+    released = arrays.deformation_class.T == Class.DEPENDENT
+    leverage = np.where(released, weight, 0.0).ravel() * _norms(rates)
+    return [(row // 6, row % 6 + 1) for row in _largest(leverage)]
 
 
-def _orthonormal(weights: FloatArray, basis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Orthonormal basis Q of the weighted space, and R of `weights * basis` = Q R."""
-    q, r = np.linalg.qr(weights[:, None] * basis)
-    return q, r
+def _motions(analysis: Analysis) -> FloatArray:
+    """(n, motions) orthonormal basis of the motions, rotations in lengths."""
+    return _orthonormal(column_weights(analysis), analysis.raw.motions)
+
+
+def _releasable(analysis: Analysis) -> FloatArray:
+    """(m, self-stresses) as `_motions`, moments in forces; zero where nothing is to release."""
+    basis = _orthonormal(row_weights(analysis), analysis.raw.stresses)
+    element, deformation = analysis.raw.row_label - 1
+    held = analysis.data.arrays.deformation_class[deformation, element] == Class.FIXED
+    return np.where(held[:, None], basis, 0.0)
+
+
+def _orthonormal(weights: FloatArray, basis: FloatArray) -> FloatArray:
+    """Orthonormal basis of the weighted space."""
+    q: FloatArray = np.linalg.qr(weights[:, None] * basis)[0]
+    return q
 
 
 def _norms(rows: FloatArray) -> FloatArray:

@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import __version__
 from .analysis import Analysis
 from .batch import BatchError
+from .exchange import FloatArray
 from .modes import Motion, SelfStress
 
 FORMAT = 1
@@ -42,7 +42,7 @@ class Projector:
     """
 
     labels: tuple[str, ...]
-    matrix: NDArray[np.float64]
+    matrix: FloatArray
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class StoredAnswer:
     verdict: str
     numbers: Mapping[str, int]
     counts: Mapping[str, Mapping[str, int]]
-    singular_values: NDArray[np.float64]
+    singular_values: FloatArray
     motions: Projector
     self_stresses: Projector
 
@@ -154,7 +154,7 @@ def _assemble(triangle: Sequence[tuple[str, str, float]]) -> Projector:
     return Projector(labels, _finite(matrix))
 
 
-def _finite(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _finite(values: FloatArray) -> FloatArray:
     if not np.isfinite(values).all():
         raise ValueError("a number is not finite")
     return values

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from operator import index as whole_number
 
 from .diagnostics import ModelError, model_error
-from .draft import Draft, Vector
+from .draft import NO_VECTOR, Draft, Vector
 from .elements import (
     AXES,
     POSITION_NAMES,
     ROTATION_NAMES,
     Class,
+    ElementKind,
     NodeKind,
     coordinate_name,
     is_position,
 )
 from .handles import Element, Node, Sheet
 
-_ZERO: Vector = (0.0, 0.0, 0.0)
 #: As the core's check of a y vector.
 _PARALLEL = 1.0e-6
 
@@ -42,7 +42,7 @@ def vector(given: Sequence[float], what: str) -> Vector:
 def direction(given: Sequence[float], what: str) -> Vector:
     """Three finite numbers that are not all zero."""
     made = vector(given, what)
-    if made == _ZERO:
+    if made == NO_VECTOR:
         raise model_error("zero-vector", f"the {what} is zero", "give a vector that is not zero")
     return made
 
@@ -52,7 +52,7 @@ def axis(draft: Draft, given: Sequence[float] | None) -> Vector:
     if draft.planar:
         if given is not None and any(vector(given, "axis")[:2]):
             raise model_error("surplus-vector", "the axis of a planar hinge is z")
-        return _ZERO
+        return NO_VECTOR
     if given is None:
         raise model_error("missing-vector", "a hinge needs an axis", "give axis=(x, y, z)")
     return direction(given, "axis")
@@ -69,14 +69,14 @@ def position(draft: Draft, owner: object, point: Node | int) -> int:
             raise _wrong_model("node")
         number = point.position
     else:
-        number = _number(point, "node")
-        _known(draft, number)
+        number = _node_number(draft, point)
         if not is_position(draft.node_kind[number]):
             raise model_error(
                 "two-kinds-of-node",
                 f"node {number} is an orientation and is used as a position",
                 "position and orientation of one point are two nodes with two numbers",
             )
+    # In a spatial scene of a deck, planar elements alone may have used this node so far.
     if draft.node_kind[number] == NodeKind.PLANAR_POSITION and not draft.planar:
         draft.node_kind[number] = NodeKind.POSITION
     return number
@@ -98,13 +98,11 @@ def orientation(draft: Draft, owner: object, point: Node) -> int:
 def handle(draft: Draft, owner: object, position_number: int, orientation_number: int) -> Node:
     """The point of two node numbers; a missing orientation is made anew."""
     position_number = position(draft, owner, position_number)
-    kind = NodeKind.ANGLE if draft.planar else NodeKind.ORIENTATION
     if orientation_number == 0:
-        value = (0.0 if draft.planar else 1.0, 0.0, 0.0, 0.0)
-        return Node(position_number, draft.add_node(kind, value), owner)
-    orientation_number = _number(orientation_number, "node")
-    _known(draft, orientation_number)
-    if draft.node_kind[orientation_number] != kind:
+        return Node(position_number, draft.add_orientation(), owner)
+    orientation_number = _node_number(draft, orientation_number)
+    wanted = NodeKind.ANGLE if draft.planar else NodeKind.ORIENTATION
+    if draft.node_kind[orientation_number] != wanted:
         raise model_error(
             "two-kinds-of-node",
             f"node {orientation_number} cannot be used as an orientation here",
@@ -122,9 +120,11 @@ def _number(given: object, what: str) -> int:
         ) from None
 
 
-def _known(draft: Draft, number: int) -> None:
+def _node_number(draft: Draft, given: object) -> int:
+    number = _number(given, "node")
     if number not in draft.node_kind:
         raise model_error("no-such-node", f"there is no node {number}")
+    return number
 
 
 def sheet_normal(
@@ -155,7 +155,7 @@ def sheet_normal(
 def _unit(given: Vector) -> Vector:
     largest = max(map(abs, given))
     if largest == 0.0:
-        return _ZERO
+        return NO_VECTOR
     x, y, z = (part / largest for part in given)
     norm = math.hypot(x, y, z)
     return x / norm, y / norm, z / norm
@@ -173,6 +173,28 @@ def between(draft: Draft, owner: object, p: Node, q: Node, parts: int) -> list[V
         x, y, z = (start[k] * (1.0 - t) + end[k] * t for k in range(3))
         made.append((x, y, z))
     return made
+
+
+def deformations(kind: ElementKind, given: Iterable[int]) -> tuple[int, ...]:
+    """Numbers of deformations that an element of this kind has.
+
+    Raises:
+        ModelError: one of them is none.
+    """
+    try:
+        numbers = tuple(given)
+    except TypeError:
+        raise model_error(
+            "bad-number", f"deformations are given as several numbers, not by {given!r}"
+        ) from None
+    for number in numbers:
+        if not 1 <= _number(number, "deformation") <= kind.deformations:
+            raise model_error(
+                "component-out-of-range",
+                f"a {kind.keyword} has no deformation {number}",
+                f"it has 1 to {kind.deformations}",
+            )
+    return numbers
 
 
 def means_element(target: object, which: Sequence[str | int]) -> bool:
@@ -205,8 +227,7 @@ def give_coordinates(
     elif isinstance(target, (Element, Sheet)):
         raise model_error("not-a-node", "an element has deformations, not coordinates")
     else:
-        numbers = [_number(target, "node")]
-        _known(draft, numbers[0])
+        numbers = [_node_number(draft, target)]
     if not names:
         every = ((number, k) for number in numbers for k in AXES[draft.node_kind[number]])
         draft.state_coordinates(every, value)

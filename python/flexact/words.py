@@ -50,15 +50,15 @@ def _verdict(analysis: Analysis) -> Iterator[str]:
 def sentence(analysis: Analysis) -> str:
     """The verdict in a sentence."""
     under, over = analysis.under_constrained, analysis.over_constrained
-    motions = "no motion is left over" if not under else _plural(under, "motion", " is", "s are")
-    motions += " left over that no degree of freedom accounts for" if under else ""
-    stresses = (
-        "there is no self-stress"
-        if not over
-        else f"{_plural(over, 'self-stress', '', 'es')} "
-        f"(statically indeterminate stress{'es' if over > 1 else ''}) "
-        "more than the mechanism needs"
-    )
+    motions = "no motion is left over"
+    if under:
+        left = _plural(under, "motion", " is", "s are")
+        motions = f"{left} left over that no degree of freedom accounts for"
+    stresses = "there is no self-stress"
+    if over:
+        number = _plural(over, "self-stress", "", "es")
+        kind = f"statically indeterminate stress{'es' if over > 1 else ''}"
+        stresses = f"{number} ({kind}) more than the mechanism needs"
     if under and over:
         rest = f"{motions}, and there {'is' if over == 1 else 'are'} {stresses}"
     elif over:
@@ -113,7 +113,7 @@ def _motions(analysis: Analysis) -> Iterator[str]:
     yield from _basis(count, "motions")
     names = [f"node {n} {c}" for n, c in analysis.column_labels]
     yield _listed(
-        f"{_any(count, 'motion')} when one of these is made independent or fixed: ",
+        f"{_goes(count, 'motion')} when one of these is made independent or fixed: ",
         (names[i] for i in remedies.coordinates(analysis)),
     )
     changed = remedies.deformations(analysis)
@@ -136,7 +136,7 @@ def _self_stresses(analysis: Analysis) -> Iterator[str]:
     if not count:
         return
     yield _heading(count, "Self-stress", "es", "", "N and N m")
-    index_of = {int(n): i for i, n in enumerate(analysis.data.arrays.element_number)}
+    index_of = analysis.data.element_index
     for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
         parts = (
             f"{_deformation(analysis, index_of[element], mode)} {value:.4g} "
@@ -151,7 +151,7 @@ def _self_stresses(analysis: Analysis) -> Iterator[str]:
     able = remedies.releases(analysis)
     if able:
         yield _listed(
-            f"{_any(count, 'self-stress')} when one of these deformations is released: ",
+            f"{_goes(count, 'self-stress')} when one of these deformations is released: ",
             (_deformation(analysis, *names[i]) for i in able),
         )
     if 1 < count <= MOST_MODES:
@@ -180,7 +180,7 @@ def _heading(count: int, what: str, ending: str, tail: str, units: str) -> str:
     return f"{words} ({units} as parts of a unit mode: only ratios have a meaning)"
 
 
-def _any(count: int, what: str) -> str:
+def _goes(count: int, what: str) -> str:
     return "It goes" if count == 1 else f"One {what} goes"
 
 

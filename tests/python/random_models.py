@@ -25,15 +25,18 @@ def framework(
     return model
 
 
-def mechanism(random: np.random.Generator, planar: bool) -> Model:
-    """A few of every element on random points, with classes of all kinds."""
+def mechanism(random: np.random.Generator, planar: bool, held: bool = True) -> Model:
+    """A few of every element on random points, with classes of all kinds.
+
+    Where it is not `held`, its coordinates are all dependent.
+    """
     model = Model(planar=planar, name="random")
     size = 2 if planar else 3
     points = [model.node(*random.normal(size=size)) for _ in range(random.integers(3, 7))]
     for _ in range(random.integers(1, 8)):
         add_element(model, random, points)
     used = set(model.node_numbers.tolist())
-    for point in points:
+    for point in points if held else []:
         if point.position not in used:
             continue
         used.discard(point.position)
@@ -44,11 +47,11 @@ def mechanism(random: np.random.Generator, planar: bool) -> Model:
     for number, classes in zip(
         model.element_numbers.tolist(), model.deformation_classes.tolist(), strict=True
     ):
-        held = [k + 1 for k, value in enumerate(classes) if value == 1]
-        if held and random.random() < 0.2:
-            model.release(number, int(random.choice(held)))
-        elif held and random.random() < 0.1:
-            model.independent(number, int(random.choice(held)))
+        stiff = [k + 1 for k, value in enumerate(classes) if value == 1]
+        if stiff and random.random() < 0.2:
+            model.release(number, int(random.choice(stiff)))
+        elif stiff and random.random() < 0.1:
+            model.independent(number, int(random.choice(stiff)))
     return model
 
 

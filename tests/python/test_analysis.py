@@ -82,10 +82,9 @@ def test_bennett_linkage() -> None:
     model = Model()
     here = [model.node(*point) for point in points]
     beyond = [model.hinge(node, axis) for node, axis in zip(here, axes, strict=True)]
+    model.fix(here[0])
     for k in range(4):
-        model.fix(here[0]) if k == 0 else None
-        following = here[(k + 1) % 4]
-        model.beam(beyond[k], following)
+        model.beam(beyond[k], here[(k + 1) % 4])
     assert numbers(analyse(model)) == (1, 3)
 
 

@@ -146,7 +146,10 @@ def test_results_travel_between_processes() -> None:
     analysis = analyse(twelve_trusses())
     again = pickle.loads(pickle.dumps(analysis))
     assert again.to_json() == analysis.to_json()
+    for array in (again.raw.motions, again.data.arrays.node_value, again.motions[0].displacement):
+        assert not array.flags.writeable
     matrix = pickle.loads(pickle.dumps(flexact.jacobian(again.model)))
+    assert not matrix.values.flags.writeable
     assert np.array_equal(matrix.toarray(), flexact.jacobian(analysis.model).toarray())
     with pytest.raises(flexact.DeckError) as error:
         flexact.read_text("TRUS 1 1 2", "a.dat")

@@ -1,62 +1,20 @@
-"""The command as a person and a script meet it: verdicts, files, exit codes.
-
-Expected verdicts follow from counting bars and joints in the plane by hand.
-"""
+"""The command as a person and a script meet it: verdicts, files, exit codes."""
 
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
+from small_decks import BROKEN, DECKS, files_in, json_lines, write
 
 import flexact
 from flexact.cli.main import main
 
-TRIANGLE = """\
-% two bars from the ground to a joint
-PLTRUSS 1 1 3
-PLTRUSS 2 2 3
-X 1 0 0
-X 2 1 0
-X 3 0.5 1
-FIX 1
-FIX 2
-"""
-DECKS = {
-    "exact": TRIANGLE + "END\n",
-    "under": "PLTRUSS 1 1 2\nX 2 1 0\nFIX 1\nEND\n",
-    "over": TRIANGLE + "PLTRUSS 3 4 3\nX 4 0.5 0\nFIX 4\nEND\n",
-    "both": "PLTRUSS 1 1 2\nPLTRUSS 2 2 3\nX 1 -1 0\nX 3 1 0\nFIX 1\nFIX 3\nEND\n",
-}
 VERDICTS = {
     "exact": "exactly constrained",
     "under": "under-constrained",
     "over": "over-constrained",
     "both": "under-constrained and over-constrained",
 }
-BROKEN = "PLTRUS 1 1 2\nX 2 1 0\nFIX 1\nEND\n"
-
-
-def write(path: Path, text: str) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-@pytest.fixture
-def decks(tmp_path: Path) -> Path:
-    """A folder with one deck of each verdict."""
-    for name, text in DECKS.items():
-        write(tmp_path / "decks" / f"{name}.dat", text)
-    return tmp_path / "decks"
-
-
-def files_in(folder: Path) -> list[str]:
-    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
-
-
-def json_lines(text: str) -> list[dict[str, Any]]:
-    return [json.loads(line) for line in text.splitlines()]
 
 
 # Verdicts and exit codes

@@ -8,18 +8,10 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from test_cli import DECKS, json_lines, write
+from small_decks import json_lines, write
 
 import flexact
 from flexact.cli.main import main
-
-
-@pytest.fixture
-def decks(tmp_path: Path) -> Path:
-    """A folder with one deck of each verdict."""
-    for name, text in DECKS.items():
-        write(tmp_path / "decks" / f"{name}.dat", text)
-    return tmp_path / "decks"
 
 
 def command(
@@ -57,6 +49,25 @@ def test_what_is_no_deck_exits_with_2(verb: str, content: bytes | None, tmp_path
 
 def test_progress_is_for_terminals_only(decks: Path) -> None:
     assert command("analyse", decks, "--json").stderr.count(b"[1/4]") == 0
+
+
+@pytest.mark.skipif(os.name != "posix", reason="terminals of POSIX")
+def test_progress_counts_a_deck_that_is_named_twice(decks: Path) -> None:
+    reader, terminal = os.openpty()
+    names = [str(decks / f"{name}.dat") for name in ("exact", "under", "exact")]
+    try:
+        subprocess.run(
+            [sys.executable, "-m", "flexact", "analyse", "--json", *names],
+            stdout=subprocess.DEVNULL,
+            stderr=terminal,
+            env=process_environment(),
+            check=True,
+        )
+        seen = os.read(reader, 65536)
+    finally:
+        os.close(terminal)
+        os.close(reader)
+    assert [f"[{k}/3] {name}".encode() in seen for k, name in enumerate(names, 1)] == [True] * 3
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])

@@ -10,10 +10,6 @@ import flexact
 from flexact import Model, ModelError
 
 
-def keywords(model: Model) -> tuple[str, ...]:
-    return model.element_keywords
-
-
 def test_truss_model_has_no_rotations() -> None:
     model = Model()
     a, b = model.node(0, 0, 0), model.node(1, 2, 3)
@@ -29,7 +25,7 @@ def test_planar_model_has_two_coordinates_and_an_angle() -> None:
     model = Model(planar=True)
     a, b = model.node(0, 0), model.node(1, 0)
     model.beam(a, b)
-    assert keywords(model) == ("PLBEAM",)
+    assert model.element_keywords == ("PLBEAM",)
     assert model.node_kinds.tolist() == [1, 3, 1, 3]
     assert model.coordinate_classes.tolist() == [[2, 2, 0], [0, 0, 2]] * 2
     with pytest.raises(ModelError, match="no coordinate z"):
@@ -50,15 +46,14 @@ def test_sheet_follows_the_paper() -> None:
     ex, y = np.array([1, 0, 0]), model.element_vectors
     assert np.allclose(np.cross(ex, y), [[0, 0, 1]] * 3), "ez = ex x ey along the width"
     assert len(sheet.elements) == 3 and len(sheet.nodes) == 4
-    positions = {n: p for n, p in zip(model.node_numbers.tolist(), model.positions, strict=True)}
-    inner = [positions[node.position][0] for node in sheet.nodes]
+    inner = [model.positions[model.node_index(node.position), 0] for node in sheet.nodes]
     assert inner == pytest.approx([0, 1, 2, 3], abs=1e-15)
 
 
 def test_planar_sheet_bends() -> None:
     model = Model(planar=True)
     sheet = model.sheet(model.node(0, 0), model.node(1, 0))
-    assert keywords(model) == ("PLBEAM",)
+    assert model.element_keywords == ("PLBEAM",)
     assert model.deformation_classes[0, :3].tolist() == [1, 2, 2]
     with pytest.raises(ModelError, match="along z"):
         model.sheet(*sheet.nodes, width=(0, 1, 0))
@@ -68,12 +63,12 @@ def test_rigid_is_an_rbeam_where_nobody_needs_the_far_orientation() -> None:
     model = Model()
     a, b, c = model.node(0, 0, 0), model.node(1, 0, 0), model.node(1, 1, 0)
     model.rigid(a, b)
-    assert keywords(model) == ("RBEAM",)
+    assert model.element_keywords == ("RBEAM",)
     assert model.deformation_classes.tolist() == [[1, 1, 1, 0, 0, 0]]
     model.truss(b, c)
-    assert keywords(model) == ("RBEAM", "TRUSS")
+    assert model.element_keywords == ("RBEAM", "TRUSS")
     model.wire(b, model.node(2, 0, 0))
-    assert keywords(model) == ("BEAM", "TRUSS", "BEAM")
+    assert model.element_keywords == ("BEAM", "TRUSS", "BEAM")
     assert model.deformation_classes[0].tolist() == [1] * 6
 
 
@@ -82,7 +77,7 @@ def test_rigid_chain_needs_orientations_in_between() -> None:
     a, b, c = model.node(0, 0, 0), model.node(1, 0, 0), model.node(2, 0, 0)
     model.rigid(a, b)
     model.rigid(b, c)
-    assert keywords(model) == ("BEAM", "RBEAM")
+    assert model.element_keywords == ("BEAM", "RBEAM")
 
 
 def test_rigid_is_a_beam_where_its_deformation_or_far_rotation_is_named() -> None:
@@ -90,15 +85,15 @@ def test_rigid_is_a_beam_where_its_deformation_or_far_rotation_is_named() -> Non
     a, b = model.node(0, 0, 0), model.node(1, 0, 0)
     body = model.rigid(a, b)
     model.fix(b)
-    assert keywords(model) == ("RBEAM",)
+    assert model.element_keywords == ("RBEAM",)
     model.release(body, 2)
-    assert keywords(model) == ("BEAM",)
+    assert model.element_keywords == ("BEAM",)
     assert model.deformation_classes[0].tolist() == [1, 2, 1, 1, 1, 1]
     other = Model()
     a, b = other.node(0, 0, 0), other.node(1, 0, 0)
     other.rigid(a, b)
     other.independent(b, "rx")
-    assert keywords(other) == ("BEAM",)
+    assert other.element_keywords == ("BEAM",)
 
 
 def test_rigid_links_of_either_kind_give_one_answer() -> None:
@@ -130,11 +125,11 @@ def test_hinge_releases_the_rotation_about_its_axis() -> None:
     assert beyond.position == a.position and beyond.orientation != a.orientation
     model.rigid(beyond, b)
     model.fix(a)
-    assert keywords(model) == ("HINGE", "RBEAM")
+    assert model.element_keywords == ("HINGE", "RBEAM")
     assert model.deformation_classes[0].tolist() == [2, 1, 1, 0, 0, 0]
     analysis = flexact.analyse(model)
     assert (analysis.under_constrained, analysis.over_constrained) == (1, 0)
-    motion = analysis.motions[0].displacement[model.node_numbers.tolist().index(b.position)]
+    motion = analysis.motions[0].displacement[model.node_index(b.position)]
     assert np.abs(motion[[0, 2]]).max() < 1e-15 < abs(motion[1])
 
 
@@ -144,7 +139,7 @@ def test_planar_hinge() -> None:
     b = model.hinge(a)
     model.rigid(b, model.node(1, 0))
     model.fix(a)
-    assert keywords(model) == ("PLHINGE", "PLRBEAM")
+    assert model.element_keywords == ("PLHINGE", "PLRBEAM")
     analysis = flexact.analyse(model)
     assert (analysis.under_constrained, analysis.over_constrained) == (1, 0)
 
@@ -205,7 +200,7 @@ def test_deck_model_takes_the_same_methods() -> None:
     model.release(4, 6)
     assert model.element_numbers.tolist() == [4, 5, 6]
     assert list(model.element_names) == ["first beam", "second", ""]
-    assert keywords(model) == ("BEAM", "BEAM", "TRUSS")
+    assert model.element_keywords == ("BEAM", "BEAM", "TRUSS")
     assert model.deformation_classes[0].tolist() == [1, 1, 1, 1, 2, 2]
     assert model.coordinate_classes[2].tolist() == [2, 2, 1]
     assert model.element_vectors[0].tolist() == [0, 1, 0]
@@ -231,3 +226,22 @@ def test_a_lattice_of_a_hundred_thousand_bars_is_quick() -> None:
     arrays = model.element_nodes
     assert arrays.shape == (100_000, 4)
     assert time.perf_counter() - start < 5, "about 0.4 s; five for a busy machine"
+
+
+def test_indices_are_found_by_number() -> None:
+    model = flexact.read_text("BEAM 4 9 2 5 6\nTRUSS 7 5 1\nX 5 1 0 0\nX 1 1 1 0\n")
+    assert [model.node_index(number) for number in (1, 2, 5, 6, 9)] == [0, 1, 2, 3, 4]
+    assert (model.element_index(4), model.element_index(7)) == (0, 1)
+    with pytest.raises(ModelError, match="no element uses a node 3"):
+        model.node_index(3)
+    with pytest.raises(ModelError, match="there is no element 5"):
+        model.element_index(5)
+
+
+def test_an_orientation_that_no_element_uses_has_no_index() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.truss(a, b)
+    assert model.node_index(b.position) == 1
+    with pytest.raises(ModelError, match="no element uses"):
+        model.node_index(b.orientation)

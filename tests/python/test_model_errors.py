@@ -82,6 +82,36 @@ def test_core_checks_are_model_errors() -> None:
         assert "TRUSS 1" in str(error.value)
 
 
+def test_a_beam_with_a_wrong_release_is_not_made() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    for wrong, code in (((2, 7), "component-out-of-range"), (3, "bad-number"), ("x", "bad-number")):
+        with pytest.raises(ModelError) as error:
+            model.beam(a, b, release=wrong)  # type: ignore[arg-type]
+        assert code_of(error) == code
+    assert model.element_numbers.size == 0
+
+
+def test_a_name_is_not_taken_for_planar() -> None:
+    with pytest.raises(TypeError):
+        Model("guide")  # type: ignore[misc]
+
+
+def test_a_model_can_be_looked_at_while_it_is_made() -> None:
+    model = Model()
+    a, b, c = (model.node(x, 0, 0) for x in range(3))
+    for node in (a, b, c):
+        model.fix(node)
+    assert repr(model) == "<flexact model: 0 nodes, 0 elements>"
+    model.truss(a, b)
+    assert model.positions.tolist() == [[0, 0, 0], [1, 0, 0]]
+    assert [item.code for item in model.diagnostics] == ["no-such-node"]
+    with pytest.raises(ModelError, match="no element uses it"):
+        model.to_deck()
+    model.truss(b, c)
+    assert model.diagnostics == ()
+
+
 def test_class_of_a_node_that_nobody_uses() -> None:
     model = Model()
     a, b, c = model.node(0, 0, 0), model.node(1, 0, 0), model.node(2, 0, 0)

@@ -4,24 +4,15 @@ import os
 from pathlib import Path
 
 import pytest
+from small_decks import files_in, write
 
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, exit_code, find_decks
 from flexact.outputs import OutputError, plan_files, write_together
 
 
-def touch(path: Path) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("")
-    return path
-
-
-def files_in(folder: Path) -> list[str]:
-    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
-
-
 def test_a_folder_stands_for_its_decks_in_order(tmp_path: Path) -> None:
     for name in ("b.dat", "a/z.DAT", "a/notes.txt", "c/d/e.dat"):
-        touch(tmp_path / name)
+        write(tmp_path / name, "")
     decks = find_decks([str(tmp_path)])
     assert [deck.relative for deck in decks] == [Path("a/z"), Path("b"), Path("c/d/e")]
     assert [Path(deck.path) for deck in decks] == [
@@ -60,13 +51,13 @@ def test_two_decks_for_one_file_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_deck_is_not_overwritten(tmp_path: Path) -> None:
-    deck = touch(tmp_path / "x.json")
+    deck = write(tmp_path / "x.json", "")
     with pytest.raises(OutputError, match="would overwrite the deck"):
         plan_files([DeckFile(str(deck), Path("x"))], tmp_path, (".json",))
 
 
 def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
-    file = touch(tmp_path / "file")
+    file = write(tmp_path / "file", "")
     with pytest.raises(OutputError, match="is not a folder"):
         plan_files([], file / "below", (".json",))
 
@@ -105,13 +96,13 @@ def test_a_folder_in_the_way_leaves_all_as_it_was(tmp_path: Path) -> None:
 def test_a_write_that_fails_half_way_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write = Path.write_bytes
+    write_bytes = Path.write_bytes
 
     def fill_up(path: Path, content: bytes) -> int:
         if content == b"second":
-            write(path, content[:3])
+            write_bytes(path, content[:3])
             raise OSError(28, "No space left on device")
-        return write(path, content)
+        return write_bytes(path, content)
 
     monkeypatch.setattr(Path, "write_bytes", fill_up)
     with pytest.raises(OutputError, match=r"x\.log: No space left on device"):

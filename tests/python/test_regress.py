@@ -177,6 +177,7 @@ def test_a_tolerance_may_be_given(deck: Path, tmp_path: Path) -> None:
 def test_what_is_no_stored_answer_is_told(content: str, deck: Path, tmp_path: Path) -> None:
     path = tmp_path / "bars.json"
     path.write_text(content, encoding="utf-8", errors="surrogateescape")
-    with pytest.raises(StoredAnswerError, match=r"bars\.json: "):
+    with pytest.raises(StoredAnswerError, match=r"bars\.json: ") as error:
         load(path)
+    assert isinstance(error.value, flexact.FlexactError)
     assert main(["regress", str(deck), "--against", str(tmp_path)]) == 1

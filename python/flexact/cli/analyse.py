@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import flexact
-from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, exit_code, find_decks, run
+from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
 from flexact.cli import failures
-from flexact.cli.summary import summarise
-from flexact.cli.terminal import complain, end_progress, say, show_progress
+from flexact.cli.decks import add_decks, take
+from flexact.cli.terminal import complain, say
 
 if TYPE_CHECKING:
     from flexact.mesh_file import MeshFormat
@@ -31,7 +31,7 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
         description="Decide whether mechanisms are exactly, under- or over-constrained.",
         allow_abbrev=False,
     )
-    parser.add_argument("decks", nargs="+", metavar="DECK", help="a deck, or a folder of *.dat")
+    add_decks(parser)
     parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
     parser.add_argument(
         "-o",
@@ -52,12 +52,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
     if chosen.format and not chosen.output:
         raise BatchError("--format is for the mesh, which needs a folder: -o DIR")
     decks = find_decks(chosen.decks)
-    work = _Work(chosen, decks)
-    outcomes = run(decks, work.step, lambda deck, error: failures.tell(deck, error, chosen.json))
-    end_progress()
-    if text := summarise(outcomes):
-        complain(text) if chosen.json else say(text)
-    return exit_code(outcomes)
+    return take(decks, _Work(chosen, decks).step, as_json=chosen.json)
 
 
 class _Work:
@@ -65,7 +60,6 @@ class _Work:
 
     def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
         self.chosen = chosen
-        self.place = {deck.path: number for number, deck in enumerate(decks, start=1)}
         self.format: MeshFormat | None = None
         self.plan: dict[str, tuple[Path, ...]] = {}
         if chosen.output:
@@ -78,7 +72,6 @@ class _Work:
 
     def step(self, deck: DeckFile) -> Outcome:
         """Analyse one deck, say and write its results."""
-        show_progress(self.place[deck.path], len(self.place), deck.path)
         model = flexact.read(deck.path)
         failures.remark(model)
         analysis = flexact.analyse(model, name=deck.path)

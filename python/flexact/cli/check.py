@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 
 import flexact
-from flexact.batch import DeckFile, ExitCode, Outcome, exit_code, find_decks, run
+from flexact.batch import DeckFile, ExitCode, Outcome, find_decks
 from flexact.cli import failures
-from flexact.cli.summary import summarise
+from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import say
 
 
@@ -19,17 +19,13 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
         description="Say what is wrong with decks.",
         allow_abbrev=False,
     )
-    parser.add_argument("decks", nargs="+", metavar="DECK", help="a deck, or a folder of *.dat")
+    add_decks(parser)
     parser.set_defaults(run=check_decks)
 
 
 def check_decks(chosen: argparse.Namespace) -> ExitCode:
     """Read the decks that were asked for and say what is wrong with them."""
-    decks = find_decks(chosen.decks)
-    outcomes = run(decks, _check, lambda deck, error: failures.tell(deck, error, as_json=False))
-    if text := summarise(outcomes):
-        say(text)
-    return exit_code(outcomes)
+    return take(find_decks(chosen.decks), _check)
 
 
 def _check(deck: DeckFile) -> Outcome:

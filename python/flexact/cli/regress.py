@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import flexact
-from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, exit_code, find_decks, run
-from flexact.cli import failures
-from flexact.cli.summary import summarise
-from flexact.cli.terminal import end_progress, say, show_progress
+from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
+from flexact.cli.decks import add_decks, take
+from flexact.cli.terminal import say
 
 if TYPE_CHECKING:
     from flexact.regress import Tolerances
@@ -25,7 +24,7 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
         description="Compare what does not depend on sign, order or basis with stored answers.",
         allow_abbrev=False,
     )
-    parser.add_argument("decks", nargs="+", metavar="DECK", help="a deck, or a folder of *.dat")
+    add_decks(parser)
     parser.add_argument(
         "--against", type=Path, metavar="DIR", required=True, help="folder of the stored answers"
     )
@@ -61,20 +60,14 @@ def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     plan = plan_files(decks, chosen.against, (".json",)) if chosen.store else {}
     t = chosen.tolerance
     tolerances = STRICT if t is None else Tolerances(t, t)
-    place = {deck.path: number for number, deck in enumerate(decks, start=1)}
 
     def step(deck: DeckFile) -> Outcome:
-        show_progress(place[deck.path], len(decks), deck.path)
         if chosen.store:
             return _store(deck, plan[deck.path][0])
         stem = chosen.against / deck.relative
         return _compare(deck, stem.with_name(f"{stem.name}.json"), tolerances)
 
-    outcomes = run(decks, step, lambda deck, error: failures.tell(deck, error, as_json=False))
-    end_progress()
-    if text := summarise(outcomes):
-        say(text)
-    return exit_code(outcomes)
+    return take(decks, step)
 
 
 def _store(deck: DeckFile, target: Path) -> Outcome:

@@ -1,0 +1,76 @@
+"""What all verbs do with decks: the argument, one after the other, the closing lines."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Callable, Sequence
+
+from flexact.analysis import AnalysisError
+from flexact.batch import SUFFIX, BatchError, DeckFile, ExitCode, NoDecksError, Outcome, exit_code
+from flexact.cli import failures
+from flexact.cli.terminal import complain, end_progress, say, show_progress
+from flexact.diagnostics import DeckError
+
+REMARKS = {
+    ExitCode.OTHER: "failed",
+    ExitCode.DECK_ERROR: "deck with errors",
+    ExitCode.DIFFERENT: "not as expected",
+}
+
+
+def add_decks(parser: argparse.ArgumentParser) -> None:
+    """Add the decks to a verb's parser."""
+    parser.add_argument(
+        "decks", nargs="+", metavar="DECK", help=f"a deck, or a folder of *{SUFFIX}"
+    )
+
+
+def take(
+    decks: Sequence[DeckFile], step: Callable[[DeckFile], Outcome], *, as_json: bool = False
+) -> ExitCode:
+    """Take one deck after the other through `step`; a failing deck does not stop the rest.
+
+    Args:
+        decks: The decks.
+        step: What is done with a deck; it may raise DeckError, AnalysisError, BatchError.
+        as_json: Whether stdout is for JSON alone.
+
+    Returns:
+        The exit code of the command.
+    """
+    outcomes = []
+    for number, deck in enumerate(decks, start=1):
+        show_progress(number, len(decks), deck.path)
+        outcomes.append(_attempt(deck, step, as_json))
+    end_progress()
+    if text := summarise(outcomes):
+        complain(text) if as_json else say(text)
+    return exit_code(outcomes)
+
+
+def _attempt(deck: DeckFile, step: Callable[[DeckFile], Outcome], as_json: bool) -> Outcome:
+    try:
+        if deck.empty_folder:
+            raise NoDecksError(f"{deck.path}: no deck (*{SUFFIX}) in this folder or below it")
+        return step(deck)
+    except (DeckError, NoDecksError, AnalysisError, BatchError, MemoryError) as error:
+        failures.tell(deck, error, as_json)
+        of_deck = isinstance(error, DeckError | NoDecksError)
+        code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
+        return Outcome(deck.path, code, "failed")
+
+
+def summarise(outcomes: Sequence[Outcome]) -> str:
+    """How many decks gave what, and which of them want attention; empty for a single deck."""
+    if len(outcomes) < 2:
+        return ""
+    counts = Counter(outcome.result for outcome in outcomes)
+    parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
+    lines = [f"{len(outcomes)} decks: {parts}"]
+    lines += [
+        f"  {REMARKS[outcome.code]}: {outcome.deck}"
+        for outcome in outcomes
+        if outcome.code is not ExitCode.ANALYSED
+    ]
+    return "\n".join(lines)
