@@ -162,6 +162,7 @@ class Builder:
         axis: Sequence[float] | None = None,
         q: Node | None = None,
         name: str = "",
+        independent: bool = False,
     ) -> Node:
         """A hinge at p: the rotation about the axis is released, the others are held.
 
@@ -171,6 +172,7 @@ class Builder:
             q: The point on the other side, at the same position node; by default a new
                 one, as `pivot` makes it.
             name: What the element is called.
+            independent: Whether the rotation is a degree of freedom, eq. (6).
 
         Returns:
             The point beyond the hinge.
@@ -188,7 +190,9 @@ class Builder:
                 "make the second point with pivot(p), or leave it out",
             )
         kind = _kind("HINGE", draft.planar)
-        draft.add_element(kind, (0, here, 0, there), name, direction, (1,))
+        number = draft.add_element(kind, (0, here, 0, there), name, direction, (1,))
+        if independent:
+            self.independent(Element(number, self._owner), 1)
         return q
 
     def _beam(

@@ -245,3 +245,15 @@ def test_an_orientation_that_no_element_uses_has_no_index() -> None:
     assert model.node_index(b.position) == 1
     with pytest.raises(ModelError, match="no element uses"):
         model.node_index(b.orientation)
+
+
+def test_driven_hinge_is_a_degree_of_freedom() -> None:
+    """A crank on the ground turns when nothing is declared, and is exact when its hinge is."""
+    for driven, motions in ((False, 1), (True, 0)):
+        model = Model()
+        ground, end = model.node(0, 0, 0), model.node(1, 0, 0)
+        model.fix(ground)
+        model.rigid(model.hinge(ground, axis=(0, 0, 1), independent=driven), end)
+        analysis = flexact.analyse(model)
+        assert (analysis.under_constrained, analysis.over_constrained) == (motions, 0)
+        assert analysis.degrees_of_freedom == int(driven)

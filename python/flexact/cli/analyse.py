@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import flexact
+from flexact import memory
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
 from flexact.cli import failures
 from flexact.cli.decks import add_decks, take
@@ -14,6 +15,9 @@ from flexact.cli.terminal import complain, say
 
 if TYPE_CHECKING:
     from flexact.mesh_file import MeshFormat
+
+#: From so many rows and columns on, people wait for the decomposition.
+LONG_WAIT = 2000
 
 VERDICTS = {
     "exact": flexact.Verdict.EXACT,
@@ -74,6 +78,7 @@ class _Work:
         """Analyse one deck, say and write its results."""
         model = flexact.read(deck.path)
         failures.remark(model)
+        _announce(deck, model)
         analysis = flexact.analyse(model, name=deck.path)
         if self.format is not None:
             self._write(deck, analysis)
@@ -99,6 +104,16 @@ class _Work:
             wanted = VERDICTS[self.chosen.expect].value
             complain(f"{deck.path}: {verdict.value}, but expected {wanted}")
         return Outcome(deck.path, code, verdict.value)
+
+
+def _announce(deck: DeckFile, model: flexact.Model) -> None:
+    count = model.data.count
+    long = min(count.rows, count.columns) >= LONG_WAIT
+    if long and memory.is_enough(count.rows, count.columns):
+        complain(
+            f"{deck.path}: decomposing D(c), {count.rows} x {count.columns}; the time grows "
+            "with the third power of its size, a minute or so at 5000"
+        )
 
 
 def _words(analysis: flexact.Analysis) -> str:
