@@ -6,7 +6,8 @@ module flexact_determinacy
    use flexact_partition, only: partition_t, make_partition
    use flexact_localise, only: localise
    use flexact_jacobian, only: jacobian_t, make_jacobian, fill_dense
-   use flexact_scaling, only: scaling_t, make_scaling, rank_tolerance
+   use flexact_scaling, only: scaling_t, make_scaling
+   use flexact_rank, only: rank_t, decide_rank
    use flexact_decomposition, only: is_feasible, decompose, singular_values, orthonormalise, &
                                     status_fine, status_no_memory
    implicit none
@@ -16,7 +17,6 @@ module flexact_determinacy
    type :: determinacy_t
       !> status_fine, status_no_convergence or status_no_memory.
       integer :: status = status_fine
-      integer :: rank = 0
       !> Order of the rows and columns of D(c), and the counts.
       type(partition_t) :: partition
       !> Reference length of each element [m], (elements).
@@ -26,7 +26,7 @@ module flexact_determinacy
       !> Singular values of the scaled matrix, those above the tolerance make
       !> the rank.
       real(wp), allocatable :: scaled_values(:)
-      real(wp) :: tolerance = 0.0_wp
+      type(rank_t) :: decision
       type(scaling_t) :: scaling
    end type determinacy_t
 
@@ -66,12 +66,11 @@ contains
       if (result%status /= status_fine) return
       deallocate (dense)
 
-      result%tolerance = rank_tolerance(result%scaling, result%scaled_values)
-      result%rank = count(result%scaled_values > result%tolerance)
+      result%decision = decide_rank(result%scaling, result%scaled_values)
       call transpose_in_place(motions)
-      call keep_null_space(motions, result%rank, result%scaling%column, result%status)
+      call keep_null_space(motions, result%decision%rank, result%scaling%column, result%status)
       if (result%status /= status_fine) return
-      call keep_null_space(stresses, result%rank, result%scaling%row, result%status)
+      call keep_null_space(stresses, result%decision%rank, result%scaling%row, result%status)
    end subroutine analyse
 
    !> Bring the columns beyond the rank to the front as an orthonormal basis of

@@ -5,11 +5,11 @@ module flexact_scaling
    use flexact_model, only: model_t, is_position
    use flexact_partition, only: partition_t, axes
    use flexact_jacobian, only: jacobian_t
-   use flexact_rounding, only: uncertainty
+   use flexact_rounding, only: last_bits, last_digit
    use flexact_vectors, only: length_of
    implicit none
    private
-   public :: scaling_t, make_scaling, rank_tolerance
+   public :: scaling_t, make_scaling
 
    !> The scaled matrix is diag(row) D(c) diag(column).
    type :: scaling_t
@@ -18,9 +18,11 @@ module flexact_scaling
       real(wp) :: characteristic_length = 1.0_wp
       real(wp), allocatable :: row(:)
       real(wp), allocatable :: column(:)
-      !> By how much, in the Frobenius norm, the scaled matrix may differ from
-      !> that of the scene that was meant, because its numbers are rounded.
-      real(wp) :: error_of_rows = 0.0_wp
+      !> By how much, in the 2-norm, the scaled matrix may differ from that of
+      !> the scene that was meant: because of rounding in the last bits, and
+      !> because of the digits with which coordinates were typed.
+      real(wp) :: error_of_bits = 0.0_wp
+      real(wp) :: error_of_digits = 0.0_wp
    end type scaling_t
 
 contains
@@ -43,7 +45,7 @@ contains
             scaling%column(j) = 1/scaling%characteristic_length
       end do
       call scale_rows(model, partition, jacobian, scaling)
-      scaling%error_of_rows = error_of_rows(model, partition, jacobian%length, scaling%characteristic_length)
+      call bound_errors(model, partition, jacobian, scaling)
    end subroutine make_scaling
 
    pure logical function is_rotation(model, node)
@@ -87,51 +89,55 @@ contains
       end where
    end subroutine scale_rows
 
-   !> The root of the sum over rows of the squared error that the numbers of
-   !> the scene leave in a row of unit norm.
-   pure real(wp) function error_of_rows(model, partition, length, characteristic_length) result(error)
+   !> A matrix whose row i has a norm of at most e_i has a 2-norm of at most the
+   !> root of the largest sum of e_i**2 over the rows that meet in one column.
+   pure subroutine bound_errors(model, partition, jacobian, scaling)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
-      real(wp), intent(in) :: length(:), characteristic_length
-      real(wp), allocatable :: of_element(:)
-      integer :: k
+      type(jacobian_t), intent(in) :: jacobian
+      type(scaling_t), intent(inout) :: scaling
+      real(wp), allocatable :: error(:, :), squares(:, :)
+      integer :: k, entry, row, column
 
-      allocate (of_element(model%elements))
+      allocate (error(2, model%elements))
       do k = 1, model%elements
-         of_element(k) = error_of_direction(model, k, merge(length(k), characteristic_length, length(k) > 0))
+         error(:, k) = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length)
       end do
-      error = norm2(of_element(partition%row_label(1, :)))
-   end function error_of_rows
+      allocate (squares(2, partition%count%columns), source=0.0_wp)
+      do entry = 1, jacobian%entries
+         row = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
+         column = partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
+         if (row > 0 .and. column > 0) squares(:, column) = squares(:, column) + error(:, jacobian%row(1, entry))**2
+      end do
+      if (size(squares) == 0) return
+      scaling%error_of_bits = sqrt(maxval(squares(1, :)))
+      scaling%error_of_digits = sqrt(maxval(squares(2, :)))
+   end subroutine bound_errors
 
-   !> How far the directions of element k may be turned, no more than makes
-   !> them unknown.
-   pure real(wp) function error_of_direction(model, k, length) result(error)
+   !> How far the directions of element k may be turned, by rounding in the last
+   !> bits and by the digits typed; no more than makes them unknown.
+   pure function errors_of_direction(model, k, length, characteristic_length) result(error)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
-      real(wp), intent(in) :: length
-      real(wp) :: misplaced
+      real(wp), intent(in) :: length, characteristic_length
+      real(wp) :: error(2)
       integer :: slot
 
-      misplaced = 0.0_wp
+      error = 0.0_wp
       do slot = 1, 3, 2
          associate (node => model%element_node(slot, k))
-            if (node > 0) misplaced = max(misplaced, maxval(uncertainty(model%node_value(1:axes, node))))
+            if (node > 0) error = max(error, uncertainties(model%node_value(1:axes, node)))
          end associate
       end do
-      error = min(misplaced, length)/length
+      error = min(1.0_wp, error/merge(length, characteristic_length, length > 0))
       associate (vector => model%element_vector(:, k))
-         if (any(abs(vector) > 0)) error = max(error, maxval(uncertainty(vector))/length_of(vector))
+         if (any(abs(vector) > 0)) error = max(error, uncertainties(vector)/length_of(vector))
       end associate
-   end function error_of_direction
+   end function errors_of_direction
 
-   !> Singular values of the scaled matrix up to this count as zero: what dgesdd
-   !> may get wrong, and what the rounding of the scene's numbers may do.
-   pure real(wp) function rank_tolerance(scaling, values) result(tolerance)
-      type(scaling_t), intent(in) :: scaling
-      real(wp), intent(in) :: values(:)
-
-      tolerance = scaling%error_of_rows
-      if (size(values) == 0) return
-      tolerance = tolerance + epsilon(tolerance)*max(size(scaling%row), size(scaling%column))*values(1)
-   end function rank_tolerance
+   pure function uncertainties(numbers) result(largest)
+      real(wp), intent(in) :: numbers(:)
+      real(wp) :: largest(2)
+      largest = [maxval(last_bits(numbers)), maxval(last_digit(numbers))]
+   end function uncertainties
 end module flexact_scaling

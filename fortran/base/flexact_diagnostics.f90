@@ -7,14 +7,16 @@ module flexact_diagnostics
    private
    public :: span_t, diagnostic_t, diagnostics_t
    public :: severity_error, severity_warning, severity_note
-   public :: most_kept, text_length, code_length
+   public :: most_shown, text_length, code_length
 
    integer, parameter :: severity_error = 1
    integer, parameter :: severity_warning = 2
    integer, parameter :: severity_note = 3
 
-   !> So many diagnostics are kept; all are counted.
-   integer, parameter :: most_kept = 100
+   !> All diagnostics are counted. So many are kept, in the order in which they
+   !> are met, and the first by place of these are shown.
+   integer, parameter :: most_kept = 2000
+   integer, parameter :: most_shown = 100
    integer, parameter :: text_length = 240
    integer, parameter :: code_length = 32
 
@@ -94,7 +96,7 @@ contains
       integer :: at
 
       self%count(severity) = self%count(severity) + 1
-      if (.not. allocated(self%item)) allocate (self%item(most_kept))
+      call make_room(self)
       at = self%kept + 1
       if (at > most_kept) then
          ! An error takes the place of the last thing that is none.
@@ -107,6 +109,19 @@ contains
       if (present(other)) self%item(at)%other = other
       if (present(words)) self%item(at)%words = words
    end subroutine add
+
+   subroutine make_room(self)
+      type(diagnostics_t), intent(inout) :: self
+      type(diagnostic_t), allocatable :: larger(:)
+
+      if (.not. allocated(self%item)) then
+         allocate (self%item(16))
+      else if (self%kept == size(self%item) .and. self%kept < most_kept) then
+         allocate (larger(min(2*self%kept, most_kept)))
+         larger(:self%kept) = self%item
+         call move_alloc(larger, self%item)
+      end if
+   end subroutine make_room
 
    pure logical function has_errors(self)
       class(diagnostics_t), intent(in) :: self

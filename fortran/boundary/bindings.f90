@@ -234,7 +234,7 @@ subroutine assemble(entries, nn, ne, node_number, node_kind, node_value, coordin
 end subroutine assemble
 
 ! Rank, motions and self-stresses in the reference configuration. numbers:
-! tolerance on scaled_values, characteristic length, 0, 0. status: 0 fine,
+! tolerance on scaled_values, characteristic length, noise, 0. status: 0 fine,
 ! 1 no convergence, 2 not enough memory, 3 sizes that are not the model's.
 subroutine analyse_model(rows, columns, least, nn, ne, node_number, node_kind, node_value, coordinate_class, &
                          element_number, element_kind, element_node, element_vector, deformation_class, &
@@ -293,7 +293,8 @@ subroutine analyse_model(rows, columns, least, nn, ne, node_number, node_kind, n
    scaled_values = result%scaled_values
    row_scale = result%scaling%row
    column_scale = result%scaling%column
-   numbers(1) = result%tolerance
+   numbers(1) = result%decision%tolerance
    numbers(2) = result%scaling%characteristic_length
-   rank = result%rank
+   numbers(3) = result%decision%noise
+   rank = result%decision%rank
 end subroutine analyse_model

@@ -2,7 +2,7 @@
 module flexact_exchange
    use, intrinsic :: iso_c_binding, only: c_signed_char
    use flexact_deck, only: locate
-   use flexact_diagnostics, only: span_t, diagnostic_t, diagnostics_t, most_kept, text_length
+   use flexact_diagnostics, only: span_t, diagnostic_t, diagnostics_t, most_shown, text_length
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, slots, most_deformations
    implicit none
@@ -59,20 +59,21 @@ contains
       allocate (model%element_origin(model%elements), source=0)
    end subroutine make_model
 
-   !> Diagnostics as arrays. count: errors, warnings, notes, kept. number:
+   !> Diagnostics as arrays. count: errors, warnings, notes, shown. number:
    !> severity, line, first and last column, the same three of the other place,
    !> 0. words: code, message, label, help.
    subroutine give_diagnostics(text, diagnostics, count, number, words)
       character(len=*), intent(in) :: text
       type(diagnostics_t), intent(in) :: diagnostics
-      integer, intent(out) :: count(4), number(8, most_kept)
-      integer(c_signed_char), intent(out) :: words(width, 4, most_kept)
-      integer :: i
+      integer, intent(out) :: count(4), number(8, most_shown)
+      integer(c_signed_char), intent(out) :: words(width, 4, most_shown)
+      integer :: i, shown
 
-      count = [diagnostics%count, diagnostics%kept]
+      shown = min(diagnostics%kept, most_shown)
+      count = [diagnostics%count, shown]
       number = 0
-      words(:, :, diagnostics%kept + 1:) = 0_c_signed_char
-      do i = 1, diagnostics%kept
+      words(:, :, shown + 1:) = 0_c_signed_char
+      do i = 1, shown
          associate (item => diagnostics%item(i))
             number(1, i) = item%severity
             call give_place(text, item%place, number(2:4, i))

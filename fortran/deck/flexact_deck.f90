@@ -30,15 +30,17 @@ contains
       if (unreadable > 0) then
          call diagnostics%error('not-text', span_t(unreadable, unreadable), &
                                 'this is not a text: it holds a NUL or another control character', &
-                                'no text holds this character', 'give a deck, which is a plain text file')
+                                'no text holds this character', 'take it away, or give a deck: a plain text file')
          return
       end if
       call read_statements(text, statements, count, diagnostics)
       associate (all_statements => statements(:count))
          call read_elements(text, all_statements, scene, diagnostics)
-         call read_values(text, all_statements, scene, diagnostics)
-         call read_classes(text, all_statements, scene, diagnostics)
-         call read_forms(text, all_statements, scene, diagnostics)
+         if (scene%model%elements > 0) then
+            call read_values(text, all_statements, scene, diagnostics)
+            call read_classes(text, all_statements, scene, diagnostics)
+            call read_forms(text, all_statements, scene, diagnostics)
+         end if
          call check_model(scene%model, diagnostics)
          if (.not. diagnostics%has_errors()) call note_unused(all_statements, unused, diagnostics)
       end associate

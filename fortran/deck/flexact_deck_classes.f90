@@ -173,16 +173,16 @@ contains
       select case (kind)
       case (node_planar_position)
          choice%range = 'a planar position has 1 and 2'
-         choice%entry = [1, 2]
+         allocate (choice%entry(2), source=[1, 2])
       case (node_position)
          choice%range = 'a position has 1 to 3'
-         choice%entry = [1, 2, 3]
+         allocate (choice%entry(3), source=[1, 2, 3])
       case (node_angle)
          choice%range = 'a planar orientation has 1'
-         choice%entry = [3]
+         allocate (choice%entry(1), source=[3])
       case default
          choice%range = 'an orientation has 1 to 4'
-         choice%entry = [0, 1, 2, 3]
+         allocate (choice%entry(4), source=[0, 1, 2, 3])
       end select
    end function components_of
 
@@ -196,7 +196,7 @@ contains
       choice%part = 'deformation'
       associate (row => element_kinds(kind))
          choice%range = trim(row%keyword)//' has 1 to '//achar(iachar('0') + row%deformations)
-         choice%entry = [(i, i=1, row%deformations)]
+         allocate (choice%entry(row%deformations), source=[(i, i=1, row%deformations)])
       end associate
    end function deformations_of
 end module flexact_deck_classes

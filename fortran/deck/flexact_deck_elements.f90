@@ -4,12 +4,13 @@ module flexact_deck_elements
    use flexact_deck_scene, only: scene_t
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds, vector_none, vector_optional, vector_required
-   use flexact_keywords, only: role_element
+   use flexact_keywords, only: role_element, role_uncovered, role_unknown
    use flexact_kinds, only: wp
    use flexact_lexer, only: operand_span
    use flexact_model, only: model_t, node_planar_position, node_position, node_angle, node_orientation, &
                             is_position, has_axis, slots, most_deformations, class_none, class_fixed, class_dependent
    use flexact_numbering, only: numbering_t, make_numbering
+   use flexact_numbers, only: leading_integer
    use flexact_operands, only: operands_t, operands_of
    use flexact_statement, only: statement_t
    implicit none
@@ -29,24 +30,48 @@ contains
       type(statement_t), intent(in) :: statements(:)
       type(scene_t), intent(inout) :: scene
       type(diagnostics_t), intent(inout) :: diagnostics
+      integer, allocatable :: excused(:)
       integer :: i, k
+      logical :: fine
 
+      allocate (excused(0))
       associate (model => scene%model)
          model%elements = count(statements%role == role_element)
          call allocate_elements(model)
          allocate (scene%element_names(model%elements))
          k = 0
          do i = 1, size(statements)
-            if (statements(i)%role /= role_element) cycle
-            k = k + 1
-            scene%element_names(k) = statements(i)%comment
-            call read_element(text, statements(i), model, k, diagnostics)
+            select case (statements(i)%role)
+            case (role_element)
+               k = k + 1
+               scene%element_names(k) = statements(i)%comment
+               call read_element(text, statements(i), model, k, fine, diagnostics)
+               if (.not. fine) call excuse(text, statements(i), excused)
+            case (role_unknown, role_uncovered)
+               call excuse(text, statements(i), excused)
+            end select
          end do
+         scene%excused = make_numbering(excused)
          scene%nodes = make_numbering(reshape(model%element_node, [slots*model%elements]))
          call make_nodes(text, model, scene%nodes, diagnostics)
       end associate
       call find_elements(text, scene, diagnostics)
    end subroutine read_elements
+
+   !> Remember the integers of a statement that could not be read, up to some
+   !> number: a deck of nothing else is not a deck.
+   subroutine excuse(text, statement, excused)
+      character(len=*), intent(in) :: text
+      type(statement_t), intent(in) :: statement
+      integer, allocatable, intent(inout) :: excused(:)
+      type(operands_t) :: operands
+
+      operands = operands_of(statement)
+      do while (operands%another(text))
+         if (size(excused) >= 10000) exit
+         excused = [excused, leading_integer(text(operands%word%first:operands%word%last))]
+      end do
+   end subroutine excuse
 
    subroutine allocate_elements(model)
       type(model_t), intent(inout) :: model
@@ -62,11 +87,12 @@ contains
    !> One statement; the node slots hold numbers until all are known. An
    !> element whose statement is wrong keeps its number, so that statements
    !> about it are not reported as well, and loses its nodes where they are unknown.
-   subroutine read_element(text, statement, model, k, diagnostics)
+   subroutine read_element(text, statement, model, k, fine, diagnostics)
       character(len=*), intent(in) :: text
       type(statement_t), intent(in) :: statement
       type(model_t), intent(inout) :: model
       integer, intent(in) :: k
+      logical, intent(out) :: fine
       type(diagnostics_t), intent(inout) :: diagnostics
       type(operands_t) :: operands, ahead
       integer :: slot
@@ -82,9 +108,11 @@ contains
             call operands%positive_integer(text, node_in_slot(slot), model%element_node(slot, k), diagnostics)
          end do
          call read_vector(text, operands, kind%vector, model%element_vector(:, k), diagnostics)
-         if (.not. operands%fine) return
-         ahead = operands
-         if (ahead%another(text)) call operands%finish(text, form_of(statement%what), diagnostics)
+         if (operands%fine) then
+            ahead = operands
+            if (ahead%another(text)) call operands%finish(text, form_of(statement%what), diagnostics)
+         end if
+         fine = operands%fine
       end associate
    end subroutine read_element
 
@@ -111,6 +139,8 @@ contains
          if (i == 1) place = operands%word
          place%last = operands%word%last
       end do
+      ! A vector that is half known is not known.
+      if (.not. operands%fine) vector = 0.0_wp
       if (operands%fine .and. all(abs(vector) <= 0.0_wp)) then
          call diagnostics%error('zero-vector', place, 'the vector is zero', 'has no direction', &
                                 'give a vector that is not zero')
@@ -233,6 +263,7 @@ contains
       character(len=*), intent(in) :: text
       type(scene_t), intent(inout) :: scene
       type(diagnostics_t), intent(inout) :: diagnostics
+      type(span_t) :: place
       integer :: k, index
 
       associate (model => scene%model)
@@ -246,8 +277,9 @@ contains
             else if (diagnostics%is_full()) then
                call diagnostics%count_error()
             else
-               call diagnostics%error('duplicate-element', operand_span(text, model%element_origin(k), 2, 2), &
-                                      'two elements have one number', 'used again here', &
+               place = operand_span(text, model%element_origin(k), 2, 2)
+               call diagnostics%error('duplicate-element', place, &
+                                      'element number '//text(place%first:place%last)//' is used twice', 'used again here', &
                                       'give each element a number of its own', &
                                       operand_span(text, model%element_origin(scene%element_of(index)), 2, 2))
             end if

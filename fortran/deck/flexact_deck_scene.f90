@@ -17,6 +17,9 @@ module flexact_deck_scene
       integer, allocatable :: element_of(:)
       !> Name of each element, as a place in the text.
       type(span_t), allocatable :: element_names(:)
+      !> Numbers in element statements that could not be read: nodes or elements
+      !> perhaps, so that nobody is told that they do not exist.
+      type(numbering_t) :: excused
    end type scene_t
 
 contains
@@ -37,6 +40,7 @@ contains
       node = scene%nodes%find(number)
       if (node > 0) return
       operands%fine = .false.
+      if (scene%excused%find(number) > 0) return
       call diagnostics%error('no-such-node', operands%word, &
                              'there is no node '//text(operands%word%first:operands%word%last), &
                              'no element uses this node', &
@@ -59,6 +63,7 @@ contains
       if (index > 0) element = scene%element_of(index)
       if (element > 0) return
       operands%fine = .false.
+      if (scene%excused%find(number) > 0) return
       call diagnostics%error('no-such-element', operands%word, &
                              'there is no element '//text(operands%word%first:operands%word%last), &
                              'no statement makes this element', &

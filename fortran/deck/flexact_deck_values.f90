@@ -6,6 +6,7 @@ module flexact_deck_values
    use flexact_keywords, only: role_value
    use flexact_kinds, only: wp
    use flexact_model, only: node_planar_position, node_position, node_angle
+   use flexact_numbers, only: leading_integer
    use flexact_operands, only: operands_t, operands_of
    use flexact_statement, only: statement_t
    implicit none
@@ -36,7 +37,12 @@ contains
          if (statements(i)%role /= role_value) cycle
          operands = operands_of(statements(i))
          call take_node(text, scene, operands, node, diagnostics)
-         if (node == 0) cycle
+         if (node == 0) then
+            ! The node that may have been meant is not known.
+            node = scene%nodes%find(leading_integer(text(operands%word%first:operands%word%last)))
+            if (node > 0) scene%model%node_value(:, node) = ieee_value(1.0_wp, ieee_quiet_nan)
+            cycle
+         end if
          if (stated(node)%first > 0) then
             call diagnostics%warning('repeated-value', operands%word, &
                                      'the node has a value already', 'this one counts', &
@@ -55,6 +61,7 @@ contains
       integer, intent(in) :: kind
       real(wp), intent(inout) :: value(4)
       type(diagnostics_t), intent(inout) :: diagnostics
+      type(span_t) :: all_of_them
       integer :: i
 
       select case (kind)
@@ -74,24 +81,26 @@ contains
       case default
          do i = 1, 4
             call operands%real_number(text, euler_parameter(i), value(i), diagnostics)
+            if (i == 1) all_of_them = operands%word
          end do
+         all_of_them%last = operands%word%last
          if (operands%fine) call operands%finish(text, 'X n l0 l1 l2 l3 for an orientation node', diagnostics)
-         if (operands%fine) call check_norm(operands, value, diagnostics)
+         if (operands%fine) call check_norm(all_of_them, value, diagnostics)
       end select
    end subroutine read_value
 
-   subroutine check_norm(operands, value, diagnostics)
-      type(operands_t), intent(in) :: operands
+   subroutine check_norm(place, value, diagnostics)
+      type(span_t), intent(in) :: place
       real(wp), intent(in) :: value(4)
       type(diagnostics_t), intent(inout) :: diagnostics
       real(wp) :: norm
 
       norm = norm2(value)
       if (norm <= 0.0_wp .or. norm > huge(norm)) then
-         call diagnostics%error('bad-orientation', operands%word, 'these Euler parameters describe no orientation', &
+         call diagnostics%error('bad-orientation', place, 'these Euler parameters describe no orientation', &
                                 'their norm is zero or not finite', 'no rotation is 1 0 0 0')
       else if (abs(norm - 1.0_wp) > norm_slack) then
-         call diagnostics%warning('bad-orientation', operands%word, 'the norm of these Euler parameters is not 1', &
+         call diagnostics%warning('bad-orientation', place, 'the norm of these Euler parameters is not 1', &
                                   'used after division by the norm', 'write parameters of norm 1')
       end if
    end subroutine check_norm

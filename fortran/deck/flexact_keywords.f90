@@ -9,7 +9,7 @@ module flexact_keywords
    private
    public :: keyword_t, keywords, find_keyword, nearest_keyword
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
-   public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered
+   public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown
 
    integer, parameter :: block_kinematics = 1
    integer, parameter :: block_dynamics = 2
@@ -20,13 +20,14 @@ module flexact_keywords
 
    !> What a statement does: makes an element; gives a node its value; gives a
    !> coordinate or a deformation its class; is read for its form alone; is
-   !> known, and outside what Flexact covers.
+   !> known, and outside what Flexact covers; or is not known at all.
    integer, parameter :: role_element = 1
    integer, parameter :: role_value = 2
    integer, parameter :: role_coordinate = 3
    integer, parameter :: role_deformation = 4
    integer, parameter :: role_form = 5
    integer, parameter :: role_uncovered = 6
+   integer, parameter :: role_unknown = 7
 
    type :: keyword_t
       character(len=13) :: name
@@ -84,6 +85,8 @@ module flexact_keywords
                                  keyword_t('USERSIG', dyn, form, 'w', 1, any_number), &
                                  keyword_t('USERINP', dyn, form, 'w', 1, any_number), &
                                  keyword_t('INPUTF', block_inout, form, 'w', 1, any_number), &
+                                 keyword_t('INX', block_inout, form, 'r', 1, any_number), &
+                                 keyword_t('OUTF', block_inout, form, 'r', 1, any_number), &
                                  keyword_t('OUTX', block_inout, form, 'r', 1, any_number), &
                                  keyword_t('OUTXP', block_inout, form, 'r', 1, any_number), &
                                  keyword_t('VISUALIZATION', pic, form, 'w', 0, any_number), &

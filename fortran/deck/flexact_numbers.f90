@@ -6,7 +6,7 @@ module flexact_numbers
    use flexact_lexer, only: upper_case
    implicit none
    private
-   public :: read_integer, read_real
+   public :: read_integer, read_real, leading_integer
    public :: number_fine, number_malformed, number_not_whole, number_not_finite, number_too_large
 
    integer, parameter :: number_fine = 0
@@ -80,6 +80,18 @@ contains
       end do
       status = number_fine
    end subroutine read_few_digits
+
+   !> What a faulty word may have meant: the integer that it starts with, or 0.
+   pure integer function leading_integer(word) result(value)
+      character(len=*), intent(in) :: word
+      integer :: last, status
+
+      do last = 1, len(word)
+         if (word(last:last) < '0' .or. word(last:last) > '9') exit
+      end do
+      value = 0
+      if (last > 1) call read_integer(word(:last - 1), value, status)
+   end function leading_integer
 
    !> A real number: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3.
    subroutine read_real(word, value, status)

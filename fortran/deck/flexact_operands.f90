@@ -110,11 +110,15 @@ contains
 
       if (.not. self%another(text)) return
       surplus = self%word
+      if (is_semicolon(text, surplus)) then
+         call semicolon(self, diagnostics)
+         return
+      end if
       do while (self%another(text))
          surplus%last = self%word%last
       end do
       call diagnostics%error('surplus-operand', surplus, &
-                             'more operands than '//text(self%keyword%first:self%keyword%last)//' takes', &
+                             text(self%keyword%first:self%keyword%last)//' has more operands than it takes', &
                              'nothing may stand here', 'its form is: '//form)
       self%fine = .false.
    end subroutine finish
@@ -131,8 +135,8 @@ contains
       ! One missing operand is said once, not once for each that would follow.
       if (self%position < huge(1)) then
          call diagnostics%error('missing-operand', span_t(behind, behind), &
-                                text(self%keyword%first:self%keyword%last)//' lacks an operand: '//trim(what), &
-                                'expected here: '//trim(what), 'add the '//trim(what))
+                                text(self%keyword%first:self%keyword%last)//' needs one more operand: '//trim(what), &
+                                'expected here: '//trim(what), 'add it')
       end if
       self%position = huge(1)
       self%fine = .false.
@@ -145,6 +149,10 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics
 
       self%fine = .false.
+      if (word(1:1) == ';') then
+         call semicolon(self, diagnostics)
+         return
+      end if
       select case (status)
       case (number_malformed)
          call diagnostics%error('bad-number', self%word, quoted(word)//' is not a number', &
@@ -156,10 +164,28 @@ contains
          call diagnostics%error('not-finite', self%word, quoted(word)//' is not a finite number', &
                                 'expected here: '//trim(what), 'write a finite number')
       case (number_too_large)
-         call diagnostics%error('number-too-large', self%word, quoted(word)//' is larger than a number can be', &
-                                'expected here: '//trim(what), 'write a smaller number')
+         call diagnostics%error('number-too-large', self%word, quoted(word)//' is larger than it can be', &
+                                'expected here: '//trim(what), &
+                                'whole numbers go up to 2147483647, others up to 1.79e308')
       end select
    end subroutine wrong_number
+
+   pure logical function is_semicolon(text, word)
+      character(len=*), intent(in) :: text
+      type(span_t), intent(in) :: word
+      is_semicolon = text(word%first:word%first) == ';'
+   end function is_semicolon
+
+   !> What was meant as a comment is told once, and nothing behind it is read.
+   subroutine semicolon(self, diagnostics)
+      type(operands_t), intent(inout) :: self
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      call diagnostics%error('bad-comment', self%word, 'a semicolon opens a comment in the picture block alone', &
+                             'not a comment here', 'write % or # instead')
+      self%fine = .false.
+      self%position = huge(1)
+   end subroutine semicolon
 
    !> The word in quotes, cut where it is long.
    pure function quoted(word)

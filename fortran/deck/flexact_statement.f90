@@ -2,9 +2,9 @@
 !> keyword is. Operands are left to those who know what they mean.
 module flexact_statement
    use flexact_diagnostics, only: span_t, diagnostics_t
-   use flexact_element_table, only: find_element_kind
+   use flexact_element_table, only: element_kinds, find_element_kind
    use flexact_keywords, only: keywords, find_keyword, nearest_keyword, block_kinematics, block_dynamics, &
-                               block_closed, block_inout, block_picture, role_element, role_uncovered
+                               block_closed, block_inout, block_picture, role_element, role_uncovered, role_unknown
    use flexact_lexer, only: line_t, next_line, next_word, upper_case
    implicit none
    private
@@ -28,6 +28,8 @@ module flexact_statement
       integer :: block = block_kinematics
       logical :: block_is_empty = .true.
       logical :: told_of_tail = .false.
+      !> The last statement stood in a wrong block, which was told.
+      logical :: told_of_block = .false.
       !> The last keyword and what it was: decks repeat themselves.
       character(len=16) :: word = ''
       integer :: role = 0
@@ -103,9 +105,7 @@ contains
          call change_block(reader, statement, diagnostics)
          return
       end if
-      if (reader%block == block_dynamics .or. reader%block == block_closed .or. reader%block == block_inout) then
-         if (reader%word == 'VISUALIZATION') reader%block = block_picture
-      end if
+      if (reader%word == 'VISUALIZATION') call open_picture(reader, statement, diagnostics)
       if (reader%block == block_closed) then
          if (.not. reader%told_of_tail) then
             call diagnostics%warning('not-read', statement%keyword, &
@@ -121,14 +121,18 @@ contains
       if (reader%role == 0) then
          call unknown_keyword(text, reader, statement, diagnostics)
       else if (reader%found_in /= reader%block) then
-         call wrong_block(reader, statement, diagnostics)
-         statement%role = 0
-      else if (reader%role == role_uncovered) then
-         call diagnostics%error('not-covered', statement%keyword, trim(reader%word)//' is outside what Flexact covers', &
-                                'no deformations are known for it', &
-                                'model it with the elements that the manual lists, or take it away')
+         ! Told for the first of a run; what it says is meant all the same.
+         if (.not. reader%told_of_block) call wrong_block(reader, statement, diagnostics)
+         reader%told_of_block = .true.
+         statement%block = reader%found_in
+      else
+         reader%told_of_block = .false.
+         if (reader%role == role_uncovered) then
+            call diagnostics%error('not-covered', statement%keyword, 'Flexact does not analyse '//trim(reader%word), &
+                                   'not covered', 'the elements are '//list_of_elements())
+         end if
       end if
-      meaningful = statement%role /= 0 .and. statement%role /= role_uncovered
+      meaningful = statement%role /= 0
    end subroutine classify
 
    !> Look the word up, unless it is the last one again.
@@ -169,21 +173,40 @@ contains
       else if (reader%block == block_closed) then
          reader%block = block_inout
       else if (reader%block == block_kinematics .or. .not. reader%block_is_empty) then
-         call diagnostics%error('wrong-block', statement%keyword, 'HALT stands within a block', &
-                                'the block is not closed yet', 'write END before HALT')
+         call end_is_missing(statement, 'HALT', diagnostics)
+         reader%block = merge(block_dynamics, block_inout, reader%block == block_kinematics)
       end if
       reader%block_is_empty = .true.
+      reader%told_of_block = .false.
    end subroutine change_block
 
-   !> An unknown word; one that nearly spells an element is read as that, so
-   !> that what is said of the element elsewhere is not reported too.
+   !> The picture block ends every other one but that of the kinematics.
+   subroutine open_picture(reader, statement, diagnostics)
+      type(reader_t), intent(inout) :: reader
+      type(statement_t), intent(in) :: statement
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      if (reader%block == block_kinematics) call end_is_missing(statement, 'VISUALIZATION', diagnostics)
+      reader%block = block_picture
+   end subroutine open_picture
+
+   subroutine end_is_missing(statement, word, diagnostics)
+      type(statement_t), intent(in) :: statement
+      character(len=*), intent(in) :: word
+      type(diagnostics_t), intent(inout) :: diagnostics
+      call diagnostics%error('missing-end', statement%keyword, 'END is missing before '//word, &
+                             'the block is not closed yet', 'write END in the line before it')
+   end subroutine end_is_missing
+
+   !> An unknown word; one that nearly spells an element or END is taken for it,
+   !> so that what follows from it is not reported too.
    subroutine unknown_keyword(text, reader, statement, diagnostics)
       character(len=*), intent(in) :: text
-      type(reader_t), intent(in) :: reader
+      type(reader_t), intent(inout) :: reader
       type(statement_t), intent(inout) :: statement
       type(diagnostics_t), intent(inout) :: diagnostics
       character(len=13) :: nearest
-      character(len=:), allocatable :: word
+      character(len=:), allocatable :: word, help
 
       if (diagnostics%is_full()) then
          call diagnostics%count_error()
@@ -193,19 +216,24 @@ contains
          word = upper_case(text(key%first:min(key%last, key%first + 39)))
       end associate
       nearest = nearest_keyword(word, reader%block)
-      if (nearest == '' .and. reader%block == block_picture) then
-         call diagnostics%warning('unknown-keyword', statement%keyword, word//' is not a picture option that Flexact knows', &
-                                  'not used', 'nothing to do: pictures do not touch the analysis')
-      else if (nearest == '') then
-         call diagnostics%error('unknown-keyword', statement%keyword, word//' is not a keyword of the '// &
-                                trim(block_name(reader%block))//' block', 'unknown keyword', &
-                                'a line starts with a keyword; a comment starts with % or #')
+      help = 'a line starts with a keyword; a comment starts with % or #'
+      if (nearest /= '') help = 'did you mean '//trim(nearest)//'?'
+      if (reader%block == block_picture) then
+         ! Pictures do not touch the analysis, and dialects have more options than these.
+         call diagnostics%warning('unknown-keyword', statement%keyword, &
+                                  word//' is not a picture option that Flexact knows', 'not used', help)
       else
          call diagnostics%error('unknown-keyword', statement%keyword, word//' is not a keyword of the '// &
-                                trim(block_name(reader%block))//' block', 'unknown keyword', &
-                                'did you mean '//trim(nearest)//'?')
+                                trim(block_name(reader%block))//' block', 'unknown keyword', help)
          statement%what = find_element_kind(trim(nearest))
-         if (statement%what > 0) statement%role = role_element
+         if (statement%what > 0) then
+            statement%role = role_element
+         else if (nearest == 'END' .or. nearest == 'HALT') then
+            reader%word = nearest
+            call change_block(reader, statement, diagnostics)
+         else if (reader%block == block_kinematics) then
+            statement%role = role_unknown
+         end if
       end if
    end subroutine unknown_keyword
 
@@ -230,6 +258,16 @@ contains
                              ' block, not in the '//trim(block_name(reader%block))//' block', &
                              'not in this block', help)
    end subroutine wrong_block
+
+   pure function list_of_elements() result(list)
+      character(len=:), allocatable :: list
+      integer :: i
+
+      list = trim(element_kinds(1)%keyword)
+      do i = 2, size(element_kinds)
+         list = list//', '//trim(element_kinds(i)%keyword)
+      end do
+   end function list_of_elements
 
    pure function block_name(block) result(name)
       integer, intent(in) :: block

@@ -2,11 +2,11 @@
 !> deformation functions with their first derivatives.
 module flexact_element
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, node_planar_position, node_position, node_angle
+   use flexact_model, only: model_t, node_planar_position, node_position, node_angle, node_orientation
    use flexact_pose, only: pose_t, reference_t
    use flexact_vectors, only: length_of, frame_along, planar_frame_along
    use flexact_euler, only: relative_rotation
-   use flexact_element_table, only: kind_truss, kind_beam, kind_rbeam, kind_pinbody, kind_hinge, &
+   use flexact_element_table, only: element_kinds, kind_truss, kind_beam, kind_rbeam, kind_pinbody, kind_hinge, &
                                     kind_pltruss, kind_plbeam, kind_plrbeam, kind_plhinge
    use flexact_truss, only: truss_deformation
    use flexact_beam, only: beam_deformation
@@ -45,35 +45,37 @@ contains
    end subroutine make_reference
 
    !> The ends of element k in a configuration given as node values,
-   !> (4, nodes). A slot without a node leaves its part of the pose at rest.
+   !> (4, nodes). A slot without a node leaves its part of the pose at rest; a
+   !> planar element sees x and y of its nodes alone.
    pure subroutine make_poses(model, k, configuration, p, q)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
       real(wp), intent(in) :: configuration(:, :)
       type(pose_t), intent(out) :: p, q
 
-      call place(model, model%element_node(1, k), configuration, p)
-      call place(model, model%element_node(2, k), configuration, p)
-      call place(model, model%element_node(3, k), configuration, q)
-      call place(model, model%element_node(4, k), configuration, q)
+      associate (node => model%element_node(:, k), wanted => element_kinds(model%element_kind(k))%slot_kind)
+         call place(model, node(1), wanted(1), configuration, p)
+         call place(model, node(2), wanted(2), configuration, p)
+         call place(model, node(3), wanted(3), configuration, q)
+         call place(model, node(4), wanted(4), configuration, q)
+      end associate
    end subroutine make_poses
 
-   !> Put into a pose what one node says of it.
-   pure subroutine place(model, node, configuration, pose)
+   !> Put into a pose what one node says of it to a slot of this node kind.
+   pure subroutine place(model, node, wanted, configuration, pose)
       type(model_t), intent(in) :: model
-      integer, intent(in) :: node
+      integer, intent(in) :: node, wanted
       real(wp), intent(in) :: configuration(:, :)
       type(pose_t), intent(inout) :: pose
 
-      if (node == 0) return
-      select case (model%node_kind(node))
+      select case (wanted)
       case (node_planar_position)
          pose%position(1:2) = configuration(1:2, node)
       case (node_position)
          pose%position = configuration(1:3, node)
       case (node_angle)
          pose%angle = configuration(1, node) - model%node_value(1, node)
-      case default
+      case (node_orientation)
          pose%rotation = relative_rotation(configuration(:, node), model%node_value(:, node))
       end select
    end subroutine place

@@ -4,7 +4,7 @@ module flexact_checks
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds, vector_none, vector_required
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, slots, is_position
+   use flexact_model, only: model_t, slots, is_position, node_planar_position
    use flexact_vectors, only: coincide, length_of, unit
    implicit none
    private
@@ -43,21 +43,23 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics
       type(span_t) :: place
       real(wp) :: half(3), length
-      integer :: p, q
+      integer :: p, q, axes
 
       associate (kind => element_kinds(model%element_kind(k)), node => model%element_node(:, k))
          if (any(kind%slot_kind /= 0 .and. node == 0)) return
          place = span_t(model%element_origin(k), 0)
          if (has_twice(node)) then
-            call diagnostics%error('same-node', place, element_name(model, k)//' has one node at both ends', &
-                                   'both ends are one node', 'the two ends of an element are different nodes')
+            call diagnostics%error('same-node', place, 'both ends of '//element_name(model, k)//' are one node', &
+                                   'one node at both ends', 'the two ends of an element are different nodes')
             return
          end if
          if (kind%vector == vector_required) call check_axis(model, k, place, diagnostics)
          p = node(1)
          q = node(3)
          if (p == 0 .or. q == 0) return
-         if (.not. all(ieee_is_finite(model%node_value(:3, [p, q])))) then
+         ! A planar element sees x and y alone.
+         axes = merge(2, 3, kind%slot_kind(1) == node_planar_position)
+         if (.not. all(ieee_is_finite(model%node_value(:axes, [p, q])))) then
             ! A deck's own numbers were reported where they stand.
             if (place%first == 0) then
                call diagnostics%error('not-finite', place, element_name(model, k)//' has a node at no finite place', &
@@ -66,13 +68,14 @@ contains
             return
          end if
          ! Halved, because a difference may overflow.
-         half = model%node_value(:3, q)/2 - model%node_value(:3, p)/2
+         half = 0.0_wp
+         half(:axes) = model%node_value(:axes, q)/2 - model%node_value(:axes, p)/2
          length = 2*min(length_of(half), huge(length)/2)
-         if (coincide(model%node_value(:3, p), model%node_value(:3, q))) then
+         if (coincide(model%node_value(:axes, p), model%node_value(:axes, q))) then
             if (.not. kind%needs_length) return
             call diagnostics%error('zero-length', place, element_name(model, k)//' has zero length: its nodes '// &
                                    node_pair(model, p, q)//' are at one place', 'zero length', &
-                                   'give its nodes different positions with X')
+                                   'give the two nodes different positions')
          else if (length > longest .or. length < shortest) then
             call diagnostics%error('length-out-of-range', place, element_name(model, k)// &
                                    ' is longer or shorter than can be computed with', 'length out of range', &
@@ -163,8 +166,10 @@ contains
       character(len=:), allocatable :: name
       character(len=12) :: number
 
-      write (number, '(i0)') model%element_number(k)
-      name = trim(element_kinds(model%element_kind(k))%keyword)//' '//trim(number)
+      number = ''
+      ! A number that could not be read is zero.
+      if (model%element_number(k) > 0) write (number, '(i0)') model%element_number(k)
+      name = trim(trim(element_kinds(model%element_kind(k))%keyword)//' '//number)
    end function element_name
 
    pure function node_pair(model, p, q) result(pair)

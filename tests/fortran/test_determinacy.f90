@@ -37,8 +37,8 @@ contains
       allocate (motions(counts%columns, counts%columns), stresses(counts%rows, counts%rows))
       call analyse(model, motions, stresses, answer)
       call tally%check(answer%status == 0, name//': status')
-      call tally%check(counts%columns - answer%rank == free, name//': motions')
-      call tally%check(counts%rows - answer%rank == stressed, name//': self-stresses')
+      call tally%check(counts%columns - answer%decision%rank == free, name//': motions')
+      call tally%check(counts%rows - answer%decision%rank == stressed, name//': self-stresses')
       call check_null_spaces(model, name)
    end subroutine run
 
@@ -52,8 +52,8 @@ contains
       real(wp) :: d(size(stresses, 1), size(motions, 1))
       integer :: free, stressed
 
-      free = size(motions, 2) - answer%rank
-      stressed = size(stresses, 2) - answer%rank
+      free = size(motions, 2) - answer%decision%rank
+      stressed = size(stresses, 2) - answer%decision%rank
       call make_partition(model, partition)
       call make_jacobian(model, model%node_value, jacobian)
       call fill_dense(jacobian, partition, d)

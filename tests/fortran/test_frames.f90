@@ -130,26 +130,33 @@ contains
       end do
    end subroutine test_relative_rotation
 
+   !> Nodes 1, 2 belong to planar elements, the position 3 to both kinds.
    subroutine test_poses()
       type(model_t) :: model
       type(pose_t) :: p, q
-      real(wp) :: configuration(4, 4)
+      real(wp) :: configuration(4, 6)
 
-      model = new_model(4, 1)
+      model = new_model(6, 2)
       call set_node(model, 1, node_planar_position, [1.0_wp, 1.0_wp])
       call set_node(model, 2, node_angle, [0.4_wp])
       call set_node(model, 3, node_position, x)
       call set_node(model, 4, node_orientation, [1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp])
-      call set_element(model, 1, kind_beam, [1, 2, 3, 4])
+      call set_node(model, 5, node_angle, [0.0_wp])
+      call set_node(model, 6, node_orientation, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      call set_element(model, 1, kind_beam, [3, 4, 3, 6])
+      call set_element(model, 2, kind_plbeam, [1, 2, 3, 5])
       configuration = 0.0_wp
       configuration(:, 1) = 9.0_wp
       configuration(1, 2) = 0.6_wp
-      configuration(1:3, 3) = z
+      configuration(1:3, 3) = [2.0_wp, 3.0_wp, 4.0_wp]
       configuration(:, 4) = [1.0_wp, 0.0_wp, 0.0_wp, -1.0_wp]
+      configuration(1, 6) = 1.0_wp
       call make_poses(model, 1, configuration, p, q)
-      call tally%near(p%position, [9.0_wp, 9.0_wp, 0.0_wp], 0.0_wp, 'planar position stays in the plane')
+      call tally%near(p%position, [2.0_wp, 3.0_wp, 4.0_wp], 0.0_wp, 'position')
+      call tally%near(reshape(p%rotation, [9]), [-x, -y, z], 1.0e-15_wp, 'half a turn from the reference')
+      call make_poses(model, 2, configuration, p, q)
+      call tally%near(p%position, [9.0_wp, 9.0_wp, 0.0_wp], 0.0_wp, 'a planar element sees x and y')
+      call tally%near(q%position, [2.0_wp, 3.0_wp, 0.0_wp], 0.0_wp, 'of a spatial position, too')
       call tally%near([p%angle], [0.2_wp], 1.0e-15_wp, 'angle from the reference')
-      call tally%near(q%position, z, 0.0_wp, 'position')
-      call tally%near(reshape(q%rotation, [9]), [-x, -y, z], 1.0e-15_wp, 'half a turn from the reference')
    end subroutine test_poses
 end program test_frames

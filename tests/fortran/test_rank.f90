@@ -1,0 +1,69 @@
+!> Which singular values count as zero: noise, typed digits, and the gap.
+program test_rank
+   use flexact_kinds, only: wp
+   use flexact_rank, only: rank_t, decide_rank
+   use flexact_rounding, only: last_bits, last_digit
+   use flexact_scaling, only: scaling_t
+   use flexact_testing, only: tally_t
+   implicit none
+   type(tally_t) :: tally
+
+   call digits_that_look_rounded()
+   call noise_is_zero()
+   call lifted_zeros_need_a_gap()
+   call nothing_to_decide()
+   call tally%finish()
+
+contains
+
+   !> Half a unit in the last place, for six coordinates: 1.25 units.
+   subroutine digits_that_look_rounded()
+      call tally%near(last_digit([0.8660254038_wp, 0.866025403784_wp]), [1.25e-10_wp, 1.25e-12_wp], 1.0e-16_wp, &
+                      'ten and twelve digits')
+      call tally%near(last_digit([0.0_wp, 12.0_wp, 0.5_wp, 0.8660_wp, 0.86602540378443865_wp]), &
+                      spread(0.0_wp, 1, 5), 0.0_wp, 'meant as they stand, or known to the last bit')
+      call tally%check(last_bits(-2.0_wp) > 0.0_wp, 'bits of a negative number')
+   end subroutine digits_that_look_rounded
+
+   subroutine noise_is_zero()
+      type(rank_t) :: decision
+
+      decision = decide_rank(scaling_of(1.0e-14_wp, 0.0_wp), [1.0_wp, 1.0e-9_wp, 1.0e-15_wp])
+      call tally%check(decision%rank == 2, 'a value within the noise is zero, one above is not')
+      call tally%near([decision%tolerance], [decision%noise], 0.0_wp, 'the noise is the limit')
+   end subroutine noise_is_zero
+
+   subroutine lifted_zeros_need_a_gap()
+      type(scaling_t) :: scaling
+      type(rank_t) :: decision
+
+      scaling = scaling_of(1.0e-14_wp, 1.0e-3_wp)
+      decision = decide_rank(scaling, [1.0_wp, 5.0e-4_wp, 1.0e-4_wp, 3.0e-5_wp, 1.0e-16_wp])
+      call tally%check(decision%rank == 1, 'all within reach of the digits, below a clear gap')
+      decision = decide_rank(scaling, [1.0_wp, 0.02_wp, 5.0e-4_wp, 3.0e-4_wp, 1.0e-16_wp])
+      call tally%check(decision%rank == 4, 'without a gap they are what they seem')
+      decision = decide_rank(scaling, [1.0_wp, 5.0e-4_wp, 3.0e-7_wp])
+      call tally%check(decision%rank == 1 .and. decision%tolerance >= 5.0e-4_wp, 'the first gap from above counts')
+      decision = decide_rank(scaling, [1.0_wp, 2.0e-3_wp, 1.0e-4_wp, 1.0e-7_wp])
+      call tally%check(decision%rank == 3, 'a value that the gap leaves above is not zero')
+   end subroutine lifted_zeros_need_a_gap
+
+   subroutine nothing_to_decide()
+      type(rank_t) :: decision
+      real(wp) :: none(0)
+
+      decision = decide_rank(scaling_of(0.0_wp, 0.0_wp), none)
+      call tally%check(decision%rank == 0, 'no values')
+      decision = decide_rank(scaling_of(0.0_wp, 0.0_wp), [0.0_wp, 0.0_wp])
+      call tally%check(decision%rank == 0, 'all zero')
+   end subroutine nothing_to_decide
+
+   function scaling_of(bits, digits) result(scaling)
+      real(wp), intent(in) :: bits, digits
+      type(scaling_t) :: scaling
+
+      allocate (scaling%row(5), scaling%column(5), source=1.0_wp)
+      scaling%error_of_bits = bits
+      scaling%error_of_digits = digits
+   end function scaling_of
+end program test_rank
