@@ -2,6 +2,8 @@
 !
 ! f2py reads this file alone. Kinds are spelt c_int, c_double, c_signed_char
 ! because f2py turns other named kinds into single precision without a word.
+! "threadsafe" lets f2py drop the interpreter lock: a call is a function of its
+! arguments.
 
 ! How many rows the element table has.
 subroutine count_element_kinds(kinds)
@@ -63,6 +65,7 @@ subroutine read_deck(n, text, most_nodes, most_elements, node_number, node_kind,
    use flexact_exchange, only: to_text, give_diagnostics
    use flexact_model, only: node_position, node_orientation
    implicit none
+!f2py threadsafe
    integer(c_int), intent(in) :: n
    integer(c_signed_char), intent(in) :: text(n)
    integer(c_int), intent(in) :: most_nodes
@@ -122,6 +125,7 @@ subroutine check_model(nn, ne, node_number, node_kind, node_value, coordinate_cl
    use flexact_exchange, only: make_model, give_diagnostics
    use flexact_model, only: model_t
    implicit none
+!f2py threadsafe
    integer(c_int), intent(in) :: nn
    integer(c_int), intent(in) :: ne
    integer(c_int), intent(in) :: node_number(nn)
@@ -195,6 +199,7 @@ subroutine assemble(entries, nn, ne, node_number, node_kind, node_value, coordin
    use flexact_jacobian, only: jacobian_t, make_jacobian
    use flexact_model, only: model_t
    implicit none
+!f2py threadsafe
    integer(c_int), intent(in) :: entries
    integer(c_int), intent(in) :: nn
    integer(c_int), intent(in) :: ne
@@ -246,6 +251,7 @@ subroutine analyse_model(rows, columns, least, nn, ne, node_number, node_kind, n
    use flexact_model, only: model_t
    use flexact_partition, only: model_count_t, count_model_again => count_model
    implicit none
+!f2py threadsafe
    integer(c_int), intent(in) :: rows
    integer(c_int), intent(in) :: columns
    integer(c_int), intent(in) :: least
