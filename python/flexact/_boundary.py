@@ -120,10 +120,13 @@ def analyse_model(arrays: ModelArrays, rows: int, columns: int) -> RawAnalysis:
     stresses = np.empty((rows, rows), np.float64, order="F")
     found = _core.analyse_model(min(rows, columns), *arrays, motions, stresses)
     numbers, rank, status = found[7:]
+    for values in found[3:5]:
+        np.abs(values, out=values)  # LAPACK's zeros may be negative
     return RawAnalysis(
         *found[:7],
         tolerance=float(numbers[0]),
         characteristic_length=float(numbers[1]),
+        noise=float(numbers[2]),
         rank=rank,
         status=status,
         motions=motions[:, : columns - rank],

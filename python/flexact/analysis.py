@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -44,9 +45,9 @@ class Analysis(Frozen):
     data: ModelData
     raw: RawAnalysis
 
-    @cached_property
+    @property
     def model(self) -> Model:
-        """The model as it was when it was analysed."""
+        """The model as it was when it was analysed: a new one each time, free to be changed."""
         return Model.from_data(self.data)
 
     @property
@@ -166,18 +167,26 @@ class Analysis(Frozen):
     @cached_property
     def warnings(self) -> tuple[Diagnostic, ...]:
         """Warnings and notes about the model and about the decision on its rank."""
-        found = self.data.problems.kept
-        small, values = self.gap.smallest_nonzero, self.scaled_singular_values
-        if small is None or small >= _NEARLY_ZERO * values[0]:
-            return found
-        close = Diagnostic(
-            Severity.WARNING,
-            "close-decision",
-            f"the smallest singular value that counts as non-zero is {small / values[0]:.1e} of "
-            "the largest: the rank may hang on digits of the coordinates that were left out",
-            help="give the coordinates with more digits, or look at the geometry",
-        )
-        return (*found, close)
+        return (*self.data.problems.kept, *self._warnings_of_the_decision())
+
+    def _warnings_of_the_decision(self) -> Iterator[Diagnostic]:
+        (small, zero), values = self.gap, self.scaled_singular_values
+        if small is not None and small < _NEARLY_ZERO * values[0]:
+            yield Diagnostic(
+                Severity.WARNING,
+                "close-decision",
+                f"the smallest singular value that counts as non-zero is {small / values[0]:.1e} "
+                "of the largest: the rank may hang on digits of the coordinates that were left out",
+                help="give the coordinates with more digits, or look at the geometry",
+            )
+        if zero is not None and zero > self.raw.noise:
+            yield Diagnostic(
+                Severity.WARNING,
+                "rounded-coordinates",
+                f"singular values up to {zero:.1e} count as zero because the coordinates are "
+                "given with so many digits only",
+                help="give the coordinates with all their digits",
+            )
 
     def dense_jacobian(self) -> FloatArray:
         """D(c) itself, (m, n), in the model's units, eq. (11)."""
@@ -209,17 +218,18 @@ class Analysis(Frozen):
 
     def describe(self) -> str:
         """The result in plain English: verdict, counts, decision, motions and self-stresses."""
-        from .words import describe
+        from .words import MOST_MODES, describe
 
-        return describe(self)
+        return describe(self, most=MOST_MODES)
 
     def __repr__(self) -> str:
         """Verdict and size in a line."""
         name = f" {self.name!r}" if self.name else ""
+        motions = f"{self.under_constrained} motion{'s' * (self.under_constrained != 1)}"
+        stresses = f"{self.over_constrained} self-stress{'es' * (self.over_constrained != 1)}"
         return (
-            f"<Analysis{name}: {self.verdict.value}, {self.under_constrained} motions, "
-            f"{self.over_constrained} self-stresses, D(c) {self.rows} x {self.columns} "
-            f"of rank {self.rank}>"
+            f"<Analysis{name}: {self.verdict.value}, {motions}, {stresses}, "
+            f"D(c) {self.rows} x {self.columns} of rank {self.rank}>"
         )
 
     def _repr_html_(self) -> str:
@@ -228,7 +238,9 @@ class Analysis(Frozen):
         return html_of(self)
 
 
-def analyse(model: Model | str | os.PathLike[str], *, name: str | None = None) -> Analysis:
+def analyse(
+    model: Model | str | bytes | os.PathLike[str] | os.PathLike[bytes], *, name: str | None = None
+) -> Analysis:
     """Decide whether a mechanism is exactly, under- or over-constrained.
 
     Partition of eq. (7), Jacobian D(c) of eq. (11), its singular value decomposition
@@ -243,7 +255,13 @@ def analyse(model: Model | str | os.PathLike[str], *, name: str | None = None) -
         ModelError: the model is wrong.
         AnalysisError: the model is too large for the memory, or the decomposition
             did not converge.
+        TypeError: what is given is neither a model nor a path, or the name is no text.
     """
+    if not isinstance(model, (Model, str, bytes, os.PathLike)):
+        kind = type(model).__name__
+        raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
+    if not isinstance(name, (str, type(None))):
+        raise TypeError(f"the name of a result must be text, not {type(name).__name__}")
     if not isinstance(model, Model):
         model = read(model)
     data = model.data

@@ -17,7 +17,7 @@ class Builder:
 
     def __init__(self, *, planar: bool = False, name: str = "") -> None:
         """Start an empty model."""
-        self._start(bool(planar), name)
+        self._start(bool(planar), targets.text(name, "the name of a model"))
 
     def _start(self, planar: bool, name: str) -> None:
         self._name = name
@@ -78,6 +78,7 @@ class Builder:
             targets.position(draft, self._owner, q),
             0,
         )
+        name = targets.text(name, "the name of an element")
         number = draft.add_element(_kind("TRUSS", draft.planar), slots, name)
         return Element(number, self._owner)
 
@@ -133,6 +134,7 @@ class Builder:
             name: What the sheet is called.
         """
         draft = self._change()
+        name = targets.text(name, "the name of a sheet")
         normal = targets.sheet_normal(draft, self._owner, p, q, width)
         points = targets.between(draft, self._owner, p, q, beams)
         nodes = (p, *(self.node(*point) for point in points), q)
@@ -180,6 +182,7 @@ class Builder:
         draft = self._change()
         here = targets.orientation(draft, self._owner, p)
         direction = targets.axis(draft, axis)
+        name = targets.text(name, "the name of an element")
         if q is None:
             q = self.pivot(p)
         there = targets.orientation(draft, self._owner, q)
@@ -213,8 +216,9 @@ class Builder:
             targets.position(draft, owner, q),
             targets.orientation(draft, owner, q),
         )
-        kind = _kind("BEAM", draft.planar)
-        return Element(draft.add_element(kind, slots, name, hint, released), owner)
+        name = targets.text(name, "the name of an element")
+        number = draft.add_element(_kind("BEAM", draft.planar), slots, name, hint, released)
+        return Element(number, owner)
 
     # Classes ----------------------------------------------------------------
 

@@ -98,6 +98,8 @@ class RawAnalysis(NamedTuple):
     tolerance: float
     """Scaled singular values up to here count as zero."""
     characteristic_length: float
+    noise: float
+    """What computing, and rounding in the last bits, may make of a zero in `scaled_values`."""
     rank: int
     status: int
     """0 fine, 1 not converged, 2 not enough memory."""

@@ -19,7 +19,7 @@ def dictionary_of(analysis: Analysis) -> dict[str, Any]:
     from . import __version__
 
     return {
-        "deck": analysis.name,
+        "deck": unicode_text(analysis.name),
         "flexact": __version__,
         "verdict": analysis.verdict.value,
         "under_constrained": analysis.under_constrained,
@@ -41,6 +41,11 @@ def dictionary_of(analysis: Analysis) -> dict[str, Any]:
         ],
         "warnings": [item.to_dict() for item in analysis.warnings],
     }
+
+
+def unicode_text(name: str) -> str:
+    """A name that any reader of JSON takes; bytes of a path that are no text are escaped."""
+    return name.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def _components(

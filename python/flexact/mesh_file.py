@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import io
+import shutil
 import sys
+import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
@@ -15,6 +17,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .batch import SUFFIX, reason_of
+from .interruption import undisturbed
 from .outputs import OutputError
 
 if TYPE_CHECKING:
@@ -27,7 +31,11 @@ OPTIONS = {"xdmf": {"data_format": "XML"}}
 
 
 class MeshFormatError(OutputError):
-    """A mesh format is not known, or cannot hold what is to be written."""
+    """A mesh format is not known, lacks a package, or cannot hold what is to be written."""
+
+
+class _PackageError(MeshFormatError):
+    """A format needs a package that is not there."""
 
 
 @dataclass(frozen=True)
@@ -39,35 +47,72 @@ class MeshFormat:
 
 
 def find_format(name: str) -> MeshFormat:
-    """The format that has this name or suffix.
+    """The format that has this name or suffix, if it can hold lines with data at all.
 
     Raises:
-        MeshFormatError: meshio has none, or is not installed.
+        MeshFormatError: meshio has none, it cannot hold them, or a package is not installed.
     """
-    known = _meshio().extension_to_filetypes
+    suffix, names = _look_up(name)
+    usable, reasons = [], []
+    for each in names:
+        try:
+            _try_out(each, suffix)
+            usable.append(each)
+        except _PackageError as error:
+            reasons.append(str(error))
+        except MeshFormatError:
+            reasons.append(f"mesh format {each} cannot hold lines with data")
+    if usable:
+        return MeshFormat(suffix, tuple(usable))
+    raise MeshFormatError(f"{'; '.join(reasons)}; {' or '.join(COMPLETE)} will do")
+
+
+def _look_up(name: str) -> tuple[str, tuple[str, ...]]:
+    # What is written is not to be taken for a deck.
+    known = {k: v for k, v in _meshio().extension_to_filetypes.items() if k != SUFFIX}
     name = name.lower().lstrip(".")
     suffix = f".{name}"
     if suffix in known:
-        return MeshFormat(suffix, tuple(known[suffix]))
+        return suffix, tuple(known[suffix])
     for suffix, names in known.items():
         if name in names:
-            return MeshFormat(suffix, (name,))
+            return suffix, (name,)
     every = sorted({each for names in known.values() for each in names})
     raise MeshFormatError(f"mesh format {name!r} is not known; there are {', '.join(every)}")
+
+
+def _try_out(name: str, suffix: str) -> None:
+    """Write two lines with the data that every scene has."""
+    if name in COMPLETE:
+        return
+    mesh = _meshio().Mesh(
+        np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 3.0]]),
+        [("line", np.array([[0, 1], [2, 3]]))],
+        point_data={"node": np.array([1, 2, 2, 3])},
+        cell_data={"element": [np.array([7, 9])], "kind": [np.array([1, 2])]},
+    )
+    try:
+        _written(mesh, name, suffix)
+    except MeshFormatError:
+        raise
+    except OutputError:
+        # The disk's fault, not the format's; each deck tells of it behind its verdict.
+        return
 
 
 def mesh_bytes(mesh: meshio.Mesh, form: MeshFormat) -> bytes:
     """The file that holds a mesh.
 
     Raises:
-        MeshFormatError: The format cannot hold the mesh or its data.
+        MeshFormatError: The format cannot hold the mesh or its data, or needs a package.
+        OutputError: The temporary folder cannot be written to.
     """
     reasons = []
     for name in form.names:
         try:
             return _written(mesh, name, form.suffix)
         except MeshFormatError as error:
-            reasons.append(f"mesh format {name} cannot hold this scene: {error}")
+            reasons.append(str(error))
     raise MeshFormatError("; ".join(reasons))
 
 
@@ -79,23 +124,55 @@ def _meshio() -> ModuleType:
 
 
 def _written(mesh: meshio.Mesh, name: str, suffix: str) -> bytes:
-    from tempfile import TemporaryDirectory
-
     remarks = io.StringIO()
-    with TemporaryDirectory() as folder, contextlib.redirect_stderr(remarks):
-        path = Path(folder, f"mesh{suffix}")
-        try:
-            with _placeholder_for_h5py(name):
-                made = _tagged(mesh) if name == "gmsh" else mesh
-                _meshio().write(path, made, file_format=name, **OPTIONS.get(name, {}))
-            if len(list(path.parent.iterdir())) != 1:
-                raise MeshFormatError("it takes more than one file")
+    try:
+        with (
+            contextlib.redirect_stdout(remarks),
+            contextlib.redirect_stderr(remarks),
+            _temporary_folder() as folder,
+            _placeholder_for_h5py(name),
+        ):
+            path = folder / f"mesh{suffix}"
+            made = _tagged(mesh) if name == "gmsh" else mesh
+            _meshio().write(path, made, file_format=name, **OPTIONS.get(name, {}))
+            if (files := len(list(folder.iterdir()))) != 1:
+                raise MeshFormatError(f"it takes {files} files instead of one")
             if name not in COMPLETE:
                 _check_held(mesh, _meshio().read(path, file_format=name))
             return path.read_bytes()
-        # meshio's writers fail in ways of their own: KeyError, AssertionError, sys.exit ...
-        except (Exception, SystemExit) as error:
-            raise MeshFormatError(_reason(error, remarks.getvalue())) from error
+    # meshio's writers fail in ways of their own: KeyError, AssertionError, sys.exit ...
+    except (Exception, SystemExit) as error:
+        raise _explained(error, name, " ".join(remarks.getvalue().split())) from error
+
+
+@contextlib.contextmanager
+def _temporary_folder() -> Iterator[Path]:
+    """A folder of the system's for a while; a signal does not leave it behind."""
+    folder = None
+    try:
+        with undisturbed():
+            folder = tempfile.mkdtemp(prefix="flexact-")
+        yield Path(folder)
+    finally:
+        if folder is not None:
+            with undisturbed():
+                shutil.rmtree(folder, ignore_errors=True)
+
+
+def _explained(error: BaseException, name: str, remarks: str) -> OutputError:
+    """What a failure of meshio's means to the one who wants the file."""
+    if isinstance(error, MemoryError):
+        return OutputError("there is not enough memory for the mesh")
+    if isinstance(error, OSError) and error.errno is not None:
+        reason = reason_of(error)
+        return OutputError(f"the mesh cannot be written to a temporary folder: {reason}")
+    if isinstance(error, ImportError):
+        package = error.name.partition(".")[0] if error.name else f"that fails: {error}"
+        return _PackageError(f"mesh format {name} needs the package {package}")
+    told = isinstance(error, MeshFormatError) or type(error).__name__ == "WriteError"
+    reason = str(error) if told else f"meshio fails to write it ({str(error) or 'it says not why'})"
+    what = "; meshio: ".join(filter(None, (reason, remarks)))
+    return MeshFormatError(f"mesh format {name} cannot hold this scene: {what}")
 
 
 def _tagged(mesh: meshio.Mesh) -> meshio.Mesh:
@@ -108,12 +185,6 @@ def _tagged(mesh: meshio.Mesh) -> meshio.Mesh:
     for tag in ("gmsh:physical", "gmsh:geometrical"):
         tagged.cell_data[tag] = [np.ones(len(block), dtype=np.int32) for block in mesh.cells]
     return tagged
-
-
-def _reason(error: BaseException, remarks: str) -> str:
-    told = isinstance(error, MeshFormatError) or type(error).__name__ == "WriteError"
-    what = str(error) if told else f"{type(error).__name__}: {error}".rstrip(": ")
-    return "; meshio: ".join(filter(None, (what, " ".join(remarks.split()))))
 
 
 def _check_held(mesh: meshio.Mesh, back: meshio.Mesh) -> None:

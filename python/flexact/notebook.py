@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from .words import describe, sentence
+from .words import MOST_MODES, describe, sentence
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -25,12 +25,13 @@ def html_of(analysis: Analysis) -> str:
         for name, part in analysis.counts._asdict().items()
     )
     heads = "".join(f"<th>{word}</th>" for word in analysis.counts.coordinates._fields)
+    words = describe(analysis, most=MOST_MODES)
     return (
         f"<div><p style='border-left:4px solid {colour};padding-left:8px'>"
         f"<b>{escape(sentence(analysis))}</b></p>"
         f"<table><tr><th></th>{heads}</tr>{rows}</table>"
         f"<p>D(c): {analysis.rows} rows, {analysis.columns} columns, rank {analysis.rank}; "
         f"degrees of freedom: {analysis.degrees_of_freedom}</p>"
-        f"<details><summary>in words</summary><pre>{escape(describe(analysis))}</pre></details>"
+        f"<details><summary>in words</summary><pre>{escape(words)}</pre></details>"
         "</div>"
     )

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import stat
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from .batch import BatchError, DeckFile
+from .batch import BatchError, DeckFile, reason_of
+from .interruption import undisturbed
 
 
 class OutputError(BatchError):
@@ -19,7 +21,7 @@ def plan_files(
     """The files that each deck's results go to, found before anything is computed.
 
     Args:
-        decks: The decks of the batch.
+        decks: The decks of the batch; folders that give none are passed over.
         folder: The output folder.
         suffixes: One suffix a file, with its dot.
 
@@ -31,30 +33,38 @@ def plan_files(
             cannot take files.
     """
     _check_folder(folder)
-    owner: dict[Path, str] = {}
+    owner: dict[str, str] = {}
     plan = {}
+    decks = [deck for deck in decks if deck.error is None]
     sources = {os.path.realpath(deck.path): deck.path for deck in decks}
     for deck in decks:
         stem = folder / deck.relative
         targets = tuple(stem.with_name(stem.name + suffix) for suffix in suffixes)
         for target in targets:
-            if target in owner:
-                raise OutputError(
-                    f"{owner[target]} and {deck.path} would both write {target}; analyse them "
-                    "apart, or name one folder that holds both"
-                )
-            if (source := sources.get(os.path.realpath(target))) is not None:
-                raise OutputError(f"{target} would overwrite the deck {source}")
-            owner[target] = deck.path
+            place = os.path.realpath(target)
+            if place in owner:
+                raise OutputError(_shared(target, owner[place], deck.path))
+            if place in sources:
+                raise OutputError(f"{target} would overwrite the deck {sources[place]}")
+            owner[place] = deck.path
         plan[deck.path] = targets
     return plan
+
+
+def _shared(target: Path, first: str, second: str) -> str:
+    if first == second:
+        return f"{target} is a link to another file of the results of {first}"
+    return (
+        f"{first} and {second} would both write {target}; analyse them apart, or name one "
+        "folder that holds both"
+    )
 
 
 def _check_folder(folder: Path) -> None:
     place = folder.absolute()
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
-    if not place.is_dir():
+    if not os.path.isdir(place):
         raise OutputError(f"cannot write to {folder}: {place} is not a folder")
     if not os.access(place, os.W_OK | os.X_OK):
         raise OutputError(f"cannot write to {folder}: no permission to write in {place}")
@@ -64,26 +74,46 @@ def write_together(files: Mapping[Path, bytes]) -> None:
     """Write a set of files so that they appear together or not at all.
 
     Everything is written beside its place first, and moved there when all of it is written.
-    Folders are made where they are missing.
+    Folders are made where they are missing; a link stays one, and what it leads to is written.
 
     Raises:
         OutputError: A folder or file cannot be written; no file of the set has changed then.
     """
+    places: dict[Path, Path] = {}
     waiting: dict[Path, Path] = {}
     target = Path()
     try:
         for target in files:
-            if target.is_dir():
-                raise OutputError(f"cannot write {target}: it is a folder")
+            places[target] = _place(target)
         for number, (target, content) in enumerate(files.items()):
-            target.parent.mkdir(parents=True, exist_ok=True)
-            temporary = target.with_name(f".flexact-{os.getpid()}-{number}.tmp")
+            place = places[target]
+            place.parent.mkdir(parents=True, exist_ok=True)
+            temporary = place.with_name(f".flexact-{os.getpid()}-{number}.tmp")
             waiting[temporary] = target
             temporary.write_bytes(content)
-        for temporary, target in waiting.items():
-            os.replace(temporary, target)
+        with undisturbed():
+            for temporary, target in waiting.items():
+                os.replace(temporary, places[target])
     except OSError as error:
-        raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
+        raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
     finally:
-        for temporary in waiting:
-            temporary.unlink(missing_ok=True)
+        with undisturbed():
+            for temporary in waiting:
+                temporary.unlink(missing_ok=True)
+
+
+def _place(target: Path) -> Path:
+    """Where a target lies, links followed, if it is one that may be replaced."""
+    place = Path(os.path.realpath(target))
+    try:
+        mode = place.stat().st_mode
+    except FileNotFoundError:
+        return place
+    if stat.S_ISDIR(mode):
+        raise OutputError(f"cannot write {target}: it is a folder")
+    if not stat.S_ISREG(mode):
+        raise OutputError(f"cannot write {target}: it is not a regular file")
+    # The superuser may write to every file, whatever its owner meant.
+    if not mode & 0o222 or not os.access(place, os.W_OK):
+        raise OutputError(f"cannot write {target}: it is read-only")
+    return place

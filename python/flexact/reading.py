@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
+from typing import BinaryIO
 
 from . import _boundary
 from .diagnostics import DeckError, Diagnostic, Place, Problems, Severity, problems_of
@@ -15,10 +16,11 @@ LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 _SAMPLE = 65536
+_PIECE = 2**20
 _CONTROLS = bytes(c for c in range(32) if chr(c) not in "\t\n\r\f\v\x1a") + b"\x7f"
 
 
-def read(path: str | os.PathLike[str]) -> Model:
+def read(path: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> Model:
     """Read a deck from a file.
 
     Warnings and notes are kept in `Model.diagnostics`.
@@ -28,8 +30,9 @@ def read(path: str | os.PathLike[str]) -> Model:
 
     Raises:
         DeckError: anything is wrong with the deck or the file.
+        TypeError: `path` is no path.
     """
-    name = os.fspath(path)
+    name = os.fsdecode(path)
     return _model(_file_bytes(name), name)
 
 
@@ -42,9 +45,15 @@ def read_text(text: str | bytes, name: str = "deck") -> Model:
 
     Raises:
         DeckError: anything is wrong with the deck.
+        TypeError: the text or the name is none.
     """
-    raw = text.encode("utf-8", "replace") if isinstance(text, str) else bytes(text)
-    return _model(raw, name)
+    if not isinstance(name, str):
+        raise TypeError(f"the name of a deck must be text, not {type(name).__name__}")
+    if isinstance(text, str):
+        return _model(text.encode("utf-8", "replace"), name)
+    if isinstance(text, (bytes, bytearray, memoryview)):
+        return _model(bytes(text), name)
+    raise TypeError(f"the text of a deck must be text or bytes, not {type(text).__name__}")
 
 
 def _file_bytes(path: str) -> bytes:
@@ -59,7 +68,7 @@ def _file_bytes(path: str) -> bytes:
         if status.st_size > LARGEST_DECK:
             raise _too_large(path)
         with open(path, "rb") as file:
-            return file.read(LARGEST_DECK + 1)
+            return _content(file, status.st_size)
     except FileNotFoundError:
         raise _file_error(path, "no-such-file", "there is no such file") from None
     except (OSError, ValueError) as error:
@@ -67,6 +76,18 @@ def _file_bytes(path: str) -> bytes:
         raise _file_error(path, "cannot-read", f"the file cannot be read: {reason}") from None
     except MemoryError:
         raise _file_error(path, "too-large", "the file does not fit into memory") from None
+
+
+def _content(file: BinaryIO, size: int) -> bytes:
+    """All of a file, as much as a deck may hold; it may have grown, or not know its size."""
+    raw = file.read(size + 1)
+    if len(raw) <= size:
+        return raw
+    pieces, length = [raw], len(raw)
+    while length <= LARGEST_DECK and (piece := file.read(_PIECE)):
+        pieces.append(piece)
+        length += len(piece)
+    return b"".join(pieces)
 
 
 def _model(raw: bytes, name: str) -> Model:

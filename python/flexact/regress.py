@@ -54,19 +54,19 @@ def _in_counts(stored: StoredAnswer, found: StoredAnswer) -> Iterator[str]:
     for name in NUMBERS:
         if stored.numbers[name] != found.numbers[name]:
             words = name.replace("_", " ")
-            yield f"{words}: {found.numbers[name]}, stored as {stored.numbers[name]}"
+            yield f"{words}: {found.numbers[name]}, stored {stored.numbers[name]}"
     for kind in sorted({*stored.counts, *found.counts}):
         before, now = stored.counts.get(kind, {}), found.counts.get(kind, {})
         for name in sorted({*before, *now}):
             if before.get(name) != now.get(name):
-                yield f"{name} {kind}: {now.get(name)}, stored as {before.get(name)}"
+                yield f"{name} {kind}: {now.get(name)}, stored {before.get(name)}"
 
 
 def _in_singular_values(
     stored: FloatArray, found: FloatArray, tolerances: Tolerances
 ) -> Iterator[str]:
     if len(stored) != len(found):
-        yield f"singular values: {len(found)} of them, stored are {len(stored)}"
+        yield f"singular values: {len(found)}, stored {len(stored)}"
         return
     if not len(stored):
         return
@@ -76,8 +76,8 @@ def _in_singular_values(
     if wrong.any():
         k = int(np.argmax(apart))
         yield (
-            f"singular values: {int(wrong.sum())} of {len(stored)} differ, most number {k + 1}: "
-            f"{float(found[k])!r}, stored as {float(stored[k])!r}"
+            f"singular values: {int(wrong.sum())} of {len(stored)} differ; the largest difference "
+            f"is in number {k + 1}: {float(found[k])!r}, stored {float(stored[k])!r}"
         )
 
 
@@ -94,7 +94,7 @@ def _in_subspaces(
         angle = math.degrees(math.asin(min(1.0, float(np.linalg.norm(before - now, 2)))))
         what = f"the subspace turned by {angle:.2g} degrees"
     else:
-        what = f"the subspace has {dimensions[1]} dimensions, stored with {dimensions[0]}"
+        what = f"{dimensions[1]}, stored {dimensions[0]}"
     yield "; ".join((f"{name}: {what}", *_who(owner, labels, before, now)))
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from . import __version__
 from .analysis import Analysis
-from .batch import BatchError
+from .batch import BatchError, reason_of
 from .exchange import FloatArray
 from .modes import Motion, SelfStress
 
@@ -70,7 +70,7 @@ class StoredAnswer:
     self_stresses: Projector
 
 
-def store(analysis: Analysis) -> StoredAnswer:
+def answer_of(analysis: Analysis) -> StoredAnswer:
     """What is kept of an analysis."""
     return StoredAnswer(
         deck=analysis.name,
@@ -94,7 +94,7 @@ def _project(
     return Projector(names, part.T @ part)
 
 
-def dumps(answer: StoredAnswer) -> str:
+def text_of(answer: StoredAnswer) -> str:
     """The text of a stored answer: JSON, an entry of a projector a line, numbers exact."""
     content: dict[str, Any] = {"format": FORMAT, "deck": answer.deck, "source": answer.source}
     content |= {"verdict": answer.verdict, **answer.numbers, "counts": answer.counts}
@@ -113,48 +113,54 @@ def _triangle(projector: Projector) -> list[tuple[str, str, float]]:
     return [(names[i], names[k], float(matrix[i, k])) for i, k in np.argwhere(kept).tolist()]
 
 
-def load(path: Path) -> StoredAnswer:
+def read_answer(path: Path) -> StoredAnswer:
     """Read a stored answer.
 
     Raises:
         StoredAnswerError: The file is missing, is not of this format, or lacks something.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-        if content["format"] != FORMAT:
-            raise StoredAnswerError(f"{path}: format {content['format']} is not known")
-        return StoredAnswer(
-            deck=content["deck"],
-            source=content["source"],
-            verdict=content["verdict"],
-            numbers={name: int(content[name]) for name in NUMBERS},
-            counts={kind: dict(part) for kind, part in content["counts"].items()},
-            singular_values=_finite(np.array(content["singular_values"], dtype=np.float64)),
-            motions=_assemble(content["motions"]["projector"]),
-            self_stresses=_assemble(content["self_stresses"]["projector"]),
-        )
+        return _understood(json.loads(path.read_text(encoding="utf-8")))
     except FileNotFoundError:
         raise StoredAnswerError(f"{path}: no stored answer; --store makes one") from None
     except OSError as error:
-        raise StoredAnswerError(f"{path}: {error.strerror}") from error
-    except (ValueError, TypeError, AttributeError, RecursionError) as error:
-        raise StoredAnswerError(f"{path}: not a stored answer ({error})") from error
+        raise StoredAnswerError(f"{path}: cannot be read: {reason_of(error)}") from error
+    except StoredAnswerError as error:
+        raise StoredAnswerError(f"{path}: not a stored answer of flexact: {error}") from error
+    except (ValueError, TypeError, AttributeError, OverflowError, RecursionError) as error:
+        raise StoredAnswerError(f"{path}: not a stored answer of flexact") from error
     except KeyError as error:
-        raise StoredAnswerError(f"{path}: not a stored answer, {error} is missing") from error
+        message = f"{path}: not a stored answer of flexact: {error} is missing"
+        raise StoredAnswerError(message) from error
+
+
+def _understood(content: dict[str, Any]) -> StoredAnswer:
+    if content["format"] != FORMAT:
+        raise StoredAnswerError(f"format {content['format']!r} is not known")
+    values = np.array(content["singular_values"], dtype=np.float64)
+    if values.ndim != 1 or not np.isfinite(values).all():
+        raise StoredAnswerError("'singular_values' is no list of finite numbers")
+    return StoredAnswer(
+        deck=content["deck"],
+        source=content["source"],
+        verdict=content["verdict"],
+        numbers={name: int(content[name]) for name in NUMBERS},
+        counts={kind: dict(part) for kind, part in content["counts"].items()},
+        singular_values=values,
+        motions=_assemble(content["motions"]["projector"]),
+        self_stresses=_assemble(content["self_stresses"]["projector"]),
+    )
 
 
 def _assemble(triangle: Sequence[tuple[str, str, float]]) -> Projector:
     labels = tuple(dict.fromkeys(name for row, column, _ in triangle for name in (row, column)))
     if wrong := [name for name in labels if not re.fullmatch(r"\d+:\w+", name)]:
-        raise ValueError(f"{wrong[0]!r} is no label")
+        raise StoredAnswerError(f"{wrong[0]!r} is no label")
     place = {name: k for k, name in enumerate(labels)}
     matrix = np.zeros((len(labels), len(labels)))
     for row, column, value in triangle:
         matrix[place[row], place[column]] = matrix[place[column], place[row]] = value
-    return Projector(labels, _finite(matrix))
-
-
-def _finite(values: FloatArray) -> FloatArray:
-    if not np.isfinite(values).all():
-        raise ValueError("a number is not finite")
-    return values
+    # No entry of an orthogonal projector is larger than one; NaN fails as well.
+    if not (np.abs(matrix) < 1.0 + 1e-6).all():
+        raise StoredAnswerError("an entry of a projector is larger than 1")
+    return Projector(labels, matrix)

@@ -22,6 +22,9 @@ from .handles import Element, Node, Sheet
 
 #: As the core's check of a y vector.
 _PARALLEL = 1.0e-6
+#: What gives three parts and still is no vector.
+_UNORDERED = (str, bytes, bytearray, set, frozenset, dict)
+_BY_NUMBER = "a deformation is given by its number"
 
 
 def vector(given: Sequence[float], what: str) -> Vector:
@@ -31,12 +34,27 @@ def vector(given: Sequence[float], what: str) -> Vector:
         ModelError: they are not.
     """
     try:
-        x, y, z = (float(part) for part in given)
+        if isinstance(given, _UNORDERED):
+            raise TypeError
+        x, y, z = (_real(part) for part in given)
     except (TypeError, ValueError, OverflowError):
         raise model_error("bad-number", f"the {what} must be three numbers") from None
     if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
         raise model_error("bad-number", f"the {what} has a component that is not finite")
     return x, y, z
+
+
+def _real(part: object) -> float:
+    if isinstance(part, (str, bytes, bytearray, complex)):
+        raise TypeError
+    return float(part)  # type: ignore[arg-type]
+
+
+def text(given: object, what: str) -> str:
+    """A text, such as a name."""
+    if not isinstance(given, str):
+        raise model_error("bad-name", f"{what} must be text, not {type(given).__name__}")
+    return given
 
 
 def direction(given: Sequence[float], what: str) -> Vector:
@@ -115,13 +133,11 @@ def _number(given: object, what: str) -> int:
     try:
         return whole_number(given)  # type: ignore[arg-type]
     except TypeError:
-        raise model_error(
-            "bad-number", f"a {what} is given by its handle or its number, not by {given!r}"
-        ) from None
+        raise model_error("bad-number", f"{what}, not {given!r}") from None
 
 
 def _node_number(draft: Draft, given: object) -> int:
-    number = _number(given, "node")
+    number = _number(given, "a node is given by its handle or its number")
     if number not in draft.node_kind:
         raise model_error("no-such-node", f"there is no node {number}")
     return number
@@ -163,7 +179,7 @@ def _unit(given: Vector) -> Vector:
 
 def between(draft: Draft, owner: object, p: Node, q: Node, parts: int) -> list[Vector]:
     """Points that divide the way from p to q into equal parts."""
-    parts = _number(parts, "number of beams")
+    parts = _number(parts, "the number of beams must be a whole number")
     if parts < 1:
         raise model_error("out-of-range", f"a sheet cannot be divided into {parts} beams")
     start, end = (draft.node_value[position(draft, owner, point)] for point in (p, q))
@@ -188,7 +204,7 @@ def deformations(kind: ElementKind, given: Iterable[int]) -> tuple[int, ...]:
             "bad-number", f"deformations are given as several numbers, not by {given!r}"
         ) from None
     for number in numbers:
-        if not 1 <= _number(number, "deformation") <= kind.deformations:
+        if not 1 <= _number(number, _BY_NUMBER) <= kind.deformations:
             raise model_error(
                 "component-out-of-range",
                 f"a {kind.keyword} has no deformation {number}",
@@ -272,7 +288,8 @@ def give_deformations(
             raise _wrong_model("element")
         index = draft.index_of(target.number)
     else:
-        index = draft.index_of(_number(target, "element"))
-    numbers = [_number(item, "deformation") for item in which]
+        number = _number(target, "an element is given by its handle or its number")
+        index = draft.index_of(number)
+    numbers = [_number(item, _BY_NUMBER) for item in which]
     every = range(1, draft.deformations_of(index) + 1)
     draft.state_deformations(index, numbers or every, value)

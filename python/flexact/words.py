@@ -7,34 +7,43 @@ from typing import TYPE_CHECKING
 
 from . import remedies
 from .deformation_words import deformation_word
-from .elements import Dual, dual_table
+from .elements import Dual, coordinate_name, dual_table
 from .rendering import harmless
 
 if TYPE_CHECKING:
     from .analysis import Analysis
 
-#: So many motions, and so many self-stresses, are told one by one.
+#: So many motions, and so many self-stresses, are told one by one on a screen.
 MOST_MODES = 12
 _PARTS = 6
+_SUPPORTS = 3
+_NUMBERS = (
+    *("no", "one", "two", "three", "four", "five", "six"),
+    *("seven", "eight", "nine", "ten", "eleven", "twelve"),
+)
 _WIDTH = 100
 #: Holds the words of one item together while lines are broken.
 _TIE = "\N{NO-BREAK SPACE}"
 
 
-def describe(analysis: Analysis, *, about_model: bool = True) -> str:
+def describe(analysis: Analysis, *, about_model: bool = True, most: int | None = None) -> str:
     """The result for people, in lines of at most about a hundred characters.
 
     Args:
         analysis: The result.
         about_model: Whether warnings and notes about the model or deck itself are told;
-            not where they have been shown already.
+            not on a screen where they have been shown already.
+        most: So many motions, and so many self-stresses, are told one by one; by default
+            all of them, and `MOST_MODES` on such a screen.
     """
+    if most is None and not about_model:
+        most = MOST_MODES
     sections = (
         _verdict(analysis),
         _counts(analysis),
         _decision(analysis),
-        _motions(analysis),
-        _self_stresses(analysis),
+        _motions(analysis, most),
+        _self_stresses(analysis, most),
         _notes(analysis, about_model),
     )
     blocks = ("\n".join(section) for section in map(list, sections) if section)
@@ -50,22 +59,31 @@ def _verdict(analysis: Analysis) -> Iterator[str]:
 def sentence(analysis: Analysis) -> str:
     """The verdict in a sentence."""
     under, over = analysis.under_constrained, analysis.over_constrained
-    motions = "no motion is left over"
+    if not under and not over:
+        return _wrapped(
+            "Exactly constrained: every motion is held once or declared, and no self-stress "
+            "can exist without load."
+        )
+    heads, reasons = [], []
     if under:
-        left = _plural(under, "motion", " is", "s are")
-        motions = f"{left} left over that no degree of freedom accounts for"
-    stresses = "there is no self-stress"
+        heads.append(f"under-constrained by {under}")
+        declared = "s are held by nothing and are not declared as degrees of freedom"
+        if under == 1:
+            declared = " is held by nothing and is not declared as a degree of freedom"
+        reasons.append(f"{_in_words(under)} motion{declared}")
     if over:
-        number = _plural(over, "self-stress", "", "es")
-        kind = f"statically indeterminate stress{'es' if over > 1 else ''}"
-        stresses = f"{number} ({kind}) more than the mechanism needs"
-    if under and over:
-        rest = f"{motions}, and there {'is' if over == 1 else 'are'} {stresses}"
-    elif over:
-        rest = f"{stresses}; {motions}"
-    else:
-        rest = f"{motions}, and {stresses}"
-    return _wrapped(f"{analysis.verdict.value.capitalize()}: {rest}.")
+        heads.append(f"over-constrained by {over}")
+        ending = "" if over == 1 else "es"
+        reasons.append(f"{_in_words(over)} self-stress{ending} can exist without any load")
+    return _wrapped(f"{' and '.join(heads).capitalize()}: {'; '.join(reasons)}.")
+
+
+def _all(count: int) -> str:
+    return "both" if count == 2 else f"all {_in_words(count)}"
+
+
+def _in_words(count: int) -> str:
+    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)
 
 
 def _counts(analysis: Analysis) -> Iterator[str]:
@@ -85,83 +103,106 @@ def _decision(analysis: Analysis) -> Iterator[str]:
     size = f"{_plural(rows, 'row', '', 's')} and {_plural(columns, 'column', '', 's')}"
     yield f"D(c) has {size}; its rank is {rank}."
     small, zero = analysis.gap
-    if small is None and zero is None:
-        return
-    above = "no singular value counts as non-zero"
-    if small is not None:
-        above = f"the smallest non-zero singular value is {small:.4g}"
-    below = "none counts as zero" if zero is None else f"the largest zero one is {zero:.2g}"
-    yield _wrapped(
-        f"Scaled to be free of units, {above}, {below} (limit {analysis.tolerance:.2g})."
-    )
+    if small is not None or zero is not None:
+        above = "no singular value but zeros"
+        if small is not None:
+            above = f"smallest non-zero singular value {small:.4g}"
+        below = "no zeros" if zero is None else f"largest zero {zero:.2g}"
+        limit = f"limit {analysis.tolerance:.2g}"
+        yield _wrapped(f"Rank decision (free of units): {above}, {below}, {limit}.")
     if analysis.condition_number is not None:
         yield f"The condition number of D(c) itself is {analysis.condition_number:.4g}."
 
 
-def _motions(analysis: Analysis) -> Iterator[str]:
+def _motions(analysis: Analysis, most: int | None) -> Iterator[str]:
     count = analysis.under_constrained
     if not count:
         return
-    yield _heading(count, "Motion", "s", "left over", "m and rad")
-    for number, motion in enumerate(analysis.motions[:MOST_MODES], start=1):
+    yield _heading(count, "Motion", "s", "kinematically")
+    for number, motion in enumerate(analysis.motions[:most], start=1):
         parts = (
             f"node {node} {coordinate} {value:.4g} {'rad' if coordinate[0] == 'r' else 'm'}"
             for node, coordinate, value in motion.largest(_PARTS + 1)
         )
         yield _listed(f"  {number}. ", parts)
-    yield from _more(count, "motion", "s")
+    yield from _more(count, most, "motion", "s")
     yield from _basis(count, "motions")
-    names = [f"node {n} {c}" for n, c in analysis.column_labels]
+    yield from _remedies_of_motions(analysis)
+
+
+def _remedies_of_motions(analysis: Analysis) -> Iterator[str]:
+    count = analysis.under_constrained
+    places = [(node - 1, axis - 1) for node, axis in analysis.raw.column_label.T.tolist()]
+    able = [places[i] for i in remedies.coordinates(analysis)]
+    operands = remedies.coordinate_operands(analysis, *able[0]) if able else ""
     yield _listed(
-        f"{_goes(count, 'motion')} when one of these is made independent or fixed: ",
-        (names[i] for i in remedies.coordinates(analysis)),
+        "To remove one motion, declare or hold one of: "
+        if count > 1
+        else "If this motion is wanted, declare one of these independent; if not, hold (fix) it: ",
+        (_coordinate(analysis, *place) for place in able),
+        note=f"(DYNX {operands} or FIX {operands})",
     )
     changed = remedies.deformations(analysis)
     if changed:
+        operands = _operands(analysis, *changed[0])
         yield _listed(
-            "Or when one of these released deformations is made independent or held: ",
-            (_deformation(analysis, index, mode) for index, mode in changed),
+            "Or declare or hold one of these released deformations: ",
+            (_deformation(analysis, *place) for place in changed),
+            note=f"(DYNE {operands} instead of RLSE {operands})",
         )
     if 1 < count <= MOST_MODES:
-        chosen = remedies.coordinate_set(analysis)
         yield _listed(
-            f"All {count} go when all of these are made independent or fixed: ",
-            (names[i] for i in chosen),
+            f"To remove {_all(count)}, declare or hold all of: ",
+            (_coordinate(analysis, *places[i]) for i in remedies.coordinate_set(analysis)),
             most=count,
         )
 
 
-def _self_stresses(analysis: Analysis) -> Iterator[str]:
+def _self_stresses(analysis: Analysis, most: int | None) -> Iterator[str]:
     count = analysis.over_constrained
     if not count:
         return
-    yield _heading(count, "Self-stress", "es", "", "N and N m")
+    yield _heading(count, "Self-stress", "es", "statically")
     index_of = analysis.data.element_index
-    for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
+    for number, stress in enumerate(analysis.self_stresses[:most], start=1):
         parts = (
             f"{_deformation(analysis, index_of[element], mode)} {value:.4g} "
             f"{_unit(analysis, index_of[element], mode)}"
             for element, mode, value in stress.largest(_PARTS + 1)
         )
         yield _listed(f"  {number}. ", parts)
-    yield from _more(count, "self-stress", "es")
+    yield from _more(count, most, "self-stress", "es")
     yield from _basis(count, "self-stresses")
-    labels = analysis.raw.row_label.T.tolist()
-    names = [(index - 1, mode) for index, mode in labels]
-    able = remedies.releases(analysis)
-    if able:
+    yield from _remedies_of_self_stresses(analysis)
+
+
+def _remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
+    count = analysis.over_constrained
+    places = [(index - 1, mode) for index, mode in analysis.raw.row_label.T.tolist()]
+    able = [places[i] for i in remedies.releases(analysis)]
+    driven = remedies.driven_deformations(analysis)
+    moved, held = remedies.driven_coordinates(analysis), remedies.supports(analysis)
+    declared = [_deformation(analysis, *place) for place in driven]
+    declared += [_coordinate(analysis, *place) for place in moved]
+    release = f"(RLSE {_operands(analysis, *able[0])})" if able else ""
+    instead = f"(RLSE {_operands(analysis, *driven[0])} instead)" if driven else ""
+    offers = (
+        ("release one of: ", [_deformation(analysis, *p) for p in able], release, _PARTS),
+        ("take a declaration away (driven against a constraint): ", declared, instead, _PARTS),
+        ("free a support: ", [_coordinate(analysis, *p) for p in held], "", _SUPPORTS),
+    )
+    head = "To remove it, " if count == 1 else "To remove one, "
+    for what, parts, note, most in offers:
+        if parts:
+            yield _listed(head + what, parts, most, note)
+            head = "Or "
+    chosen = remedies.release_set(analysis) if 1 < count <= MOST_MODES else []
+    if len(chosen) == count > 1:
         yield _listed(
-            f"{_goes(count, 'self-stress')} when one of these deformations is released: ",
-            (_deformation(analysis, *names[i]) for i in able),
+            f"To remove {_all(count)}, release all of: ",
+            (_deformation(analysis, *places[i]) for i in chosen),
+            most=count,
         )
-    if 1 < count <= MOST_MODES:
-        chosen = remedies.release_set(analysis)
-        if len(chosen) == count:
-            yield _listed(
-                f"All {count} go when all of these are released: ",
-                (_deformation(analysis, *names[i]) for i in chosen),
-                most=count,
-            )
 
 
 def _notes(analysis: Analysis, about_model: bool) -> Iterator[str]:
@@ -175,23 +216,29 @@ def _notes(analysis: Analysis, about_model: bool) -> Iterator[str]:
             yield _wrapped(text)
 
 
-def _heading(count: int, what: str, ending: str, tail: str, units: str) -> str:
-    words = f"{what}{ending if count > 1 else ''} {tail}".strip()
-    return f"{words} ({units} as parts of a unit mode: only ratios have a meaning)"
+def _heading(count: int, what: str, ending: str, how: str) -> str:
+    words = f"{what}{ending if count > 1 else ''} ({how} indeterminate"
+    return f"{words}; relative values, only their ratios matter)"
 
 
-def _goes(count: int, what: str) -> str:
-    return "It goes" if count == 1 else f"One {what} goes"
-
-
-def _more(count: int, what: str, ending: str) -> Iterator[str]:
-    if count > MOST_MODES:
-        yield f"  ... and {_plural(count - MOST_MODES, 'more ' + what, '', ending)}"
+def _more(count: int, most: int | None, what: str, ending: str) -> Iterator[str]:
+    if most is not None and count > most:
+        yield f"  ... and {_plural(count - most, 'more ' + what, '', ending)}"
 
 
 def _basis(count: int, what: str) -> Iterator[str]:
     if count > 1:
-        yield f"These {what} are one basis of many: any combination of them is as good."
+        yield f"These {what} are one basis of many: any combination of them is also one."
+
+
+def _coordinate(analysis: Analysis, node: int, axis: int) -> str:
+    arrays = analysis.data.arrays
+    name = coordinate_name(int(arrays.node_kind[node]), axis)
+    return f"node {arrays.node_number[node]} {name}"
+
+
+def _operands(analysis: Analysis, index: int, mode: int) -> str:
+    return f"{analysis.data.arrays.element_number[index]} {mode}"
 
 
 def _deformation(analysis: Analysis, index: int, mode: int) -> str:
@@ -211,8 +258,11 @@ def _plural(count: int, word: str, one: str, many: str) -> str:
     return f"{count} {word}{one if count == 1 else many}"
 
 
-def _listed(head: str, parts: Iterable[str], most: int = _PARTS) -> str:
+def _listed(head: str, parts: Iterable[str], most: int = _PARTS, note: str = "") -> str:
+    """The first parts in a row; the note stands behind the very first."""
     every = [part.replace(" ", _TIE) for part in parts]
+    if note and every:
+        every[0] += " " + note.replace(" ", _TIE)
     text = "; ".join(every[:most]) + ("; ..." if len(every) > most else "")
     return _wrapped(head + text, "     ").replace(_TIE, " ")
 

@@ -23,6 +23,12 @@ DECKS = {
     "over": TRIANGLE + "PLTRUSS 3 4 3\nX 4 0.5 0\nFIX 4\nEND\n",
     "both": "PLTRUSS 1 1 2\nPLTRUSS 2 2 3\nX 1 -1 0\nX 3 1 0\nFIX 1\nFIX 3\nEND\n",
 }
+VERDICTS = {
+    "exact": "exactly constrained",
+    "under": "under-constrained",
+    "over": "over-constrained",
+    "both": "under-constrained and over-constrained",
+}
 BROKEN = "PLTRUS 1 1 2\nX 2 1 0\nFIX 1\nEND\n"
 
 

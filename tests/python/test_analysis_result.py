@@ -116,6 +116,64 @@ def test_close_decision_is_warned_of() -> None:
     assert analyse(twelve_trusses()).warnings == ()
 
 
+def turned_trusses(digits: int) -> Model:
+    """The twelve trusses turned, their coordinates given with so many digits."""
+    turn = np.linalg.qr([[3.0, 1.0, 2.0], [1.0, 4.0, -1.0], [-2.0, 1.0, 5.0]])[0]
+    exact = twelve_trusses()
+    model = Model()
+    nodes = [
+        model.node(*(float(f"{part:.{digits - 1}e}") for part in turn @ place))
+        for place in exact.positions
+    ]
+    for p, _, q, _ in exact.element_nodes.tolist():
+        model.truss(nodes[p], nodes[q])
+    for node in nodes[:4]:
+        model.fix(node)
+    return model
+
+
+def test_zeros_of_rounded_coordinates_are_warned_of() -> None:
+    rounded, full = analyse(turned_trusses(11)), analyse(turned_trusses(17))
+    assert rounded.rank == full.rank == 11
+    assert [item.code for item in rounded.warnings] == ["rounded-coordinates"]
+    assert full.warnings == ()
+    zero = rounded.gap.largest_zero
+    assert zero is not None and rounded.raw.noise < zero <= rounded.tolerance
+    assert f"singular values up to {zero:.1e} count as zero because the coordinates are " in (
+        rounded.warnings[0].message
+    )
+    assert 0.0 < full.raw.noise < 1e-13
+
+
+def test_changing_the_model_of_a_result_leaves_the_result_whole() -> None:
+    analysis = analyse(twelve_trusses())
+    before = analysis.describe(), analysis.dense_jacobian()
+    model = analysis.model
+    model.truss(1, model.node(0, 0, 5))
+    model.release(1)
+    model.fix(model.handle(9), "z")
+    assert analysis.describe() == before[0]
+    assert np.array_equal(analysis.dense_jacobian(), before[1])
+    assert analysis.model.element_numbers.size == 12
+    assert analyse(model).rows == 12, "one bar more, one released"
+
+
+def test_json_holds_no_half_characters() -> None:
+    # A path of bytes that are no UTF-8, as os.fsdecode gives it on POSIX.
+    analysis = analyse(twelve_trusses(), name="d\udcff\x1b[2J\n\u00e9.dat")
+    text = analysis.to_json()
+    assert "\n" not in text and "\x1b" not in text
+    assert json.loads(text)["deck"] == "d\\udcff\x1b[2J\n\u00e9.dat"
+    for words in (repr(analysis), analysis.describe(), analysis._repr_html_()):
+        words.encode()
+        assert "\x1b" not in words and "[2J\n" not in words
+
+
+def test_numbers_agree_with_their_nouns() -> None:
+    assert ", 1 motion, 1 self-stress, " in repr(analyse(twelve_trusses()))
+    assert ", 0 motions, 0 self-stresses, " in repr(analyse(ring(3)))
+
+
 def test_analysis_is_frozen() -> None:
     analysis = analyse(twelve_trusses())
     with pytest.raises(dataclasses.FrozenInstanceError):

@@ -1,7 +1,6 @@
-"""The command in a process of its own: encodings, pipes, full disks, interruptions, noise."""
+"""The command in a process of its own: encodings, pipes, full disks, noise."""
 
 import os
-import signal
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -11,7 +10,6 @@ import pytest
 from small_decks import json_lines, write
 
 import flexact
-from flexact.cli.main import main
 
 
 def command(
@@ -52,9 +50,9 @@ def test_progress_is_for_terminals_only(decks: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="terminals of POSIX")
-def test_progress_counts_a_deck_that_is_named_twice(decks: Path) -> None:
+def test_progress_counts_the_decks(decks: Path) -> None:
     reader, terminal = os.openpty()
-    names = [str(decks / f"{name}.dat") for name in ("exact", "under", "exact")]
+    names = [str(decks / f"{name}.dat") for name in ("exact", "under", "over")]
     try:
         subprocess.run(
             [sys.executable, "-m", "flexact", "analyse", "--json", *names],
@@ -104,26 +102,44 @@ def test_a_broken_pipe_ends_quietly(arguments: tuple[str, ...], decks: Path) -> 
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_full_disk_behind_stdout_is_told(decks: Path) -> None:
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("arguments", [("analyse", "{decks}"), ("analyse", "--help")])
+def test_a_full_disk_behind_stdout_is_told(
+    arguments: tuple[str, ...], unbuffered: str, decks: Path
+) -> None:
     with open("/dev/full", "wb") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "flexact", "analyse", str(decks / "exact.dat")],
+            [sys.executable, "-m", "flexact", *(a.format(decks=decks) for a in arguments)],
             stdout=full,
             stderr=subprocess.PIPE,
-            env=process_environment(),
+            env=process_environment() | {"PYTHONUNBUFFERED": unbuffered},
             check=False,
         )
     assert done.returncode == 1
-    assert b"No space left" in done.stderr
-    assert b"Traceback" not in done.stderr
+    assert done.stderr == (b"flexact: error: cannot write the results: no space left on device\n")
 
 
-def test_control_c_ends_quietly(
-    decks: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def interrupt(*_: object, **__: object) -> None:
-        signal.raise_signal(signal.SIGINT)
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_behind_stderr_does_not_cost_the_results(decks: Path) -> None:
+    write(decks / "broken.dat", "PLTRUS 1 1 2\n")
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "flexact", "analyse", "--json", str(decks)],
+            stdout=subprocess.PIPE,
+            stderr=full,
+            env=process_environment(),
+            check=False,
+        )
+    assert done.returncode == 2
+    assert len(json_lines(done.stdout.decode())) == 5
 
-    monkeypatch.setattr(flexact, "analyse", interrupt)
-    assert main(["analyse", str(decks / "exact.dat")]) == 130
-    assert "Traceback" not in capsys.readouterr().err
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell of POSIX")
+@pytest.mark.parametrize("arguments", ["--version", "analyse {decks}", "check {decks}"])
+def test_a_closed_stdout_is_told(arguments: str, decks: Path) -> None:
+    line = f"exec '{sys.executable}' -m flexact {arguments.format(decks=decks)} >&-"
+    done = subprocess.run(
+        ["sh", "-c", line], stderr=subprocess.PIPE, env=process_environment(), check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr == (b"flexact: error: cannot write the results: standard output is closed\n")

@@ -15,7 +15,8 @@ import pytest
 
 import flexact
 from flexact.mesh import to_meshio
-from flexact.mesh_file import MeshFormatError, find_format, mesh_bytes
+from flexact.mesh_file import MeshFormat, MeshFormatError, find_format, mesh_bytes
+from flexact.outputs import OutputError
 
 meshio: Any = pytest.importorskip("meshio")
 
@@ -177,13 +178,72 @@ def test_xdmf_with_vertices_is_as_its_standard_says(analyse: Read) -> None:
     assert {item.get("Format") for item in content.iter("DataItem")} == {"XML"}
 
 
-@pytest.mark.parametrize("name", ["stl", "obj", "nastran", "off", "svg", "tetgen"])
-def test_formats_that_cannot_hold_it_say_why(
-    name: str, analyse: Read, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(
+    "name", ["stl", "obj", "nastran", "off", "svg", "tetgen", "su2", "wkt", "flac3d", ".ply"]
+)
+def test_formats_that_never_hold_lines_with_data_are_refused(
+    name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(MeshFormatError, match=f"mesh format {name} cannot hold this scene: .+"):
-        mesh_bytes(to_meshio(analyse(HINGED)), find_format(name))
+    with pytest.raises(MeshFormatError) as error:
+        find_format(name)
+    assert str(error.value) == (
+        f"mesh format {name.strip('.')} cannot hold lines with data; vtu or vtk or xdmf will do"
+    )
     assert capsys.readouterr() == ("", "")
+
+
+def test_no_mesh_is_named_like_a_deck() -> None:
+    """Tecplot files may end in .dat."""
+    assert find_format("tecplot").suffix == ".tec"
+    with pytest.raises(MeshFormatError, match="'dat' is not known"):
+        find_format("dat")
+
+
+def test_a_format_is_left_out_where_another_of_its_suffix_will_do() -> None:
+    """Both ANSYS and Gmsh files end in .msh; ANSYS's have no lines."""
+    assert find_format("msh").names == ("gmsh",)
+
+
+@pytest.mark.parametrize(
+    ("name", "package"), [("cgns", "h5py"), ("med", "h5py"), ("exodus", "netCDF4")]
+)
+def test_a_missing_package_is_named(
+    name: str, package: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(MeshFormatError, match=f"^mesh format {name} needs the package {package};"):
+        find_format(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason"),
+    [
+        ("tecplot", COLLINEAR, "it loses motion_1"),
+        ("stl", COLLINEAR, "it loses cells or points; meshio: .*triangle"),
+        ("su2", COLLINEAR, r"meshio fails to write it \(it says not why\); meshio: "),
+    ],
+)
+def test_a_scene_that_a_format_cannot_hold(
+    name: str, text: str, reason: str, analyse: Read, capsys: pytest.CaptureFixture[str]
+) -> None:
+    match = f"^mesh format {name} cannot hold this scene: {reason}"
+    with pytest.raises(MeshFormatError, match=match):
+        mesh_bytes(to_meshio(analyse(text)), MeshFormat(f".{name}", (name,)))
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_full_disk_is_not_the_formats_fault(
+    analyse: Read, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fill_up(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    mesh = to_meshio(analyse(COLLINEAR))
+    monkeypatch.setattr(meshio, "write", fill_up)
+    form = find_format("gmsh")
+    with pytest.raises(OutputError, match="temporary folder: no space left on device") as error:
+        mesh_bytes(mesh, form)
+    assert not isinstance(error.value, MeshFormatError)
 
 
 def test_unknown_formats_are_named_with_the_known_ones() -> None:

@@ -1,5 +1,6 @@
 """What the builder says to wrong use: a ModelError with a code, at once."""
 
+import numpy as np
 import pytest
 
 import flexact
@@ -40,11 +41,60 @@ def test_wrong_use_is_a_model_error_at_once(code: str) -> None:
     assert str(error.value).startswith(f"error[{code}]: ")
 
 
-@pytest.mark.parametrize("bad", ["a", 5, (1, 2), (1, 2, "q"), [[1], [2], [3]]])
+@pytest.mark.parametrize(
+    "bad",
+    ["a", 5, (1, 2), (1, 2, "q"), [[1], [2], [3]], "123", b"123", {1, 2, 3}, {1: 0, 2: 0, 3: 0}],
+)
 def test_bad_vectors_are_model_errors(bad: object) -> None:
     model = Model()
     with pytest.raises(ModelError, match="three numbers"):
         model.beam(model.node(0, 0, 0), model.node(1, 0, 0), y=bad)  # type: ignore[arg-type]
+
+
+def test_coordinates_in_quotes_are_refused() -> None:
+    for bad in (("1", 0, 0), (0, b"1", 0), (0, 0, 1j)):
+        with pytest.raises(ModelError, match="the position must be three numbers"):
+            Model().node(*bad)  # type: ignore[arg-type]
+    assert Model().node(np.float32(1), np.int64(2), True).position == 1
+
+
+@pytest.mark.parametrize("bad", [5, b"bar", ["x"], None])
+def test_names_are_text(bad: object) -> None:
+    with pytest.raises(ModelError, match="the name of a model must be text, not "):
+        Model(name=bad)  # type: ignore[arg-type]
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    named = {
+        "an element": (
+            lambda: model.truss(a, b, bad),  # type: ignore[arg-type]
+            lambda: model.beam(a, b, name=bad),  # type: ignore[arg-type]
+            lambda: model.wire(a, b, name=bad),  # type: ignore[arg-type]
+            lambda: model.rigid(a, b, name=bad),  # type: ignore[arg-type]
+            lambda: model.hinge(a, (0, 0, 1), name=bad),  # type: ignore[arg-type]
+        ),
+        "a sheet": (
+            lambda: model.sheet(a, b, (0, 0, 1), 2, bad),  # type: ignore[arg-type]
+        ),
+    }
+    for what, calls in named.items():
+        for call in calls:
+            with pytest.raises(ModelError, match=f"the name of {what} must be text, not ") as error:
+                call()
+            assert code_of(error) == "bad-name"
+    assert model.element_numbers.size == 0
+    assert model.node(0, 0, 0).position == 5, "no node was added"
+
+
+@pytest.mark.parametrize("parts", [2.0, "2", None])
+def test_number_of_beams_is_whole(parts: object) -> None:
+    model = Model()
+    with pytest.raises(ModelError, match="the number of beams must be a whole number, not "):
+        model.sheet(
+            model.node(0, 0, 0),
+            model.node(1, 0, 0),
+            (0, 0, 1),
+            parts,  # type: ignore[arg-type]
+        )
 
 
 def test_wrong_use_changes_nothing() -> None:

@@ -1,6 +1,7 @@
 """Files of results: planned before anything is computed, written together or not at all."""
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
@@ -27,7 +28,20 @@ def test_a_file_is_taken_whatever_its_suffix(tmp_path: Path) -> None:
 
 def test_a_folder_without_decks_is_kept_to_be_told(tmp_path: Path) -> None:
     (deck,) = find_decks([str(tmp_path)])
-    assert deck.empty_folder
+    assert deck.error is not None
+    assert deck.error.remark == "no decks"
+
+
+def test_a_deck_is_found_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    deck = write(tmp_path / "in" / "x.dat", "")
+    (tmp_path / "in" / "y.dat").symlink_to(deck)
+    monkeypatch.chdir(tmp_path)
+    decks = find_decks(["in/x.dat", "in", str(deck), "./in/../in/x.dat"])
+    assert [deck.path for deck in decks] == ["in/x.dat", "in/y.dat"]
+
+
+def test_names_of_results_can_be_encoded() -> None:
+    assert DeckFile("m\u00e9/\udcff.dat", Path("x")).name == "m\u00e9/\\udcff.dat"
 
 
 @pytest.mark.parametrize(
@@ -54,6 +68,21 @@ def test_a_deck_is_not_overwritten(tmp_path: Path) -> None:
     deck = write(tmp_path / "x.json", "")
     with pytest.raises(OutputError, match="would overwrite the deck"):
         plan_files([DeckFile(str(deck), Path("x"))], tmp_path, (".json",))
+
+
+def test_links_to_one_file_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.log").symlink_to(tmp_path / "x.json")
+    with pytest.raises(OutputError, match=r"x\.log is a link to another file of the results"):
+        plan_files([DeckFile("in/x.dat", Path("x"))], tmp_path, (".json", ".log"))
+
+
+def test_folders_that_give_no_deck_have_no_files(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    (tmp_path / "in").mkdir()
+    write(tmp_path / "in" / "a.dat", "")
+    decks = find_decks([str(tmp_path / "a"), str(tmp_path / "in")])
+    assert [deck.relative for deck in decks] == [Path("a"), Path("a")]
+    assert list(plan_files(decks, tmp_path / "out", (".json",))) == [str(tmp_path / "in" / "a.dat")]
 
 
 def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
@@ -84,6 +113,62 @@ def test_files_are_replaced(tmp_path: Path) -> None:
     assert (tmp_path / "x.json").read_bytes() == b"new"
 
 
+def test_a_link_stays_one(tmp_path: Path) -> None:
+    there = write(tmp_path / "there" / "x.json", "old")
+    for name, target in (("a.json", there), ("b.json", tmp_path / "new" / "y.json")):
+        (tmp_path / name).symlink_to(target)
+        write_together({tmp_path / name: b"new"})
+        assert (tmp_path / name).readlink() == target
+        assert target.read_bytes() == b"new"
+    assert files_in(tmp_path) == ["a.json", "b.json", "new/y.json", "there/x.json"]
+
+
+def test_what_may_not_be_replaced_is_left(tmp_path: Path) -> None:
+    write(tmp_path / "file", "old").chmod(0o444)
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to(tmp_path / "pipe")
+    (tmp_path / "loop").symlink_to(tmp_path / "loop")
+    for name, reason in (
+        ("file", "it is read-only"),
+        ("pipe", "it is not a regular file"),
+        ("link", "it is not a regular file"),
+        ("loop", "too many levels of symbolic links"),
+    ):
+        with pytest.raises(OutputError, match=f"cannot write {tmp_path / name}: {reason}"):
+            write_together({tmp_path / "x": b"new", tmp_path / name: b"new"})
+    assert (tmp_path / "file").read_bytes() == b"old"
+    assert (tmp_path / "pipe").is_fifo() and (tmp_path / "link").is_symlink()
+    assert files_in(tmp_path) == ["file"]
+
+
+def test_an_interruption_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_bytes = Path.write_bytes
+
+    def interrupt(path: Path, content: bytes) -> int:
+        write_bytes(path, content[:3])
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "write_bytes", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write_together({tmp_path / "x.json": b"first"})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_interruption_waits_until_all_files_are_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    replace = os.replace
+
+    def interrupt(source: Path, target: Path) -> None:
+        signal.raise_signal(signal.SIGINT)
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write_together({tmp_path / "x.json": b"1", tmp_path / "x.log": b"2"})
+    assert files_in(tmp_path) == ["x.json", "x.log"]
+
+
 def test_a_folder_in_the_way_leaves_all_as_it_was(tmp_path: Path) -> None:
     (tmp_path / "x.log").mkdir()
     (tmp_path / "x.json").write_bytes(b"old")
@@ -105,7 +190,7 @@ def test_a_write_that_fails_half_way_leaves_nothing(
         return write_bytes(path, content)
 
     monkeypatch.setattr(Path, "write_bytes", fill_up)
-    with pytest.raises(OutputError, match=r"x\.log: No space left on device"):
+    with pytest.raises(OutputError, match=r"x\.log: no space left on device"):
         write_together({tmp_path / "x.json": b"first", tmp_path / "x.log": b"second"})
     assert files_in(tmp_path) == []
 

@@ -12,7 +12,7 @@ import pytest
 
 import flexact
 from flexact.regress import differences
-from flexact.stored_answer import load, store
+from flexact.stored_answer import answer_of, read_answer
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"
@@ -34,8 +34,8 @@ def test_every_folder_has_decks() -> None:
 def test_a_deck_gives_its_reference(name: str) -> None:
     reference = REFERENCE / f"{name}.json"
     assert reference.is_file(), f"{name}.dat has no reference"
-    answer = store(flexact.analyse(DECKS / f"{name}.dat"))
-    assert differences(load(reference), answer) == ()
+    answer = answer_of(flexact.analyse(DECKS / f"{name}.dat"))
+    assert differences(read_answer(reference), answer) == ()
 
 
 def test_every_reference_has_a_deck() -> None:

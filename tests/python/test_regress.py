@@ -10,7 +10,14 @@ import pytest
 import flexact
 from flexact.cli.main import main
 from flexact.regress import Tolerances, differences
-from flexact.stored_answer import Projector, StoredAnswer, StoredAnswerError, dumps, load, store
+from flexact.stored_answer import (
+    Projector,
+    StoredAnswer,
+    StoredAnswerError,
+    answer_of,
+    read_answer,
+    text_of,
+)
 
 COLLINEAR = """\
 PLTRUSS 1 1 2
@@ -34,7 +41,7 @@ def deck(tmp_path: Path) -> Path:
 
 
 def stored(text: str) -> StoredAnswer:
-    return store(flexact.analyse(flexact.read_text(text)))
+    return answer_of(flexact.analyse(flexact.read_text(text)))
 
 
 def with_motions(vectors: np.ndarray, labels: tuple[str, ...] = PLANE) -> StoredAnswer:
@@ -46,15 +53,15 @@ def with_motions(vectors: np.ndarray, labels: tuple[str, ...] = PLANE) -> Stored
 def test_an_answer_comes_back_to_the_last_bit(tmp_path: Path) -> None:
     answer = stored(RAISED.replace("X 2", "X 2 0.1 0.3"))
     path = tmp_path / "answer.json"
-    path.write_text(dumps(answer))
-    again = load(path)
-    assert dumps(again) == dumps(answer)
+    path.write_text(text_of(answer))
+    again = read_answer(path)
+    assert text_of(again) == text_of(answer)
     np.testing.assert_array_equal(again.singular_values, answer.singular_values)
 
 
 def test_the_stored_form_is_the_documented_one() -> None:
     """Two collinear bars: the joint moves along y alone; both bars carry sqrt(1/2)."""
-    content = json.loads(dumps(stored(COLLINEAR)))
+    content = json.loads(text_of(stored(COLLINEAR)))
     assert list(content) == [
         "format", "deck", "source", "verdict", "rank", "rows", "columns", "under_constrained",
         "over_constrained", "degrees_of_freedom", "counts", "singular_values", "motions",
@@ -102,7 +109,7 @@ def test_who_takes_part_is_told() -> None:
 
 def test_another_dimension_is_told() -> None:
     (told,) = differences(with_motions(np.eye(3)[:1]), with_motions(np.eye(3)[:2]))
-    assert told == "motions: the subspace has 2 dimensions, stored with 1"
+    assert told == "motions: 2, stored 1"
 
 
 def test_every_kind_of_difference_is_told() -> None:
@@ -122,7 +129,11 @@ def test_singular_values_are_compared_by_the_largest() -> None:
     for change, told in ((0.9e-9, 0), (1.1e-9, 1)):
         values = answer.singular_values + np.array([0.0, change * largest])
         other = dataclasses.replace(answer, singular_values=values)
-        assert len(differences(answer, other)) == told
+        found = differences(answer, other)
+        assert len(found) == told
+    assert found[0].startswith(
+        "singular values: 1 of 2 differ; the largest difference is in number 2: "
+    )
     assert differences(answer, other, Tolerances(singular_values=1e-8)) == ()
 
 
@@ -159,25 +170,38 @@ def test_a_tolerance_may_be_given(deck: Path, tmp_path: Path) -> None:
     assert main([*arguments, "--tolerance", "1e-3"]) == 0
 
 
+WHOLE = json.loads(text_of(stored(COLLINEAR)))
+
+
 @pytest.mark.parametrize(
-    "content",
+    ("content", "detail"),
     [
-        "",
-        "[]",
-        "{}",
-        "\udcff",
-        '{"format": 2}',
-        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "singular_values": [1e999]}),
-        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "motions": {"projector": [1]}}),
-        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "motions": {"projector": [[1, 2, 3]]}}),
-        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "counts": [1]}),
-        json.dumps({**json.loads(dumps(stored(COLLINEAR))), "rank": None}),
+        ("", ""),
+        ("[]", ""),
+        ("{}", ": 'format' is missing"),
+        ("\udcff", ""),
+        ('{"format": 2}', ": format 2 is not known"),
+        (WHOLE | {"singular_values": [1e999]}, ": 'singular_values' is no list of finite numbers"),
+        (WHOLE | {"singular_values": [[1], [2]]}, ": 'singular_values' is no list of finite"),
+        (WHOLE | {"motions": {"projector": [1]}}, ""),
+        (WHOLE | {"motions": {"projector": [[1, 2, 3]]}}, ""),
+        (WHOLE | {"motions": {"projector": [["2:y", "y", 1]]}}, ": 'y' is no label"),
+        (WHOLE | {"motions": {"projector": [["2:y", "2:y", 1e308]]}}, ": an entry of a projector"),
+        (WHOLE | {"motions": {"projector": [["2:y", "2:y", None]]}}, ": an entry of a projector"),
+        (WHOLE | {"counts": [1]}, ""),
+        (WHOLE | {"rank": None}, ""),
+        (WHOLE | {"rank": 1e999}, ""),
     ],
 )
-def test_what_is_no_stored_answer_is_told(content: str, deck: Path, tmp_path: Path) -> None:
+def test_what_is_no_stored_answer_is_told(
+    content: object, detail: str, deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "bars.json"
-    path.write_text(content, encoding="utf-8", errors="surrogateescape")
-    with pytest.raises(StoredAnswerError, match=r"bars\.json: ") as error:
-        load(path)
+    text = content if isinstance(content, str) else json.dumps(content)
+    path.write_text(text, encoding="utf-8", errors="surrogateescape")
+    with pytest.raises(StoredAnswerError) as error:
+        read_answer(path)
+    assert str(error.value).startswith(f"{path}: not a stored answer of flexact{detail}")
     assert isinstance(error.value, flexact.FlexactError)
     assert main(["regress", str(deck), "--against", str(tmp_path)]) == 1
+    assert "not a stored answer of flexact" in capsys.readouterr().err

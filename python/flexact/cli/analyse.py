@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import flexact
-from flexact import memory
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
-from flexact.cli import failures
+from flexact.cli import failures, remarks
 from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import complain, say
+from flexact.interruption import unwinding
+from flexact.rendering import harmless
 
 if TYPE_CHECKING:
     from flexact.mesh_file import MeshFormat
-
-#: From so many rows and columns on, people wait for the decomposition.
-LONG_WAIT = 2000
 
 VERDICTS = {
     "exact": flexact.Verdict.EXACT,
@@ -70,50 +69,50 @@ class _Work:
             from flexact.mesh_file import find_format
             from flexact.outputs import plan_files
 
-            self.format = find_format(chosen.format or "vtu")
+            with unwinding():
+                self.format = find_format(chosen.format or "vtu")
             suffixes = (".json", ".log", self.format.suffix)
             self.plan = plan_files(decks, chosen.output, suffixes)
 
     def step(self, deck: DeckFile) -> Outcome:
         """Analyse one deck, say and write its results."""
         model = flexact.read(deck.path)
-        failures.remark(model)
-        _announce(deck, model)
-        analysis = flexact.analyse(model, name=deck.path)
-        if self.format is not None:
-            self._write(deck, analysis)
+        remarks.tell_problems(model)
+        remarks.tell_wait(deck, model)
+        analysis = flexact.analyse(model, name=deck.name)
+        failure = self._write(deck, analysis) if self.format is not None else None
         say(analysis.to_json() if self.chosen.json else _words(analysis))
-        return self._judge(deck, analysis.verdict)
+        outcome = self._judge(deck, analysis.verdict)
+        if failure is None:
+            return outcome
+        failures.tell_people(deck, failure)
+        return replace(outcome, code=ExitCode.OTHER, remark="results not written")
 
-    def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> None:
+    def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> Exception | None:
+        """Write the results, or say why not: that is no reason to keep the verdict back."""
         from flexact.log import log_text
         from flexact.mesh import to_meshio
         from flexact.mesh_file import mesh_bytes
-        from flexact.outputs import write_together
+        from flexact.outputs import OutputError, write_together
 
         assert self.format is not None
-        texts = (analysis.to_json() + "\n", log_text(analysis))
-        contents = [text.encode("utf-8", "backslashreplace") for text in texts]
-        contents.append(mesh_bytes(to_meshio(analysis), self.format))
-        write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
+        try:
+            texts = (analysis.to_json() + "\n", log_text(analysis))
+            contents = [text.encode("utf-8", "backslashreplace") for text in texts]
+            with unwinding():
+                contents.append(mesh_bytes(to_meshio(analysis), self.format))
+                write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
+        except (OutputError, MemoryError) as error:
+            return error
+        return None
 
     def _judge(self, deck: DeckFile, verdict: flexact.Verdict) -> Outcome:
         code = ExitCode.ANALYSED
         if self.chosen.expect and verdict is not VERDICTS[self.chosen.expect]:
             code = ExitCode.DIFFERENT
             wanted = VERDICTS[self.chosen.expect].value
-            complain(f"{deck.path}: {verdict.value}, but expected {wanted}")
-        return Outcome(deck.path, code, verdict.value)
-
-
-def _announce(deck: DeckFile, model: flexact.Model) -> None:
-    count = model.data.count
-    long = min(count.rows, count.columns) >= LONG_WAIT
-    if long and memory.is_enough(count.rows, count.columns):
-        complain(
-            f"{deck.path}: decomposing D(c), {count.rows} x {count.columns}; the time grows "
-            "with the third power of its size, a minute or so at 5000"
-        )
+            complain(f"{harmless(deck.name)}: {verdict.value}, but expected {wanted}")
+        return Outcome(deck.name, code, verdict.value)
 
 
 def _words(analysis: flexact.Analysis) -> str:

@@ -6,9 +6,10 @@ import argparse
 
 import flexact
 from flexact.batch import DeckFile, ExitCode, Outcome, find_decks
-from flexact.cli import failures
+from flexact.cli import remarks
 from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import say
+from flexact.rendering import harmless
 
 
 def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -30,6 +31,6 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
 
 def _check(deck: DeckFile) -> Outcome:
     model = flexact.read(deck.path)
-    failures.remark(model)
-    say(f"{deck.path}: no errors")
-    return Outcome(deck.path, ExitCode.ANALYSED, "without errors")
+    remarks.tell_problems(model)
+    say(f"{harmless(deck.name)}: no errors")
+    return Outcome(deck.name, ExitCode.ANALYSED, "without errors")

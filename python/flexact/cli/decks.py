@@ -7,10 +7,19 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 
 from flexact.analysis import AnalysisError
-from flexact.batch import SUFFIX, BatchError, DeckFile, ExitCode, NoDecksError, Outcome, exit_code
+from flexact.batch import (
+    SUFFIX,
+    BatchError,
+    DeckFile,
+    ExitCode,
+    FolderError,
+    Outcome,
+    exit_code,
+)
 from flexact.cli import failures
 from flexact.cli.terminal import complain, end_progress, say, show_progress
 from flexact.diagnostics import DeckError
+from flexact.rendering import harmless
 
 REMARKS = {
     ExitCode.OTHER: "failed",
@@ -41,7 +50,7 @@ def take(
     """
     outcomes = []
     for number, deck in enumerate(decks, start=1):
-        show_progress(number, len(decks), deck.path)
+        show_progress(number, len(decks), deck.name)
         outcomes.append(_attempt(deck, step, as_json))
     end_progress()
     if text := summarise(outcomes):
@@ -51,14 +60,11 @@ def take(
 
 def _attempt(deck: DeckFile, step: Callable[[DeckFile], Outcome], as_json: bool) -> Outcome:
     try:
-        if deck.empty_folder:
-            raise NoDecksError(f"{deck.path}: no deck (*{SUFFIX}) in this folder or below it")
+        if deck.error is not None:
+            raise deck.error
         return step(deck)
-    except (DeckError, NoDecksError, AnalysisError, BatchError, MemoryError) as error:
-        failures.tell(deck, error, as_json)
-        of_deck = isinstance(error, DeckError | NoDecksError)
-        code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
-        return Outcome(deck.path, code, "failed")
+    except (DeckError, FolderError, AnalysisError, BatchError, MemoryError) as error:
+        return failures.tell(deck, error, as_json=as_json)
 
 
 def summarise(outcomes: Sequence[Outcome]) -> str:
@@ -69,7 +75,7 @@ def summarise(outcomes: Sequence[Outcome]) -> str:
     parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
     lines = [f"{len(outcomes)} decks: {parts}"]
     lines += [
-        f"  {REMARKS[outcome.code]}: {outcome.deck}"
+        f"  {outcome.remark or REMARKS[outcome.code]}: {harmless(outcome.deck)}"
         for outcome in outcomes
         if outcome.code is not ExitCode.ANALYSED
     ]

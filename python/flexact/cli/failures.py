@@ -5,45 +5,66 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from flexact.batch import DeckFile, NoDecksError
+from flexact.batch import DeckFile, ExitCode, FolderError, Outcome
 from flexact.cli.terminal import complain, say
 from flexact.diagnostics import DeckError, Severity
-from flexact.model import Model
+from flexact.rendering import harmless
 
 CODES = {
-    "NoDecksError": "no-decks",
     "AnalysisError": "not-analysed",
     "OutputError": "not-written",
     "MeshFormatError": "not-written",
     "MemoryError": "out-of-memory",
 }
+#: Codes of problems with a file that are not about what is stated in it.
+NOT_READ = {
+    "cannot-read",
+    "is-a-folder",
+    "no-such-file",
+    "not-a-file",
+    "not-text",
+    "too-large",
+}
 
 
-def remark(model: Model) -> None:
-    """Render the warnings and notes about a sound deck on stderr."""
-    if model.diagnostics:
-        from flexact.rendering import render_problems
-
-        complain(render_problems(model.data.problems, model.name, model.data.source))
-
-
-def tell(deck: DeckFile, error: Exception, as_json: bool) -> None:
+def tell(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
     """Tell why a deck failed: rendered on stderr, and as one JSON line on stdout if asked."""
-    if isinstance(error, DeckError | NoDecksError):
-        complain(str(error))
-    else:
-        complain(f"{deck.path}: error: {_reason(error)}")
+    tell_people(deck, error)
     if as_json:
-        say(json.dumps({"deck": deck.path, "error": {"diagnostics": _records(error)}}))
+        records = _records(error)
+        total = error.problems.errors if isinstance(error, DeckError) else len(records)
+        failure = {"diagnostics": records, "errors": total}
+        say(json.dumps({"deck": deck.name, "error": failure}))
+    of_deck = isinstance(error, DeckError | FolderError)
+    code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
+    return Outcome(deck.name, code, "failed", _remark(error))
+
+
+def tell_people(deck: DeckFile, error: Exception) -> None:
+    """Tell on stderr why a deck failed."""
+    if isinstance(error, DeckError):
+        complain(str(error))
+    elif isinstance(error, FolderError):
+        complain(_reason(error))
+    else:
+        complain(f"{harmless(deck.name)}: error: {_reason(error)}")
+
+
+def _remark(error: Exception) -> str:
+    if isinstance(error, FolderError):
+        return error.remark
+    codes = {d.code for d in error.diagnostics} if isinstance(error, DeckError) else set()
+    return "cannot be read" if codes & NOT_READ else ""
 
 
 def _reason(error: Exception) -> str:
-    return str(error) or ("not enough memory" if isinstance(error, MemoryError) else repr(error))
+    words = "not enough memory" if isinstance(error, MemoryError) else repr(error)
+    return harmless(str(error) or words)
 
 
 def _records(error: Exception) -> list[dict[str, Any]]:
     if not isinstance(error, DeckError):
-        code = CODES.get(type(error).__name__, "failed")
+        code = getattr(error, "code", CODES.get(type(error).__name__, "failed"))
         return [{"code": code, "line": 0, "column": 0, "message": _reason(error)}]
     return [
         {"code": d.code, "line": d.line, "column": d.column, "message": d.message}

@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING
 
 import flexact
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
+from flexact.cli import remarks
 from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import say
+from flexact.interruption import unwinding
+from flexact.rendering import harmless
 
 if TYPE_CHECKING:
     from flexact.regress import Tolerances
@@ -72,23 +75,31 @@ def regress_decks(chosen: argparse.Namespace) -> ExitCode:
 
 def _store(deck: DeckFile, target: Path) -> Outcome:
     from flexact.outputs import write_together
-    from flexact.stored_answer import dumps, store
+    from flexact.stored_answer import answer_of, text_of
 
-    answer = store(flexact.analyse(flexact.read(deck.path), name=deck.path))
-    write_together({target: dumps(answer).encode()})
-    say(f"{deck.path}: stored in {target}")
-    return Outcome(deck.path, ExitCode.ANALYSED, "stored")
+    text = text_of(answer_of(_analysed(deck, flexact.read(deck.path))))
+    with unwinding():
+        write_together({target: text.encode()})
+    say(f"{harmless(deck.name)}: stored in {harmless(str(target))}")
+    return Outcome(deck.name, ExitCode.ANALYSED, "stored")
 
 
 def _compare(deck: DeckFile, stored: Path, tolerances: Tolerances) -> Outcome:
     from flexact.regress import differences
-    from flexact.stored_answer import load, store
+    from flexact.stored_answer import answer_of, read_answer
 
     model = flexact.read(deck.path)
-    answer = load(stored)
-    found = differences(answer, store(flexact.analyse(model, name=deck.path)), tolerances)
+    answer = read_answer(stored)
+    found = differences(answer, answer_of(_analysed(deck, model)), tolerances)
+    name = harmless(deck.name)
     if not found:
-        say(f"{deck.path}: as stored")
-        return Outcome(deck.path, ExitCode.ANALYSED, "as stored")
-    say("\n".join((f"{deck.path}: differs from {stored}", *(f"  {line}" for line in found))))
-    return Outcome(deck.path, ExitCode.DIFFERENT, "different")
+        say(f"{name}: as stored")
+        return Outcome(deck.name, ExitCode.ANALYSED, "as stored")
+    head = f"{name}: differs from {harmless(str(stored))}"
+    say("\n".join((head, *(f"  {harmless(line)}" for line in found))))
+    return Outcome(deck.name, ExitCode.DIFFERENT, "different")
+
+
+def _analysed(deck: DeckFile, model: flexact.Model) -> flexact.Analysis:
+    remarks.tell_wait(deck, model)
+    return flexact.analyse(model, name=deck.name)

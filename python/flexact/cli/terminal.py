@@ -5,26 +5,55 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+from collections.abc import Iterator
 from typing import TextIO
+
+from flexact.batch import reason_of
+from flexact.rendering import harmless
+
+
+class ResultsError(Exception):
+    """Results cannot be written to stdout, so that going on has no use."""
 
 
 def say(text: str) -> None:
-    """Print results, seen at once however the output is buffered."""
-    if sys.stdout is not None:
+    """Print results, seen at once however the output is buffered.
+
+    Raises:
+        BrokenPipeError: Nobody reads on.
+        ResultsError: They cannot be written for another reason.
+    """
+    with _results():
         print(text, flush=True)
+
+
+def finish_results() -> None:
+    """Write what is still buffered; errors as for `say`."""
+    with _results():
+        sys.stdout.flush()
+
+
+@contextlib.contextmanager
+def _results() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise ResultsError(f"cannot write the results: {reason_of(error)}") from error
 
 
 def complain(text: str) -> None:
     """Print problems and remarks, behind the results that came before them."""
-    if sys.stderr is not None and text:
+    if text:
         _clear_progress()
-        print(text, file=sys.stderr, flush=True)
+        _to_stderr(f"{text}\n")
 
 
 def show_progress(number: int, total: int, deck: str) -> None:
     """Say which deck of many is at work, where a person waits and sees no results meanwhile."""
     if total > 1 and _is_watched():
-        print(f"\r\x1b[K[{number}/{total}] {deck}", end="", file=sys.stderr, flush=True)
+        _to_stderr(f"\r\x1b[K[{number}/{total}] {harmless(deck)}")
 
 
 def end_progress() -> None:
@@ -34,7 +63,17 @@ def end_progress() -> None:
 
 def _clear_progress() -> None:
     if _is_watched():
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        _to_stderr("\r\x1b[K")
+
+
+def _to_stderr(text: str) -> None:
+    if sys.stderr is None:
+        return
+    try:
+        print(text, end="", file=sys.stderr, flush=True)
+    except OSError:
+        # Results count even where nobody can be told about them.
+        discard(sys.stderr)
 
 
 def _is_watched() -> bool:

@@ -1,0 +1,93 @@
+"""The command's files of results: which there are, and what stands in their way."""
+
+import json
+from pathlib import Path
+
+import pytest
+from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
+
+import flexact
+from flexact.cli.main import main
+
+
+def test_files_of_a_deck(decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "new" / "results"
+    assert main(["analyse", str(decks / "both.dat"), "-o", str(out)]) == 0
+    assert files_in(out) == ["both.json", "both.log", "both.vtu"]
+    assert json.loads((out / "both.json").read_text())["verdict"] == VERDICTS["both"]
+    log = (out / "both.log").read_text(encoding="utf-8")
+    said = capsys.readouterr().out.strip()
+    assert said in log
+    assert "element 2, deformation 1" in log
+    assert "node 2, coordinate y" in log
+    assert f"flexact {flexact.__version__}" in log
+
+
+def test_subfolders_of_a_folder_are_kept(tmp_path: Path) -> None:
+    write(tmp_path / "in" / "a" / "x.dat", DECKS["exact"])
+    write(tmp_path / "in" / "b" / "x.dat", DECKS["under"])
+    out = tmp_path / "out"
+    assert main(["analyse", str(tmp_path / "in"), "-o", str(out), "--format", "vtk"]) == 0
+    assert files_in(out) == [f"{f}/x.{s}" for f in "ab" for s in ("json", "log", "vtk")]
+
+
+def test_decks_that_would_share_files_are_refused_beforehand(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    paths = [write(tmp_path / f / "x.dat", DECKS["exact"]) for f in "ab"]
+    out = tmp_path / "out"
+    assert main(["analyse", *map(str, paths), "-o", str(out)]) == 1
+    assert "would both write" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_a_broken_deck_writes_nothing(tmp_path: Path) -> None:
+    path = write(tmp_path / "broken.dat", BROKEN)
+    assert main(["analyse", str(path), "-o", str(tmp_path / "out")]) == 2
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_format_that_holds_no_lines_is_refused_beforehand(
+    decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    arguments = ["analyse", "--json", str(decks / "exact.dat"), "-o", str(out), "--format", "stl"]
+    assert main(arguments) == 1
+    said, told = capsys.readouterr()
+    assert said == ""
+    assert told.startswith("flexact: error: mesh format stl cannot hold lines with data")
+    assert not out.exists()
+
+
+def test_a_mesh_that_cannot_be_written_does_not_cost_the_verdict(
+    decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Tecplot files have no vectors at points: they hold no motion."""
+    out = tmp_path / "out"
+    arguments = ["analyse", "--json", str(decks), "-o", str(out), "--format", "tecplot"]
+    assert main([*arguments, "--expect", "exact"]) == 1
+    said, told = capsys.readouterr()
+    verdicts = {Path(line["deck"]).stem: line["verdict"] for line in json_lines(said)}
+    assert verdicts == VERDICTS
+    assert f"{decks / 'under.dat'}: error: mesh format tecplot cannot hold this scene: it" in told
+    assert f"{decks / 'under.dat'}: under-constrained, but expected" in told
+    assert f"results not written: {decks / 'under.dat'}" in told
+    assert files_in(out) == [f"{n}.{s}" for n in ("exact", "over") for s in ("json", "log", "tec")]
+
+
+def test_a_read_only_file_does_not_cost_the_verdict(
+    decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kept = write(tmp_path / "out" / "exact.log", "old")
+    kept.chmod(0o444)
+    assert main(["analyse", str(decks / "exact.dat"), "-o", str(kept.parent)]) == 1
+    said, told = capsys.readouterr()
+    assert "Exactly constrained: " in said
+    assert f"cannot write {kept}: it is read-only" in told
+    assert files_in(kept.parent) == ["exact.log"]
+
+
+def test_an_output_that_is_a_file_exits_with_1(decks: Path, tmp_path: Path) -> None:
+    file = write(tmp_path / "file", "")
+    assert main(["analyse", str(decks / "exact.dat"), "-o", str(file)]) == 1
+    assert file.read_text() == ""
