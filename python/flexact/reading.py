@@ -94,6 +94,9 @@ def _model(raw: bytes, name: str) -> Model:
     if raw.startswith(_UTF8_MARK):
         raw = raw[len(_UTF8_MARK) :]
     raw = raw.removesuffix(b"\x1a")
+    if b"\r" in raw and b"\n" not in raw:
+        # Lines of an old Mac.
+        raw = raw.replace(b"\r", b"\n")
     _require_text(raw, name)
     source = Source(raw, name)
     try:

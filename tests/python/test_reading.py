@@ -81,3 +81,11 @@ def test_what_is_no_text_is_a_type_error(bad: object) -> None:
 def test_name_of_a_result_is_text(bad: object, path: Path) -> None:
     with pytest.raises(TypeError, match="the name of a result must be text, not "):
         flexact.analyse(path, name=bad)  # type: ignore[arg-type]
+
+
+def test_lines_may_end_as_on_an_old_mac() -> None:
+    model = flexact.read_text("TRUSS 1 1 2\rX 2 1 0 0\rFIX 1\r")
+    assert model.element_numbers.tolist() == [1]
+    with pytest.raises(flexact.DeckError) as caught:
+        flexact.read_text("TRUSS 1 1 2\rX 2 1 0\rFIX 1\r")
+    assert [d.line for d in caught.value.diagnostics] == [2]
