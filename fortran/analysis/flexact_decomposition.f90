@@ -45,7 +45,7 @@ contains
       real(wp), intent(inout), contiguous :: u(:, :), vt(:, :)
       integer, intent(out) :: status
 
-      if (size(a) == 0) then
+      if (any(shape(a) == 0)) then
          call set_identity(u)
          call set_identity(vt)
          status = status_fine
@@ -62,7 +62,7 @@ contains
       real(wp) :: unused(1, 1)
 
       status = status_fine
-      if (size(a) > 0) call run_dgesdd('N', a, values, unused, unused, status)
+      if (all(shape(a) > 0)) call run_dgesdd('N', a, values, unused, unused, status)
    end subroutine singular_values
 
    pure subroutine run_dgesdd(job, a, values, u, vt, status)

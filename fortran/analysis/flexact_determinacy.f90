@@ -15,7 +15,8 @@ module flexact_determinacy
    public :: determinacy_t, analyse
 
    type :: determinacy_t
-      !> status_fine, status_no_convergence or status_no_memory.
+      !> status_fine, status_no_convergence or status_no_memory. Unless it is
+      !> fine, nothing but the partition is to be used.
       integer :: status = status_fine
       !> Order of the rows and columns of D(c), and the counts.
       type(partition_t) :: partition
@@ -46,18 +47,18 @@ contains
       integer :: rows, columns, values, info
 
       call make_partition(model, result%partition)
-      call make_jacobian(model, model%node_value, jacobian)
-      call make_scaling(model, result%partition, jacobian, result%scaling)
-      call move_alloc(jacobian%length, result%length)
       rows = result%partition%count%rows
       columns = result%partition%count%columns
-      values = min(rows, columns)
-      allocate (result%singular_values(values), result%scaled_values(values), source=0.0_wp)
       result%status = status_no_memory
       if (.not. is_feasible(rows, columns)) return
       allocate (dense(rows, columns), stat=info)
       if (info /= 0) return
+      values = min(rows, columns)
+      allocate (result%singular_values(values), result%scaled_values(values), source=0.0_wp)
 
+      call make_jacobian(model, model%node_value, jacobian)
+      call make_scaling(model, result%partition, jacobian, result%scaling)
+      call move_alloc(jacobian%length, result%length)
       call fill_dense(jacobian, result%partition, dense, result%scaling%row, result%scaling%column)
       call decompose(dense, result%scaled_values, stresses, motions, result%status)
       if (result%status /= status_fine) return

@@ -1,5 +1,5 @@
 !> Scales that make the rank of D(c) independent of the unit of length, and
-!> the tolerance that goes with them.
+!> by how much the scaled matrix may be wrong.
 module flexact_scaling
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, is_position

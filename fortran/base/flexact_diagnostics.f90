@@ -7,14 +7,14 @@ module flexact_diagnostics
    private
    public :: span_t, diagnostic_t, diagnostics_t
    public :: severity_error, severity_warning, severity_note
-   public :: most_shown, text_length, code_length
+   public :: most_shown, text_length
 
    integer, parameter :: severity_error = 1
    integer, parameter :: severity_warning = 2
    integer, parameter :: severity_note = 3
 
-   !> All diagnostics are counted. So many are kept, in the order in which they
-   !> are met, and the first by place of these are shown.
+   !> All diagnostics are counted. So many are kept, the first that are met but
+   !> errors before all others, and the first by place of these are shown.
    integer, parameter :: most_kept = 2000
    integer, parameter :: most_shown = 100
    integer, parameter :: text_length = 240
@@ -99,10 +99,9 @@ contains
       call make_room(self)
       at = self%kept + 1
       if (at > most_kept) then
-         ! An error takes the place of the last thing that is none.
-         if (severity /= severity_error) return
+         ! An error takes the place of the last thing that is none, while there is one.
+         if (severity /= severity_error .or. self%count(severity_error) > most_kept) return
          at = findloc(self%item%severity /= severity_error, .true., dim=1, back=.true.)
-         if (at == 0) return
       end if
       self%kept = max(self%kept, at)
       self%item(at) = diagnostic_t(severity, code, place, message=message, label=label, help=help)

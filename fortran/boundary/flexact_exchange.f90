@@ -2,15 +2,12 @@
 module flexact_exchange
    use, intrinsic :: iso_c_binding, only: c_signed_char
    use flexact_deck, only: locate
-   use flexact_diagnostics, only: span_t, diagnostic_t, diagnostics_t, most_shown, text_length
+   use flexact_diagnostics, only: span_t, diagnostics_t, most_shown, text_length
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, slots, most_deformations
    implicit none
    private
-   public :: to_text, from_text, make_model, give_diagnostics, width
-
-   !> Bytes of each text of a diagnostic.
-   integer, parameter :: width = text_length
+   public :: to_text, from_text, make_model, give_diagnostics
 
 contains
 
@@ -66,7 +63,7 @@ contains
       character(len=*), intent(in) :: text
       type(diagnostics_t), intent(in) :: diagnostics
       integer, intent(out) :: count(4), number(8, most_shown)
-      integer(c_signed_char), intent(out) :: words(width, 4, most_shown)
+      integer(c_signed_char), intent(out) :: words(text_length, 4, most_shown)
       integer :: i, shown
 
       shown = min(diagnostics%kept, most_shown)

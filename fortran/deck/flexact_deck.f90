@@ -71,15 +71,14 @@ contains
       character(len=*), intent(in) :: text
       integer, intent(in) :: position
       integer, intent(out) :: line, column
-      integer :: i, start
+      integer :: i, before
 
+      before = min(position - 1, len(text))
+      ! Nothing but a count, lest many places in a long text take long.
       line = 1
-      start = 1
-      do i = 1, min(position - 1, len(text))
-         if (text(i:i) /= achar(10)) cycle
-         line = line + 1
-         start = i + 1
+      do i = 1, before
+         line = line + merge(1, 0, text(i:i) == achar(10))
       end do
-      column = position - start + 1
+      column = position - index(text(:before), achar(10), back=.true.)
    end subroutine locate
 end module flexact_deck

@@ -9,6 +9,7 @@ module flexact_deck_values
    use flexact_numbers, only: leading_integer
    use flexact_operands, only: operands_t, operands_of
    use flexact_statement, only: statement_t
+   use flexact_vectors, only: length_of
    implicit none
    private
    public :: read_values
@@ -17,8 +18,8 @@ module flexact_deck_values
    real(wp), parameter :: norm_slack = 1.0e-6_wp
 
    character(len=*), parameter :: coordinate(3) = ['coordinate x', 'coordinate y', 'coordinate z']
-   character(len=*), parameter :: euler_parameter(4) = ['Euler parameter 0', 'Euler parameter 1', &
-                                                        'Euler parameter 2', 'Euler parameter 3']
+   character(len=*), parameter :: euler_parameter(4) = ['Euler parameter lambda0', 'Euler parameter lambda1', &
+                                                        'Euler parameter lambda2', 'Euler parameter lambda3']
 
 contains
 
@@ -46,7 +47,7 @@ contains
          if (stated(node)%first > 0) then
             call diagnostics%warning('repeated-value', operands%word, &
                                      'the node has a value already', 'this one counts', &
-                                     'take one of the two statements away', stated(node))
+                                     'remove one of the two statements', stated(node))
          end if
          stated(node) = operands%word
          call read_value(text, operands, scene%model%node_kind(node), scene%model%node_value(:, node), diagnostics)
@@ -84,7 +85,7 @@ contains
             if (i == 1) all_of_them = operands%word
          end do
          all_of_them%last = operands%word%last
-         if (operands%fine) call operands%finish(text, 'X n l0 l1 l2 l3 for an orientation node', diagnostics)
+         if (operands%fine) call operands%finish(text, 'X n lambda0 lambda1 lambda2 lambda3 for an orientation node', diagnostics)
          if (operands%fine) call check_norm(all_of_them, value, diagnostics)
       end select
    end subroutine read_value
@@ -95,10 +96,10 @@ contains
       type(diagnostics_t), intent(inout) :: diagnostics
       real(wp) :: norm
 
-      norm = norm2(value)
+      norm = length_of(value)
       if (norm <= 0.0_wp .or. norm > huge(norm)) then
          call diagnostics%error('bad-orientation', place, 'these Euler parameters describe no orientation', &
-                                'their norm is zero or not finite', 'no rotation is 1 0 0 0')
+                                'their norm is zero or not finite', 'write 1 0 0 0 for no rotation')
       else if (abs(norm - 1.0_wp) > norm_slack) then
          call diagnostics%warning('bad-orientation', place, 'the norm of these Euler parameters is not 1', &
                                   'used after division by the norm', 'write parameters of norm 1')

@@ -137,7 +137,7 @@ contains
 
       nearest = ''
       best = 1 + max(1, min(3, len(word)/3))
-      if (len(word) > 20) return
+      if (len(word) == 1 .or. len(word) > 20) return
       if (block == block_kinematics) then
          do i = 1, size(element_kinds)
             call consider(element_kinds(i)%keyword)
@@ -157,7 +157,6 @@ contains
          character(len=*), intent(in) :: name
          integer :: distance
 
-         if (len(word) == 1) return
          distance = edit_distance(word, trim(name))
          if (distance < best) then
             best = distance

@@ -47,7 +47,8 @@ contains
          line%body = span_t(position, mark - 1)
          line%comment = trimmed(text, mark + 1, finish)
       end if
-      position = finish + 2
+      ! The longest text ends at the largest integer.
+      position = min(finish, huge(finish) - 2) + 2
    end subroutine next_line
 
    !> Take the next word at or behind `position`, none (first = 0) behind `last`.
@@ -71,19 +72,24 @@ contains
 
    !> From the word number `first` (1 is the keyword) to the word number `last`
    !> of the statement that starts at `origin`; up to its end where it has fewer.
+   !> What stands behind these words, perhaps a very long line, is not looked at.
    pure function operand_span(text, origin, first, last) result(span)
       character(len=*), intent(in) :: text
       integer, intent(in) :: origin, first, last
       type(span_t) :: span, word
-      type(line_t) :: line
-      integer :: position, number
+      integer :: position, number, behind, mark
 
       position = origin
-      call next_line(text, position, .false., line)
-      position = origin
       do number = 1, last
-         call next_word(text, position, line%body%last, word)
+         behind = position
+         call next_word(text, position, len(text), word)
          if (word%first == 0) exit
+         if (scan(text(behind:word%first), line_feed//'%#') > 0) exit
+         mark = scan(text(word%first:word%last), '%#')
+         if (mark > 0) then
+            word%last = word%first + mark - 2
+            position = word%last + 1
+         end if
          if (number <= first) span%first = word%first
          span%last = word%last
       end do

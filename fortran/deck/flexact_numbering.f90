@@ -23,7 +23,7 @@ contains
 
       largest = 0
       if (size(numbers) > 0) largest = max(0, maxval(numbers))
-      if (largest <= 8*size(numbers) + 1024) then
+      if (largest/8 <= size(numbers) + 128) then
          allocate (numbering%direct(largest), source=0)
          do i = 1, size(numbers)
             if (numbers(i) > 0) numbering%direct(numbers(i)) = 1

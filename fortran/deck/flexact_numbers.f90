@@ -99,28 +99,72 @@ contains
       real(wp), intent(out) :: value
       integer, intent(out) :: status
       type(decimal_t) :: decimal
+      logical :: settled
       integer :: io
 
       value = 0.0_wp
       call take_apart(word, decimal, status)
       if (status /= number_fine) return
-      if (decimal%mantissa < exact_mantissa .and. abs(decimal%exponent) <= exact_power .and. .not. decimal%long) then
-         value = real(decimal%mantissa, wp)
-         if (decimal%exponent < 0) then
-            value = value/power_of_ten(-decimal%exponent)
-         else
-            value = value*power_of_ten(decimal%exponent)
-         end if
-         if (decimal%negative) value = -value
-      else
-         read (word, *, iostat=io) value
-         if (io /= 0 .or. .not. ieee_is_finite(value)) then
-            value = 0.0_wp
-            ! A vanishing mantissa or exponent reads as zero; only the other end fails.
-            if (decimal%exponent > 0) status = number_too_large
-         end if
+      settled = .false.
+      if (abs(decimal%exponent) <= exact_power .and. .not. decimal%long) call convert(decimal, value, settled)
+      if (settled) return
+      read (word, *, iostat=io) value
+      if (io /= 0 .or. .not. ieee_is_finite(value)) then
+         value = 0.0_wp
+         ! A vanishing mantissa or exponent reads as zero; only the other end fails.
+         if (decimal%exponent > 0) status = number_too_large
       end if
    end subroutine read_real
+
+   !> Mantissa times or over an exact power of ten, where that surely rounds as
+   !> the number itself does.
+   pure subroutine convert(decimal, value, settled)
+      type(decimal_t), intent(in) :: decimal
+      real(wp), intent(out) :: value
+      logical, intent(out) :: settled
+
+      value = real(decimal%mantissa, wp)
+      settled = decimal%mantissa < exact_mantissa
+      if (settled .and. decimal%exponent >= 0) then
+         value = value*power_of_ten(decimal%exponent)
+      else if (settled) then
+         value = value/power_of_ten(-decimal%exponent)
+      else if (decimal%exponent <= 0) then
+         call divide(decimal%mantissa, power_of_ten(-decimal%exponent), value, settled)
+      end if
+      if (decimal%negative) value = -value
+   end subroutine convert
+
+   !> A long mantissa over an exact power of ten: a quotient and, from its exact
+   !> remainder (Dekker 1971), how far it is off. Settled unless a little more or
+   !> less of that rounds differently.
+   pure subroutine divide(mantissa, power, value, settled)
+      integer(int64), intent(in) :: mantissa
+      real(wp), intent(in) :: power
+      real(wp), intent(out) :: value
+      logical, intent(out) :: settled
+      real(wp) :: whole, quotient, upper, lower, power_upper, power_lower, remainder, correction, slack
+
+      whole = real(mantissa, wp)
+      quotient = whole/power
+      upper = upper_half(quotient)
+      lower = quotient - upper
+      power_upper = upper_half(power)
+      power_lower = power - power_upper
+      remainder = (((whole - upper*power_upper) - upper*power_lower) - lower*power_upper) - lower*power_lower
+      correction = (remainder + real(mantissa - int(whole, int64), wp))/power
+      ! A millionth of the last bit is far more than the correction is wrong.
+      slack = 1.0e-6_wp*epsilon(quotient)*quotient
+      value = quotient + (correction - slack)
+      settled = .not. value < quotient + (correction + slack)
+   end subroutine divide
+
+   !> The upper 26 bits of a number, so that products of halves are exact.
+   pure real(wp) function upper_half(number)
+      real(wp), intent(in) :: number
+      integer(int64), parameter :: lower_bits = 2_int64**27 - 1
+      upper_half = transfer(iand(transfer(number, lower_bits), not(lower_bits)), number)
+   end function upper_half
 
    pure subroutine take_apart(word, decimal, status)
       character(len=*), intent(in) :: word

@@ -9,7 +9,7 @@ module flexact_operands
    use flexact_statement, only: statement_t
    implicit none
    private
-   public :: operands_t, operands_of, quoted
+   public :: operands_t, operands_of
 
    type :: operands_t
       !> The operand that was taken last.
@@ -159,7 +159,7 @@ contains
                                 'expected here: '//trim(what), 'write a number such as 3, -0.5 or 1.0e-3')
       case (number_not_whole)
          call diagnostics%error('not-whole', self%word, quoted(word)//' is not a whole number', &
-                                'expected here: '//trim(what), 'write it without point and exponent')
+                                'expected here: '//trim(what), 'write a whole number, without point and exponent')
       case (number_not_finite)
          call diagnostics%error('not-finite', self%word, quoted(word)//' is not a finite number', &
                                 'expected here: '//trim(what), 'write a finite number')

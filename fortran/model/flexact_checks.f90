@@ -2,7 +2,7 @@
 module flexact_checks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use flexact_diagnostics, only: span_t, diagnostics_t
-   use flexact_element_table, only: element_kinds, vector_none, vector_required
+   use flexact_element_table, only: element_kinds, vector_optional, vector_required
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, slots, is_position, node_planar_position
    use flexact_vectors, only: coincide, length_of, unit
@@ -42,21 +42,31 @@ contains
       integer, intent(in) :: k
       type(diagnostics_t), intent(inout) :: diagnostics
       type(span_t) :: place
-      real(wp) :: half(3), length
-      integer :: p, q, axes
 
       associate (kind => element_kinds(model%element_kind(k)), node => model%element_node(:, k))
          if (any(kind%slot_kind /= 0 .and. node == 0)) return
          place = span_t(model%element_origin(k), 0)
          if (has_twice(node)) then
             call diagnostics%error('same-node', place, 'both ends of '//element_name(model, k)//' are one node', &
-                                   'one node at both ends', 'the two ends of an element are different nodes')
+                                   'one node at both ends', 'give the two ends different nodes')
             return
          end if
          if (kind%vector == vector_required) call check_axis(model, k, place, diagnostics)
-         p = node(1)
-         q = node(3)
-         if (p == 0 .or. q == 0) return
+         if (node(1) > 0 .and. node(3) > 0) call check_positions(model, k, place, diagnostics)
+      end associate
+   end subroutine check_element
+
+   !> The positions of p and q, and a y vector against the line that joins them.
+   subroutine check_positions(model, k, place, diagnostics)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      type(span_t), intent(in) :: place
+      type(diagnostics_t), intent(inout) :: diagnostics
+      real(wp) :: half(3), length
+      integer :: axes
+
+      associate (kind => element_kinds(model%element_kind(k)), p => model%element_node(1, k), &
+                 q => model%element_node(3, k))
          ! A planar element sees x and y alone.
          axes = merge(2, 3, kind%slot_kind(1) == node_planar_position)
          if (.not. all(ieee_is_finite(model%node_value(:axes, [p, q])))) then
@@ -78,13 +88,13 @@ contains
                                    'give the two nodes different positions')
          else if (length > longest .or. length < shortest) then
             call diagnostics%error('length-out-of-range', place, element_name(model, k)// &
-                                   ' is longer or shorter than can be computed with', 'length out of range', &
+                                   ' is too long or too short to compute with', 'length out of range', &
                                    'lengths from 1e-90 to 1e90 can be analysed: choose another unit')
-         else if (kind%vector /= vector_none .and. kind%vector /= vector_required) then
+         else if (kind%vector == vector_optional) then
             call check_vector(model, k, unit(half), place, diagnostics)
          end if
       end associate
-   end subroutine check_element
+   end subroutine check_positions
 
    pure logical function has_twice(node)
       integer, intent(in) :: node(slots)

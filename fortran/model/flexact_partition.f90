@@ -8,7 +8,7 @@ module flexact_partition
    implicit none
    private
    public :: axes, class_count_t, model_count_t, partition_t
-   public :: count_model, degrees_of_freedom, make_partition
+   public :: count_model, make_partition
 
    !> So many axes has a node, whether or not there is a coordinate on them.
    integer, parameter :: axes = 3
@@ -86,13 +86,6 @@ contains
          end do
       end do
    end function entries_of
-
-   !> The number of independent coordinates and deformations, eq. (6). D(c) is
-   !> square where it equals the right-hand side of eq. (15).
-   pure integer function degrees_of_freedom(counts)
-      type(model_count_t), intent(in) :: counts
-      degrees_of_freedom = counts%coordinates%independent + counts%deformations%independent
-   end function degrees_of_freedom
 
    !> Count the model and number the rows and columns of D(c).
    pure subroutine make_partition(model, partition)

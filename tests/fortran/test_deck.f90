@@ -18,6 +18,8 @@ program test_deck
    call dialects()
    call all_problems_in_one_run()
    call two_places()
+   call places_end_with_the_statement()
+   call errors_before_warnings()
    call tally%finish()
 
 contains
@@ -126,4 +128,33 @@ contains
       call tally%check(diagnostics%item(2)%place%first == index(deck, '3', back=.true.), 'the second statement')
       call tally%check(diagnostics%item(2)%other%first == index(deck, 'FIX') + 4, 'and the first')
    end subroutine two_places
+
+   !> Comments follow without a blank, and another statement in the next line.
+   subroutine places_end_with_the_statement()
+      type(scene_t) :: scene
+      type(diagnostics_t) :: diagnostics
+      integer :: unused
+      character(len=*), parameter :: deck = 'TRUSS 1 1 2%one'//nl//'TRUSS 2 1 2 # two'//nl//'HINGE 2%3'//nl//'X 3 0 0 0'
+
+      call read_deck(deck, scene, unused, diagnostics)
+      call tally%check(diagnostics%count(severity_error) == 5, 'two without length, one incomplete, its number taken, no node')
+      associate (item => diagnostics%item)
+         call tally%check(deck(item(1)%place%first:item(1)%place%last) == 'TRUSS 1 1 2', 'up to the comment')
+         call tally%check(deck(item(2)%place%first:item(2)%place%last) == 'TRUSS 2 1 2', 'up to the last word')
+         call tally%check(deck(item(3)%place%first:item(3)%place%last) == '2', 'the number alone')
+         call tally%check(deck(item(3)%other%first:item(3)%other%last) == '2' .and. &
+                          item(3)%other%first == index(deck, ' 2 1 2') + 1, 'and where it was used first')
+      end associate
+   end subroutine places_end_with_the_statement
+
+   !> More warnings than are kept, and errors behind them.
+   subroutine errors_before_warnings()
+      type(scene_t) :: scene
+      type(diagnostics_t) :: diagnostics
+      integer :: unused
+
+      call read_deck('TRUSS 1 1 2'//nl//repeat('X 2 1 0 0'//nl, 3000)//repeat('FIX 9'//nl, 3000), scene, unused, diagnostics)
+      call tally%check(all(diagnostics%count == [3000, 2999, 0]), 'all are counted')
+      call tally%check(all(diagnostics%item(:diagnostics%kept)%severity == severity_error), 'errors drive out warnings')
+   end subroutine errors_before_warnings
 end program test_deck

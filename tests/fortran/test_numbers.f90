@@ -4,13 +4,14 @@ program test_numbers
    use flexact_kinds, only: wp
    use flexact_numbers, only: read_integer, read_real, number_fine, number_malformed, number_not_whole, &
                               number_not_finite, number_too_large
-   use flexact_testing, only: tally_t
+   use flexact_testing, only: tally_t, set_random
    implicit none
    type(tally_t) :: tally
 
    call integers()
    call reals()
    call last_bits()
+   call back_from_seventeen_digits()
    call tally%finish()
 
 contains
@@ -58,9 +59,28 @@ contains
       call expect_real('2.2250738585072014e-308', 2.2250738585072014e-308_wp, number_fine)
       call expect_real('1.7976931348623157e308', 1.7976931348623157e308_wp, number_fine)
       call expect_real('9007199254740993', 9007199254740993.0_wp, number_fine)
+      call expect_real('4503599627370497.5', 4503599627370497.5_wp, number_fine)
+      call expect_real('4503599627370497.50000001', 4503599627370497.50000001_wp, number_fine)
+      call expect_real('90071992547409.935', 90071992547409.935_wp, number_fine)
+      call expect_real('-0.30000000000000004', -0.30000000000000004_wp, number_fine)
       call expect_real('1e22', 1.0e22_wp, number_fine)
       call expect_real('1e23', 1.0e23_wp, number_fine)
    end subroutine last_bits
+
+   !> Seventeen digits tell every number from its neighbours.
+   subroutine back_from_seventeen_digits()
+      character(len=24) :: word
+      real(wp) :: value
+      integer :: i
+
+      call set_random()
+      do i = 1, 1000
+         call random_number(value)
+         value = (2*value - 1)*10.0_wp**modulo(i, 8)
+         write (word, '(es24.16)') value
+         call expect_real(trim(adjustl(word)), value, number_fine)
+      end do
+   end subroutine back_from_seventeen_digits
 
    subroutine expect_integer(word, value, status)
       character(len=*), intent(in) :: word
