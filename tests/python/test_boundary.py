@@ -4,6 +4,9 @@ One third cannot be held in single precision: what comes back from it differs in
 ninth digit. f2py makes single precision of kinds that it does not know without a word.
 """
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -195,3 +198,12 @@ def test_sizes_that_are_not_the_models_are_refused_by_the_core() -> None:
     model = truss((1, 0, 0))
     raw = _boundary.analyse_model(model.data.arrays, 2, 2)
     assert raw.status == 3
+
+
+def test_sizes_of_diagnostics_are_those_of_the_core() -> None:
+    """The boundary must spell its shapes as numbers; the core has names for them."""
+    core = Path(__file__).parents[2] / "fortran" / "base" / "flexact_diagnostics.f90"
+    stated = dict(re.findall(r"parameter :: (text_length|most_shown) = (\d+)", core.read_text()))
+    raw = _boundary.read_deck(b"TRUSS 1 1 2\n").problems
+    assert raw.text.shape == (int(stated["text_length"]), 4, int(stated["most_shown"]))
+    assert raw.number.shape == (8, int(stated["most_shown"]))
