@@ -52,3 +52,8 @@ def test_deck_of_the_manual_is_the_parallel_guide() -> None:
     deck = next(b for b in blocks((ROOT / "docs" / "decks.md").read_text()) if "BEAM 1" in b)
     analysis = flexact.analyse(flexact.read_text(deck))
     assert (analysis.under_constrained, analysis.over_constrained) == (0, 1)
+
+
+def test_readme_quotes_the_benchmark_table() -> None:
+    """No figure that the benchmark did not print."""
+    assert (ROOT / "tests" / "benchmarks" / "table.md").read_text() in README
