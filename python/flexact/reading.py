@@ -60,7 +60,9 @@ def _file_bytes(path: str) -> bytes:
     try:
         status = os.stat(path)
         if stat.S_ISDIR(status.st_mode):
-            raise _file_error(path, "is-a-folder", "this is a folder, not a deck")
+            raise _file_error(
+                path, "is-a-folder", "this is a folder, not a deck", "name a deck in it"
+            )
         if not stat.S_ISREG(status.st_mode):
             raise _file_error(
                 path, "not-a-file", "this is not a regular file", "write the deck to a file first"
@@ -70,10 +72,13 @@ def _file_bytes(path: str) -> bytes:
         with open(path, "rb") as file:
             return _content(file, status.st_size)
     except FileNotFoundError:
-        raise _file_error(path, "no-such-file", "there is no such file") from None
+        hint = "check its name and its folder"
+        raise _file_error(path, "no-such-file", "there is no such file", hint) from None
     except (OSError, ValueError) as error:
         reason = (getattr(error, "strerror", None) or str(error)).lower()
-        raise _file_error(path, "cannot-read", f"the file cannot be read: {reason}") from None
+        message = f"the file cannot be read: {reason}"
+        hint = "check that you may read it"
+        raise _file_error(path, "cannot-read", message, hint) from None
     except MemoryError:
         raise _file_error(path, "too-large", "the file does not fit into memory") from None
 
@@ -128,7 +133,9 @@ def _require_text(raw: bytes, name: str) -> None:
     sample = raw[:_SAMPLE]
     controls = len(sample) - len(sample.translate(None, _CONTROLS))
     if controls * 20 > len(sample) and controls > 4:
-        raise _file_error(name, "not-text", "this is not text, so it cannot be a deck")
+        raise _file_error(
+            name, "not-text", "this is not text, so it cannot be a deck", "give a plain text file"
+        )
     if zero >= 0:
         source = Source(raw, name)
         line, column = source.place_of(zero)
