@@ -78,8 +78,8 @@ module flexact_keywords
                                  keyword_t('DELINPE', dyn, form, 'eir', 3, any_number), &
                                  keyword_t('STARTDE', dyn, form, 'eir', 3, any_number), &
                                  keyword_t('STARTDX', dyn, form, 'nir', 3, any_number), &
-                                 keyword_t('GRAVITY', dyn, form, 'r', 1, 3), &
-                                 keyword_t('TIMESTEP', dyn, form, 'r', 1, 2), &
+                                 keyword_t('GRAVITY', dyn, form, 'r', 2, 3), &
+                                 keyword_t('TIMESTEP', dyn, form, 'r', 2, 2), &
                                  keyword_t('ITERSTEP', dyn, form, 'r', 1, any_number), &
                                  keyword_t('ERROR', dyn, form, 'r', 1, any_number), &
                                  keyword_t('USERSIG', dyn, form, 'w', 1, any_number), &
