@@ -1,28 +1,16 @@
 !> The statements that give coordinates and deformations their class.
 module flexact_deck_classes
+   use flexact_choice, only: choice_t, components_of, deformations_of, take_choice
    use flexact_deck_scene, only: scene_t, take_node, take_element
    use flexact_diagnostics, only: span_t, diagnostics_t
-   use flexact_element_table, only: element_kinds
    use flexact_keywords, only: keywords, role_coordinate, role_deformation
    use flexact_lexer, only: operand_span
-   use flexact_model, only: class_none, class_fixed, class_dependent, class_independent, most_deformations, &
-                            node_planar_position, node_position, node_angle
+   use flexact_model, only: class_none, class_fixed, class_dependent, class_independent, most_deformations
    use flexact_operands, only: operands_t, operands_of
    use flexact_statement, only: statement_t
    implicit none
    private
    public :: read_classes
-
-   !> What a statement about classes may name: the components of a node or the
-   !> deformations of an element, and which entry of the classes each one is (0
-   !> for lambda0, which is none).
-   type :: choice_t
-      character(len=16) :: owner = ''
-      character(len=16) :: what = ''
-      character(len=16) :: part = ''
-      character(len=40) :: range = ''
-      integer, allocatable :: entry(:)
-   end type choice_t
 
 contains
 
@@ -78,14 +66,9 @@ contains
       do
          ahead = operands
          if (.not. ahead%another(text)) exit
-         call operands%positive_integer(text, choice%part, number, diagnostics)
+         call take_choice(text, operands, choice, number, diagnostics)
          if (number == 0) cycle
-         if (number > size(choice%entry)) then
-            call diagnostics%error('component-out-of-range', operands%word, &
-                                   'the '//trim(choice%owner)//' has no '//trim(choice%part)//' '// &
-                                   text(operands%word%first:operands%word%last), choice%range, &
-                                   'name a '//trim(choice%part)//' that the '//trim(choice%owner)//' has')
-         else if (choice%entry(number) == 0) then
+         if (choice%entry(number) == 0) then
             call first_euler_parameter(operands, class, diagnostics)
          else
             call give_class(text, choice, operands%word, choice%entry(number) == [(i, i=1, size(classes))], &
@@ -160,43 +143,4 @@ contains
          name = 'independent'
       end select
    end function class_name
-
-   !> The components of a node; those of an orientation are its four Euler
-   !> parameters.
-   pure function components_of(kind) result(choice)
-      integer, intent(in) :: kind
-      type(choice_t) :: choice
-
-      choice%owner = 'node'
-      choice%what = 'coordinate'
-      choice%part = 'component'
-      select case (kind)
-      case (node_planar_position)
-         choice%range = 'a planar position has 1 and 2'
-         allocate (choice%entry(2), source=[1, 2])
-      case (node_position)
-         choice%range = 'a position has 1 to 3'
-         allocate (choice%entry(3), source=[1, 2, 3])
-      case (node_angle)
-         choice%range = 'a planar orientation has 1'
-         allocate (choice%entry(1), source=[3])
-      case default
-         choice%range = 'an orientation has 1 to 4'
-         allocate (choice%entry(4), source=[0, 1, 2, 3])
-      end select
-   end function components_of
-
-   pure function deformations_of(kind) result(choice)
-      integer, intent(in) :: kind
-      type(choice_t) :: choice
-      integer :: i
-
-      choice%owner = 'element'
-      choice%what = 'deformation'
-      choice%part = 'deformation'
-      associate (row => element_kinds(kind))
-         choice%range = trim(row%keyword)//' has 1 to '//achar(iachar('0') + row%deformations)
-         allocate (choice%entry(row%deformations), source=[(i, i=1, row%deformations)])
-      end associate
-   end function deformations_of
 end module flexact_deck_classes

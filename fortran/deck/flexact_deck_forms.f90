@@ -1,6 +1,7 @@
 !> Statements that the analysis does not use: dynamics, in/out, picture. Their
 !> form is checked, and what they name must exist.
 module flexact_deck_forms
+   use flexact_choice, only: choice_t, components_of, deformations_of, take_choice
    use flexact_deck_scene, only: scene_t, take_node, take_element
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_keywords, only: keyword_t, keywords, role_form, block_kinematics
@@ -61,6 +62,7 @@ contains
       type(scene_t), intent(in) :: scene
       type(diagnostics_t), intent(inout) :: diagnostics
       type(operands_t) :: operands, ahead
+      type(choice_t) :: choice
       integer :: number
 
       operands = operands_of(statement)
@@ -72,17 +74,20 @@ contains
          end if
          if (number == keyword%most) exit
          number = number + 1
-         call take_by_form(text, keyword%form(min(number, len_trim(keyword%form)):), scene, operands, diagnostics)
+         call take_by_form(text, keyword%form(min(number, len_trim(keyword%form)):), &
+                           scene, operands, choice, diagnostics)
          if (.not. operands%fine) return
       end do
       call operands%finish(text, trim(keyword%name)//form_in_words(keyword), diagnostics)
    end subroutine check_form
 
-   subroutine take_by_form(text, letter, scene, operands, diagnostics)
+   !> Take one operand; a node or an element says what may be named next.
+   subroutine take_by_form(text, letter, scene, operands, choice, diagnostics)
       character(len=*), intent(in) :: text
       character, intent(in) :: letter
       type(scene_t), intent(in) :: scene
       type(operands_t), intent(inout) :: operands
+      type(choice_t), intent(inout) :: choice
       type(diagnostics_t), intent(inout) :: diagnostics
       integer :: whole
       real(wp) :: real_value
@@ -90,12 +95,14 @@ contains
       select case (letter)
       case ('e')
          call take_element(text, scene, operands, whole, diagnostics)
+         if (whole > 0) choice = deformations_of(scene%model%element_kind(whole))
       case ('n')
          call take_node(text, scene, operands, whole, diagnostics)
+         if (whole > 0) choice = components_of(scene%model%node_kind(whole))
       case ('w')
          call operands%word_operand(text, 'word', diagnostics)
       case ('i')
-         call operands%positive_integer(text, 'component', whole, diagnostics)
+         call take_choice(text, operands, choice, whole, diagnostics)
       case default
          call operands%real_number(text, 'number', real_value, diagnostics)
       end select

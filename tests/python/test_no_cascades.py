@@ -48,3 +48,12 @@ def test_first_errors_by_place_are_shown() -> None:
         flexact.read_text(deck)
     assert caught.value.diagnostics[0].code == "same-node"
     assert "151 errors" in str(caught.value)
+
+
+def test_components_in_the_dynamics_block_must_exist() -> None:
+    """Lines counted by hand."""
+    deck = (
+        "TRUSS 1 1 2\nX 2 1 0 0\nFIX 1\nEND\nHALT\nINPUTX 2 9 1\nINPUTE 1 4 1\nINPUTX 2 3 1\nEND\n"
+    )
+    out_of_range = "component-out-of-range"
+    assert errors_of(deck) == [(out_of_range, 6), (out_of_range, 7)]

@@ -1,0 +1,82 @@
+!> What a statement may name by number: the components of a node or the
+!> deformations of an element.
+module flexact_choice
+   use flexact_diagnostics, only: diagnostics_t
+   use flexact_element_table, only: element_kinds
+   use flexact_model, only: node_planar_position, node_position, node_angle
+   use flexact_operands, only: operands_t
+   implicit none
+   private
+   public :: choice_t, components_of, deformations_of, take_choice
+
+   !> What there is to name, and which entry of the classes each one is (0 for
+   !> lambda0, which is none).
+   type :: choice_t
+      character(len=16) :: owner = ''
+      character(len=16) :: what = ''
+      character(len=16) :: part = ''
+      character(len=40) :: range = ''
+      integer, allocatable :: entry(:)
+   end type choice_t
+
+contains
+
+   !> Take the number of a component or a deformation; 0 where it is missing,
+   !> wrong or not there, which has then been reported.
+   subroutine take_choice(text, operands, choice, number, diagnostics)
+      character(len=*), intent(in) :: text
+      type(operands_t), intent(inout) :: operands
+      type(choice_t), intent(in) :: choice
+      integer, intent(out) :: number
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      call operands%positive_integer(text, choice%part, number, diagnostics)
+      if (number <= size(choice%entry)) return
+      call diagnostics%error('component-out-of-range', operands%word, &
+                             'the '//trim(choice%owner)//' has no '//trim(choice%part)//' '// &
+                             text(operands%word%first:operands%word%last), choice%range, &
+                             'name a '//trim(choice%part)//' that the '//trim(choice%owner)//' has')
+      operands%fine = .false.
+      number = 0
+   end subroutine take_choice
+
+   !> The components of a node; those of an orientation are its four Euler
+   !> parameters.
+   pure function components_of(kind) result(choice)
+      integer, intent(in) :: kind
+      type(choice_t) :: choice
+
+      choice%owner = 'node'
+      choice%what = 'coordinate'
+      choice%part = 'component'
+      select case (kind)
+      case (node_planar_position)
+         choice%range = 'a planar position has 1 and 2'
+         allocate (choice%entry(2), source=[1, 2])
+      case (node_position)
+         choice%range = 'a position has 1 to 3'
+         allocate (choice%entry(3), source=[1, 2, 3])
+      case (node_angle)
+         choice%range = 'a planar orientation has 1'
+         allocate (choice%entry(1), source=[3])
+      case default
+         choice%range = 'an orientation has 1 to 4'
+         allocate (choice%entry(4), source=[0, 1, 2, 3])
+      end select
+   end function components_of
+
+   pure function deformations_of(kind) result(choice)
+      integer, intent(in) :: kind
+      type(choice_t) :: choice
+      integer :: i
+
+      choice%owner = 'element'
+      choice%what = 'deformation'
+      choice%part = 'deformation'
+      associate (row => element_kinds(kind))
+         choice%range = trim(row%keyword)//' has 1 alone'
+         if (row%deformations > 1) choice%range = trim(row%keyword)//' has 1 to '//achar(iachar('0') + row%deformations)
+         allocate (choice%entry(row%deformations), source=[(i, i=1, row%deformations)])
+      end associate
+   end function deformations_of
+end module flexact_choice
