@@ -148,7 +148,7 @@ def sheet_normal(
 ) -> Vector | None:
     """The y vector of a sheet's beams: normal to the sheet, so that z lies in its plane.
 
-    A width along the sheet is handed on as it is, for the check of the model to report.
+    A sheet of no length has none; that is left to the check of the model.
     """
     if draft.planar:
         if width is not None and any(vector(width, "width")[:2]):
@@ -165,7 +165,15 @@ def sheet_normal(
         across[2] * along[0] - across[0] * along[2],
         across[0] * along[1] - across[1] * along[0],
     )
-    return _unit(normal) if math.hypot(*normal) > _PARALLEL else wide
+    if along == NO_VECTOR:
+        return wide
+    if math.hypot(*normal) <= _PARALLEL:
+        raise model_error(
+            "parallel-vector",
+            "the width of the sheet is parallel to it",
+            "give a direction across the sheet, from edge to edge",
+        )
+    return _unit(normal)
 
 
 def _unit(given: Vector) -> Vector:

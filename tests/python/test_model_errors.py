@@ -122,14 +122,23 @@ def test_core_checks_are_model_errors() -> None:
     a, b, c = model.node(1, 1, 1), model.node(1, 1, 1), model.node(2, 1, 1)
     model.truss(a, b)
     model.beam(a, c, y=(-3, 0, 0))
-    model.sheet(b, c, width=(2, 0, 0))
     model.truss(a, a)
     for call in (flexact.analyse, flexact.jacobian, Model.check):
         with pytest.raises(ModelError) as error:
             call(model)
         codes = [item.code for item in error.value.diagnostics]
-        assert codes == ["zero-length", "parallel-vector", "parallel-vector", "same-node"]
+        assert codes == ["zero-length", "parallel-vector", "same-node"]
         assert "TRUSS 1" in str(error.value)
+
+
+def test_a_width_along_the_sheet_is_told_where_it_is_given() -> None:
+    model = Model()
+    a, b = model.node(1, 1, 1), model.node(2, 1, 1)
+    with pytest.raises(ModelError) as error:
+        model.sheet(a, b, width=(2, 0, 0))
+    assert code_of(error) == "parallel-vector"
+    assert "width" in str(error.value)
+    assert model.element_numbers.size == 0
 
 
 def test_a_beam_with_a_wrong_release_is_not_made() -> None:
