@@ -39,18 +39,16 @@ subroutine describe_element_kind(kind, keyword, slot_kind, deformations, vector,
 end subroutine describe_element_kind
 
 ! How large the arrays of a deck's model must be: an upper bound.
-subroutine survey_deck(n, text, elements, node_slots, statements)
+subroutine survey_deck(n, text, elements, node_slots)
    use iso_c_binding
    implicit none
    integer(c_int), intent(in) :: n
    integer(c_signed_char), intent(in) :: text(n)
    integer(c_int), intent(out) :: elements
    integer(c_int), intent(out) :: node_slots
-   integer(c_int), intent(out) :: statements
 
-   statements = count(text == 10_c_signed_char) + 1
-   elements = statements
-   node_slots = int(min(4*int(statements, c_int64_t), int(n, c_int64_t)/2 + 4), c_int)
+   elements = count(text == 10_c_signed_char) + 1
+   node_slots = int(min(4*int(elements, c_int64_t), int(n, c_int64_t)/2 + 4), c_int)
 end subroutine survey_deck
 
 ! Read a deck. sizes: nodes, elements, 1 for a planar scene, statements that

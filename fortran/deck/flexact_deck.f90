@@ -23,16 +23,11 @@ contains
       integer, intent(out) :: unused
       type(diagnostics_t), intent(inout) :: diagnostics
       type(statement_t), allocatable :: statements(:)
-      integer :: count, unreadable
+      integer :: count
 
       unused = 0
-      unreadable = find_unreadable(text)
-      if (unreadable > 0) then
-         call diagnostics%error('not-text', span_t(unreadable, unreadable), &
-                                'this is not a text: it holds a NUL or another control character', &
-                                'no text holds this character', 'take it away, or give a deck: a plain text file')
-         return
-      end if
+      call require_text(text, diagnostics)
+      if (diagnostics%has_errors()) return
       call read_statements(text, statements, count, diagnostics)
       associate (all_statements => statements(:count))
          call read_elements(text, all_statements, scene, diagnostics)
@@ -47,6 +42,24 @@ contains
       call narrow_places(text, diagnostics)
       call diagnostics%sort()
    end subroutine read_deck
+
+   !> A character that no text holds is told at its place, and ends the reading.
+   subroutine require_text(text, diagnostics)
+      character(len=*), intent(in) :: text
+      type(diagnostics_t), intent(inout) :: diagnostics
+      integer :: unreadable
+
+      unreadable = find_unreadable(text)
+      if (unreadable == 0) return
+      if (iachar(text(unreadable:unreadable)) == 0) then
+         call diagnostics%error('not-text', span_t(unreadable, unreadable), &
+                                'the deck holds a NUL byte, so it is not text', '', 'take the byte away')
+      else
+         call diagnostics%error('not-text', span_t(unreadable, unreadable), &
+                                'this is not a text: it holds a NUL or another control character', &
+                                'no text holds this character', 'take it away, or give a deck: a plain text file')
+      end if
+   end subroutine require_text
 
    !> The checks of the model know the statement; here the words are found.
    subroutine narrow_places(text, diagnostics)

@@ -55,10 +55,6 @@ contains
       allocate (statements(64))
       count = 0
       position = 1
-      if (len(text) >= 3) then
-         ! The byte order mark of UTF-8.
-         if (text(1:3) == char(239)//char(187)//char(191)) position = 4
-      end if
       do while (position <= len(text))
          call next_line(text, position, reader%block == block_picture, line)
          start = line%body%first

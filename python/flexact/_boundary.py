@@ -47,10 +47,10 @@ def read_deck(text: bytes) -> RawDeck:
     """Read a deck; its problems come back as values.
 
     Args:
-        text: bytes of the deck, without NUL, fewer than 2**31.
+        text: bytes of the deck, fewer than 2**31.
     """
     data = np.frombuffer(text, np.int8)
-    ne, nn, _ = _core.survey_deck(data)
+    ne, nn = _core.survey_deck(data)
     ne = min(ne, len(text) // _SHORTEST_ELEMENT + 1)
     nn = min(nn, 4 * ne)
     room = room_for(nn, ne)

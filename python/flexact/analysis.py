@@ -103,8 +103,7 @@ class Analysis(Frozen):
 
         One where the mechanism has no extent.
         """
-        length = self.raw.characteristic_length
-        return length if length > 0.0 else 1.0
+        return self.raw.characteristic_length
 
     @cached_property
     def gap(self) -> Gap:

@@ -129,25 +129,11 @@ def _require_text(raw: bytes, name: str) -> None:
         raise _file_error(
             name, "not-text", "the deck is in UTF-16", "save it as UTF-8 or plain ASCII text"
         )
-    zero = raw.find(b"\0")
     sample = raw[:_SAMPLE]
     controls = len(sample) - len(sample.translate(None, _CONTROLS))
     if controls * 20 > len(sample) and controls > 4:
         raise _file_error(
             name, "not-text", "this is not text, so it cannot be a deck", "give a plain text file"
-        )
-    if zero >= 0:
-        source = Source(raw, name)
-        line, column = source.place_of(zero)
-        column, _ = source.character_columns(line, column, column)
-        place = Place(line, column, column)
-        raise _file_error(
-            name,
-            "not-text",
-            "the deck holds a NUL byte, so it is not text",
-            "take the byte away",
-            place,
-            source,
         )
 
 
@@ -155,14 +141,6 @@ def _too_large(name: str) -> DeckError:
     return _file_error(name, "too-large", "the deck is larger than two gigabytes")
 
 
-def _file_error(
-    name: str,
-    code: str,
-    message: str,
-    hint: str = "",
-    place: Place | None = None,
-    source: Source | None = None,
-) -> DeckError:
-    at = place or Place(0, 0, 0)
-    item = Diagnostic(Severity.ERROR, code, message, *at, help=hint)
-    return DeckError(Problems.of([item]), name, source)
+def _file_error(name: str, code: str, message: str, hint: str = "") -> DeckError:
+    item = Diagnostic(Severity.ERROR, code, message, *Place(0, 0, 0), help=hint)
+    return DeckError(Problems.of([item]), name, None)

@@ -34,10 +34,8 @@ def describe(analysis: Analysis, *, about_model: bool = True, most: int | None =
         about_model: Whether warnings and notes about the model or deck itself are told;
             not on a screen where they have been shown already.
         most: So many motions, and so many self-stresses, are told one by one; by default
-            all of them, and `MOST_MODES` on such a screen.
+            all of them.
     """
-    if most is None and not about_model:
-        most = MOST_MODES
     sections = (
         _verdict(analysis),
         _counts(analysis),

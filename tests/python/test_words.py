@@ -11,7 +11,7 @@ from known_models import folded_sheet, ring, twelve_trusses
 import flexact
 from flexact import Model, analyse, remedies
 from flexact.log import log_text
-from flexact.words import describe
+from flexact.words import MOST_MODES, describe
 
 DECKS = Path(__file__).resolve().parents[2] / "input_decks"
 
@@ -96,7 +96,7 @@ def test_a_zero_has_no_sign() -> None:
 
 def test_many_modes_are_counted_on_the_screen_and_told_in_the_log() -> None:
     analysis = analyse(folded_sheet(clamped=True, beams=6))
-    for words in (analysis.describe(), describe(analysis, about_model=False)):
+    for words in (analysis.describe(), describe(analysis, most=MOST_MODES)):
         text = re.sub(r"\s+", " ", words)
         assert "12. node" in text and "13. node" not in text
         assert "... and 19 more motions" in text

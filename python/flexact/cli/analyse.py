@@ -116,7 +116,7 @@ class _Work:
 
 
 def _words(analysis: flexact.Analysis) -> str:
-    from flexact.words import describe
+    from flexact.words import MOST_MODES, describe
 
     # What concerns the deck was told on stderr.
-    return f"{describe(analysis, about_model=False)}\n"
+    return f"{describe(analysis, about_model=False, most=MOST_MODES)}\n"
