@@ -10,7 +10,9 @@ import numpy as np
 
 from . import _core
 from .exchange import (
+    Basis,
     FloatArray,
+    IntArray,
     ModelArrays,
     RawAnalysis,
     RawAssembly,
@@ -20,6 +22,11 @@ from .exchange import (
     first_of,
     room_for,
 )
+
+#: Ways to decompose D(c); the core knows them by their place.
+METHODS = ("auto", "svd", "jacobi", "qr", "sparse")
+#: What the core is at while it analyses, by number.
+STAGES = ("assembling", "ordering", "factorising", "motions", "self-stresses", "singular values")
 
 #: Bytes of the shortest statement of an element, with its line's end.
 _SHORTEST_ELEMENT = len("BEAM 1 1 2")
@@ -114,8 +121,24 @@ def assemble(
     return RawAssembly(deformation, row_of[:used], column_of[:used], value[:used])
 
 
-def analyse_model(arrays: ModelArrays, rows: int, columns: int) -> RawAnalysis:
-    """Decompose D(c) of `rows` x `columns`, as counted by `count_model`."""
+def analyse_model(
+    arrays: ModelArrays,
+    rows: int,
+    columns: int,
+    method: str = "auto",
+    tolerance: float | None = None,
+    stage: IntArray | None = None,
+) -> RawAnalysis:
+    """Decompose D(c) of `rows` x `columns`, as counted by `count_model`.
+
+    Args:
+        arrays: the model.
+        rows: of D(c).
+        columns: of D(c).
+        method: one of `METHODS`.
+        tolerance: scaled singular values up to here count as zero; None: from the data.
+        stage: (2,) kept up to date while the call runs: stage (an index of `STAGES`), per cent.
+    """
     motions = np.empty((columns, columns), np.float64, order="F")
     stresses = np.empty((rows, rows), np.float64, order="F")
     found = _core.analyse_model(min(rows, columns), *arrays, motions, stresses)
@@ -124,11 +147,18 @@ def analyse_model(arrays: ModelArrays, rows: int, columns: int) -> RawAnalysis:
         np.abs(values, out=values)  # LAPACK's zeros may be negative
     return RawAnalysis(
         *found[:7],
+        pair_value=np.zeros(0),
+        pair_motion=np.zeros((columns, 0)),
+        pair_stress=np.zeros((rows, 0)),
         tolerance=float(numbers[0]),
         characteristic_length=float(numbers[1]),
         noise=float(numbers[2]),
         rank=rank,
+        method="svd",
+        confirmed=True,
+        parts=1,
+        largest_part=(rows, columns),
         status=status,
-        motions=motions[:, : columns - rank],
-        stresses=stresses[:, : rows - rank],
+        motions=Basis.of_dense(motions[:, : columns - rank]),
+        stresses=Basis.of_dense(stresses[:, : rows - rank]),
     )

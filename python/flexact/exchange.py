@@ -78,8 +78,50 @@ class RawAssembly(NamedTuple):
     """Entries at row = element * 6 + deformation, column = node * 3 + axis."""
 
 
+class Basis(NamedTuple):
+    """Vectors side by side, of which only the entries that are not zero are stored."""
+
+    size: int
+    """Length of each vector."""
+    start: IntArray
+    """(k + 1,) where the entries of each of the k vectors begin, and where the last one ends."""
+    place: IntArray
+    """(entries,) place in the vector, from 0, ascending within a vector."""
+    value: FloatArray
+    """(entries,)."""
+
+    @property
+    def vectors(self) -> int:
+        """Number of vectors."""
+        return self.start.size - 1
+
+    def vector(self, k: int) -> FloatArray:
+        """(size,) vector k with its zeros."""
+        part = slice(int(self.start[k]), int(self.start[k + 1]))
+        made = np.zeros(self.size)
+        made[self.place[part]] = self.value[part]
+        return made
+
+    def toarray(self) -> FloatArray:
+        """(size, k) all vectors with their zeros."""
+        made = np.zeros((self.size, self.vectors))
+        made[self.place, self.of_entries()] = self.value
+        return made
+
+    def of_entries(self) -> IntArray:
+        """(entries,) the vector that each entry belongs to."""
+        return np.repeat(np.arange(self.vectors, dtype=np.int32), np.diff(self.start))
+
+    @classmethod
+    def of_dense(cls, columns: FloatArray) -> Basis:
+        """From the columns of a matrix (size, k)."""
+        vector, index = np.nonzero(columns.T)
+        start = np.searchsorted(vector, np.arange(columns.shape[1] + 1)).astype(np.int32)
+        return cls(columns.shape[0], start, index.astype(np.int32), columns.T[vector, index])
+
+
 class RawAnalysis(NamedTuple):
-    """Results of the singular value decomposition of D(c), m rows, n columns."""
+    """Results of the decomposition of D(c), m rows, n columns."""
 
     row_label: IntArray
     """(2, m) one-based element index and deformation."""
@@ -88,25 +130,43 @@ class RawAnalysis(NamedTuple):
     length: FloatArray
     """(ne,) reference lengths l0 [m]."""
     singular_values: FloatArray
-    """(min(m, n),) of D(c) itself, descending."""
+    """(kept,) of D(c) itself, descending; kept = min(m, n), or less: the smallest ones."""
     scaled_values: FloatArray
-    """(min(m, n),) of the scaled matrix on which the rank is decided."""
+    """(kept,) of the scaled matrix on which the rank is decided."""
     row_scale: FloatArray
     """(m,) factor of each row of D(c) in the scaled matrix."""
     column_scale: FloatArray
     """(n,) factor of each column."""
+    pair_value: FloatArray
+    """(p,) smallest non-zero values of the scaled matrix, ascending, p at most 6."""
+    pair_motion: FloatArray
+    """(n, p) their right singular vectors, of unit norm in the scaled matrix."""
+    pair_stress: FloatArray
+    """(m, p) their left singular vectors, likewise."""
     tolerance: float
     """Scaled singular values up to here count as zero."""
     characteristic_length: float
     noise: float
     """What computing, and rounding in the last bits, may make of a zero in `scaled_values`."""
     rank: int
+    method: str
+    """What was used: svd, jacobi, qr or sparse."""
+    confirmed: bool
+    """Whether the rank follows from a decomposition with error bounds, or from two routes."""
+    parts: int
+    """Connected parts of D(c), which are decomposed one by one."""
+    largest_part: tuple[int, int]
+    """Rows and columns of the largest of them."""
     status: int
-    """0 fine, 1 not converged, 2 not enough memory."""
-    motions: FloatArray
-    """(n, n - rank) orthonormal basis of the null space of D(c)."""
-    stresses: FloatArray
-    """(m, m - rank) orthonormal basis of the null space of its transpose."""
+    """0 fine, 1 not converged, 2 not enough memory, 5 built without SuiteSparse."""
+    motions: Basis
+    """n - rank vectors, an orthonormal basis of the null space of D(c); see `analysis`.
+
+    Where there are very many, vectors of different parts are orthogonal, but those of one
+    part need not be; and where even so their entries would not fit, only the first are there.
+    """
+    stresses: Basis
+    """m - rank vectors: the same for its transpose."""
 
 
 #: Leading size (None: one dimension), last size and type of every array of a model.

@@ -75,7 +75,8 @@ class Motion(Frozen):
     @property
     def vector(self) -> FloatArray:
         """(n,) column of V: the dependent coordinates [m, rad], of unit norm."""
-        column: FloatArray = self.analysis.raw.motions[:, self.index]
+        column = self.analysis.raw.motions.vector(self.index)
+        column.flags.writeable = False
         return column
 
     @cached_property
@@ -127,7 +128,8 @@ class SelfStress(Frozen):
     @property
     def vector(self) -> FloatArray:
         """(m,) column of U: stress resultants dual to the deformations, of unit norm."""
-        column: FloatArray = self.analysis.raw.stresses[:, self.index]
+        column = self.analysis.raw.stresses.vector(self.index)
+        column.flags.writeable = False
         return column
 
     @cached_property

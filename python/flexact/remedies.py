@@ -110,12 +110,12 @@ def _assembled(analysis: Analysis) -> RawAssembly:
 
 def _motions(analysis: Analysis) -> FloatArray:
     """(n, motions) orthonormal basis of the motions, rotations in lengths."""
-    return _orthonormal(column_weights(analysis), analysis.raw.motions)
+    return _orthonormal(column_weights(analysis), analysis.raw.motions.toarray())
 
 
 def _stresses(analysis: Analysis) -> FloatArray:
     """(m, self-stresses) as `_motions`, moments in forces."""
-    return _orthonormal(row_weights(analysis), analysis.raw.stresses)
+    return _orthonormal(row_weights(analysis), analysis.raw.stresses.toarray())
 
 
 def _rows_of_class(analysis: Analysis, wanted: Class) -> FloatArray:

@@ -204,7 +204,7 @@ def test_results_travel_between_processes() -> None:
     analysis = analyse(twelve_trusses())
     again = pickle.loads(pickle.dumps(analysis))
     assert again.to_json() == analysis.to_json()
-    for array in (again.raw.motions, again.data.arrays.node_value, again.motions[0].displacement):
+    for array in (again.raw.motions.value, again.data.arrays.node_value, again.motions[0].displacement):
         assert not array.flags.writeable
     matrix = pickle.loads(pickle.dumps(flexact.jacobian(again.model)))
     assert not matrix.values.flags.writeable
