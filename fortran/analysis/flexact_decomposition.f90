@@ -5,20 +5,21 @@ module flexact_decomposition
    use flexact_kinds, only: wp
    use flexact_vectors, only: length_of
    use flexact_lapack, only: dgesdd, dgeqrf, dorgqr
+   use flexact_dense, only: status_fine, status_no_convergence, status_no_memory, fits_integer, allocate_work, &
+                            set_identity
+   use flexact_jacobi, only: decompose_by_jacobi, values_by_jacobi
    implicit none
    private
    public :: status_fine, status_no_convergence, status_no_memory
-   public :: is_feasible, decompose, singular_values, orthonormalise
+   public :: method_svd, method_jacobi
+   public :: is_feasible, decompose, decompose_by, singular_values, singular_values_by, orthonormalise
 
-   integer, parameter :: status_fine = 0
-   !> LAPACK gave up, or the matrix holds a number that is not finite.
-   integer, parameter :: status_no_convergence = 1
-   !> The work arrays cannot be had, or are too long for LAPACK's integers.
-   integer, parameter :: status_no_memory = 2
+   !> The methods that give all singular values and both sets of vectors.
+   integer, parameter :: method_svd = 1, method_jacobi = 2
 
 contains
 
-   !> Whether a full decomposition of an m x n matrix, everything included, is
+   !> Whether any full decomposition of an m x n matrix, everything included, is
    !> within LAPACK's integers and what the system grants in one piece. To be
    !> asked before the matrix is filled: some systems grant single arrays of
    !> which they cannot hold all.
@@ -33,7 +34,7 @@ contains
       if (.not. is_feasible) return
       rows = m
       columns = n
-      allocate (probe(rows*rows + columns*columns + rows*columns + 4*min(rows, columns)**2), stat=info)
+      allocate (probe(rows*rows + columns*columns + 2*rows*columns + 4*min(rows, columns)**2), stat=info)
       is_feasible = info == 0
    end function is_feasible
 
@@ -65,6 +66,35 @@ contains
       if (all(shape(a) > 0)) call run_dgesdd('N', a, values, unused, unused, status)
    end subroutine singular_values
 
+   !> As `decompose`, by one of the methods above.
+   pure subroutine decompose_by(method, a, values, u, vt, status)
+      integer, intent(in) :: method
+      real(wp), intent(inout), contiguous :: a(:, :)
+      real(wp), intent(out), contiguous :: values(:)
+      real(wp), intent(inout), contiguous :: u(:, :), vt(:, :)
+      integer, intent(out) :: status
+
+      if (method == method_jacobi) then
+         call decompose_by_jacobi(a, values, u, vt, status)
+      else
+         call decompose(a, values, u, vt, status)
+      end if
+   end subroutine decompose_by
+
+   !> As `singular_values`, by one of the methods above.
+   pure subroutine singular_values_by(method, a, values, status)
+      integer, intent(in) :: method
+      real(wp), intent(inout), contiguous :: a(:, :)
+      real(wp), intent(out), contiguous :: values(:)
+      integer, intent(out) :: status
+
+      if (method == method_jacobi) then
+         call values_by_jacobi(a, values, status)
+      else
+         call singular_values(a, values, status)
+      end if
+   end subroutine singular_values_by
+
    pure subroutine run_dgesdd(job, a, values, u, vt, status)
       character, intent(in) :: job
       real(wp), intent(inout), contiguous :: a(:, :)
@@ -88,26 +118,6 @@ contains
       call dgesdd(job, m, n, a, m, values, u, size(u, 1), vt, size(vt, 1), work, size(work), iwork, info)
       status = merge(status_fine, status_no_convergence, info == 0)
    end subroutine run_dgesdd
-
-   !> Whether dgesdd can count its work array with default integers.
-   pure logical function fits_integer(m, n)
-      integer, intent(in) :: m, n
-      real(wp) :: short, long
-
-      short = min(m, n)
-      long = max(m, n)
-      fits_integer = 4*short*short + 7*short + 64*long < huge(1)
-   end function fits_integer
-
-   !> The work array of the length that a query has returned.
-   pure subroutine allocate_work(work, length, info)
-      real(wp), allocatable, intent(out) :: work(:)
-      real(wp), intent(in) :: length
-      integer, intent(out) :: info
-
-      info = 1
-      if (length < real(huge(1), wp)) allocate (work(max(1, int(length))), stat=info)
-   end subroutine allocate_work
 
    !> Replace independent columns (m, k), k <= m, by orthonormal ones that span
    !> the same space. One column is only divided by its length, which is as
@@ -134,14 +144,4 @@ contains
       call dorgqr(m, k, k, basis, m, tau, work, size(work), info)
       status = status_fine
    end subroutine orthonormalise
-
-   pure subroutine set_identity(a)
-      real(wp), intent(inout) :: a(:, :)
-      integer :: i
-
-      a = 0.0_wp
-      do i = 1, size(a, 1)
-         a(i, i) = 1.0_wp
-      end do
-   end subroutine set_identity
 end module flexact_decomposition

@@ -1,108 +1,72 @@
 !> Kinematic and static determinacy, section 3 of the paper: the rank of D(c),
 !> the motions that it leaves free and the self-stresses that it admits.
 module flexact_determinacy
+   use flexact_answer, only: options_t, answer_t, method_auto, method_svd, method_sparse
+   use flexact_basis, only: new_basis
+   use flexact_cholmod, only: cholmod_is_there
+   use flexact_decomposition, only: status_fine
+   use flexact_dense_route, only: analyse_dense
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
-   use flexact_partition, only: partition_t, make_partition
-   use flexact_localise, only: localise
-   use flexact_jacobian, only: jacobian_t, make_jacobian, fill_dense
-   use flexact_scaling, only: scaling_t, make_scaling
-   use flexact_rank, only: rank_t, decide_rank
-   use flexact_decomposition, only: is_feasible, decompose, singular_values, orthonormalise, &
-                                    status_fine, status_no_memory
+   use flexact_problem, only: problem_t, make_problem
+   use flexact_sparse_route, only: analyse_sparse
    implicit none
    private
-   public :: determinacy_t, analyse
+   public :: analyse
 
-   type :: determinacy_t
-      !> status_fine, status_no_convergence or status_no_memory. Unless it is
-      !> fine, nothing but the partition is to be used.
-      integer :: status = status_fine
-      !> Order of the rows and columns of D(c), and the counts.
-      type(partition_t) :: partition
-      !> Reference length of each element [m], (elements).
-      real(wp), allocatable :: length(:)
-      !> Singular values of D(c) as it stands, (min(rows, columns)), descending.
-      real(wp), allocatable :: singular_values(:)
-      !> Singular values of the scaled matrix, those above the tolerance make
-      !> the rank.
-      real(wp), allocatable :: scaled_values(:)
-      type(rank_t) :: decision
-      type(scaling_t) :: scaling
-   end type determinacy_t
+   !> Parts up to this size are decomposed completely where no method is asked for,
+   !> if there are not too many of them.
+   integer, parameter :: small_part = 200
+   integer, parameter :: small_whole = 600
 
 contains
 
-   !> Analyse the reference configuration. The caller provides motions
-   !> (columns, columns) and stresses (rows, rows), for the sizes that
-   !> `count_model` tells; the first columns - rank columns of the one and
-   !> rows - rank of the other come back as orthonormal bases of the null
-   !> spaces of D(c) and of its transpose. The rest is work space.
-   subroutine analyse(model, motions, stresses, result)
+   !> Analyse the reference configuration.
+   subroutine analyse(model, options, problem, answer)
       type(model_t), intent(in) :: model
-      real(wp), intent(inout), contiguous :: motions(:, :), stresses(:, :)
-      type(determinacy_t), intent(out) :: result
-      type(jacobian_t) :: jacobian
-      real(wp), allocatable :: dense(:, :)
-      integer :: rows, columns, values, info
+      type(options_t), intent(in) :: options
+      type(problem_t), intent(out) :: problem
+      type(answer_t), intent(out) :: answer
 
-      call make_partition(model, result%partition)
-      rows = result%partition%count%rows
-      columns = result%partition%count%columns
-      result%status = status_no_memory
-      if (.not. is_feasible(rows, columns)) return
-      allocate (dense(rows, columns), stat=info)
-      if (info /= 0) return
-      values = min(rows, columns)
-      allocate (result%singular_values(values), result%scaled_values(values), source=0.0_wp)
-
-      call make_jacobian(model, model%node_value, jacobian)
-      call make_scaling(model, result%partition, jacobian, result%scaling)
-      call move_alloc(jacobian%length, result%length)
-      call fill_dense(jacobian, result%partition, dense, result%scaling%row, result%scaling%column)
-      call decompose(dense, result%scaled_values, stresses, motions, result%status)
-      if (result%status /= status_fine) return
-      call fill_dense(jacobian, result%partition, dense)
-      call singular_values(dense, result%singular_values, result%status)
-      if (result%status /= status_fine) return
-      deallocate (dense)
-
-      result%decision = decide_rank(result%scaling, result%scaled_values)
-      call transpose_in_place(motions)
-      call keep_null_space(motions, result%decision%rank, result%scaling%column, result%status)
-      if (result%status /= status_fine) return
-      call keep_null_space(stresses, result%decision%rank, result%scaling%row, result%status)
+      call make_problem(model, problem)
+      answer%method = options%method
+      if (options%method == method_auto) answer%method = choice(problem)
+      call prepare(problem, answer)
+      if (answer%method == method_sparse) then
+         call analyse_sparse(problem, options, answer)
+      else
+         call analyse_dense(problem, options, answer)
+      end if
    end subroutine analyse
 
-   !> Bring the columns beyond the rank to the front as an orthonormal basis of
-   !> the null space of the matrix without its scales: D C v = 0 gives the
-   !> motion C v, and likewise for a stress.
-   pure subroutine keep_null_space(basis, rank, scale, status)
-      real(wp), intent(inout), contiguous :: basis(:, :)
-      integer, intent(in) :: rank
-      real(wp), intent(in) :: scale(:)
-      integer, intent(out) :: status
-      integer :: j, found
+   pure subroutine prepare(problem, answer)
+      type(problem_t), intent(in) :: problem
+      type(answer_t), intent(inout) :: answer
 
-      found = size(basis, 2) - rank
-      do j = 1, found
-         basis(:, j) = scale*basis(:, rank + j)
-      end do
-      call orthonormalise(basis(:, :found), status)
-      if (status == status_fine) call localise(basis(:, :found), scale)
-   end subroutine keep_null_space
+      answer%status = status_fine
+      call new_basis(answer%motions)
+      call new_basis(answer%stresses)
+      allocate (answer%pair_value(0), answer%pair_motion(problem%by_column%columns, 0), &
+                answer%pair_stress(problem%by_column%rows, 0))
+   end subroutine prepare
 
-   pure subroutine transpose_in_place(a)
-      real(wp), intent(inout) :: a(:, :)
-      real(wp) :: upper
-      integer :: i, j
+   !> Complete decompositions where they are quick, sparse ones else.
+   integer function choice(problem)
+      type(problem_t), intent(in) :: problem
+      integer :: i, largest, whole
 
-      do j = 2, size(a, 2)
-         do i = 1, j - 1
-            upper = a(i, j)
-            a(i, j) = a(j, i)
-            a(j, i) = upper
+      largest = 0
+      whole = 0
+      associate (parts => problem%parts)
+         do i = 1, parts%count
+            associate (shorter => min(parts%row_start(i + 1) - parts%row_start(i), &
+                                      parts%column_start(i + 1) - parts%column_start(i)))
+               largest = max(largest, shorter)
+               whole = whole + shorter
+            end associate
          end do
-      end do
-   end subroutine transpose_in_place
+      end associate
+      choice = method_sparse
+      if ((largest <= small_part .and. whole <= small_whole) .or. cholmod_is_there() == 0) choice = method_svd
+   end function choice
 end module flexact_determinacy

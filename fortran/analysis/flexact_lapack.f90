@@ -3,7 +3,7 @@ module flexact_lapack
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: dgesdd, dgeqrf, dorgqr
+   public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dormqr, dtzrzf, dormrz, dtrtrs, dgels
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -17,6 +17,20 @@ module flexact_lapack
          integer, intent(inout) :: iwork(*)
          integer, intent(out) :: info
       end subroutine dgesdd
+
+      !> Singular value decomposition by preconditioned Jacobi rotations for
+      !> m >= n; a is destroyed, the values are work(1)/work(2)*sva.
+      pure subroutine dgejsv(joba, jobu, jobv, jobr, jobt, jobp, m, n, a, lda, sva, u, ldu, v, ldv, &
+                             work, lwork, iwork, info)
+         import :: wp
+         character, intent(in) :: joba, jobu, jobv, jobr, jobt, jobp
+         integer, intent(in) :: m, n, lda, ldu, ldv, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: sva(*)
+         real(wp), intent(inout) :: u(ldu, *), v(ldv, *), work(*)
+         integer, intent(inout) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dgejsv
 
       !> QR factorisation by Householder reflections, in place.
       pure subroutine dgeqrf(m, n, a, lda, tau, work, lwork, info)
@@ -35,5 +49,65 @@ module flexact_lapack
          real(wp), intent(in) :: tau(*)
          integer, intent(out) :: info
       end subroutine dorgqr
+
+      !> QR factorisation with column pivoting, in place; columns with jpvt 0
+      !> are free to move.
+      pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         integer, intent(inout) :: jpvt(*)
+         real(wp), intent(out) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dgeqp3
+
+      !> c times Q or Q' from the reflections of dgeqrf or dgeqp3; a is restored.
+      pure subroutine dormqr(side, trans, m, n, k, a, lda, tau, c, ldc, work, lwork, info)
+         import :: wp
+         character, intent(in) :: side, trans
+         integer, intent(in) :: m, n, k, lda, ldc, lwork
+         real(wp), intent(inout) :: a(lda, *), c(ldc, *), work(*)
+         real(wp), intent(in) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dormqr
+
+      !> An upper trapezoid (m <= n) as a triangle times orthogonal Z, in place.
+      pure subroutine dtzrzf(m, n, a, lda, tau, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(out) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dtzrzf
+
+      !> c times Z or Z' from the reflections of dtzrzf; a is restored.
+      pure subroutine dormrz(side, trans, m, n, k, l, a, lda, tau, c, ldc, work, lwork, info)
+         import :: wp
+         character, intent(in) :: side, trans
+         integer, intent(in) :: m, n, k, l, lda, ldc, lwork
+         real(wp), intent(inout) :: a(lda, *), c(ldc, *), work(*)
+         real(wp), intent(in) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dormrz
+
+      !> Solve with a triangle or its transpose, in place of b; info > 0 tells a
+      !> zero on the diagonal.
+      pure subroutine dtrtrs(uplo, trans, diag, n, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         character, intent(in) :: uplo, trans, diag
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(in) :: a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dtrtrs
+
+      !> Least squares by QR (m >= n), a of full rank; the solution stands in b.
+      subroutine dgels(trans, m, n, nrhs, a, lda, b, ldb, work, lwork, info)
+         import :: wp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgels
    end interface
 end module flexact_lapack

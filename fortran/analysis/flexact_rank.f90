@@ -14,7 +14,7 @@ module flexact_rank
       !> What computing and rounding in the last bits may make of a zero.
       real(wp) :: noise = 0.0_wp
       !> Singular values up to here were taken for zero: the noise, or more
-      !> where the digits of the coordinates account for it.
+      !> where the digits of the coordinates account for it; or as was asked.
       real(wp) :: tolerance = 0.0_wp
    end type rank_t
 
@@ -23,10 +23,12 @@ contains
    !> Values descend. Those within the noise are zero. So are those that the
    !> typed digits can account for, where a clear gap parts them from the rest;
    !> without the gap they are what they seem, since digits that were rounded
-   !> would have lifted the zeros together.
-   pure function decide_rank(scaling, values) result(decision)
+   !> would have lifted the zeros together. Where a tolerance is given, it alone
+   !> decides.
+   pure function decide_rank(scaling, values, tolerance) result(decision)
       type(scaling_t), intent(in) :: scaling
       real(wp), intent(in) :: values(:)
+      real(wp), intent(in), optional :: tolerance
       type(rank_t) :: decision
       real(wp) :: above
       integer :: i
@@ -35,6 +37,11 @@ contains
       if (size(values) > 0) then
          decision%noise = decision%noise + &
                           epsilon(1.0_wp)*max(size(scaling%row), size(scaling%column))*values(1)
+      end if
+      if (present(tolerance)) then
+         decision%tolerance = tolerance
+         decision%rank = count(values > tolerance)
+         return
       end if
       decision%tolerance = decision%noise
       above = 0.0_wp

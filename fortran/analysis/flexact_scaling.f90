@@ -5,11 +5,11 @@ module flexact_scaling
    use flexact_model, only: model_t, is_position
    use flexact_partition, only: partition_t, axes
    use flexact_jacobian, only: jacobian_t
-   use flexact_rounding, only: last_bits, last_digit
+   use flexact_rounding, only: decimal, difference, last_bits, last_digit
    use flexact_vectors, only: length_of
    implicit none
    private
-   public :: scaling_t, make_scaling
+   public :: scaling_t, make_scaling, extent_of
 
    !> The scaled matrix is diag(row) D(c) diag(column).
    type :: scaling_t
@@ -89,6 +89,23 @@ contains
       end where
    end subroutine scale_rows
 
+   !> The largest extent of the scene along a global axis [m].
+   pure real(wp) function extent_of(model) result(extent)
+      type(model_t), intent(in) :: model
+      real(wp) :: lowest(axes), highest(axes)
+      integer :: node
+
+      lowest = huge(lowest)
+      highest = -huge(highest)
+      do node = 1, model%nodes
+         if (.not. is_position(model%node_kind(node))) cycle
+         lowest = min(lowest, model%node_value(1:axes, node))
+         highest = max(highest, model%node_value(1:axes, node))
+      end do
+      ! Halved, because a difference may overflow.
+      extent = 2*min(max(0.0_wp, maxval(highest/2 - lowest/2)), huge(extent)/2)
+   end function extent_of
+
    !> A matrix whose row i has a norm of at most e_i has a 2-norm of at most the
    !> root of the largest sum of e_i**2 over the rows that meet in one column.
    pure subroutine bound_errors(model, partition, jacobian, scaling)
@@ -97,11 +114,13 @@ contains
       type(jacobian_t), intent(in) :: jacobian
       type(scaling_t), intent(inout) :: scaling
       real(wp), allocatable :: error(:, :), squares(:, :)
+      real(wp) :: extent
       integer :: k, entry, row, column
 
       allocate (error(2, model%elements))
+      extent = extent_of(model)
       do k = 1, model%elements
-         error(:, k) = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length)
+         error(:, k) = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length, extent)
       end do
       allocate (squares(2, partition%count%columns), source=0.0_wp)
       do entry = 1, jacobian%entries
@@ -116,28 +135,27 @@ contains
 
    !> How far the directions of element k may be turned, by rounding in the last
    !> bits and by the digits typed; no more than makes them unknown.
-   pure function errors_of_direction(model, k, length, characteristic_length) result(error)
+   pure function errors_of_direction(model, k, length, characteristic_length, extent) result(error)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
-      real(wp), intent(in) :: length, characteristic_length
+      real(wp), intent(in) :: length, characteristic_length, extent
       real(wp) :: error(2)
-      integer :: slot
 
       error = 0.0_wp
-      do slot = 1, 3, 2
-         associate (node => model%element_node(slot, k))
-            if (node > 0) error = max(error, uncertainties(model%node_value(1:axes, node)))
-         end associate
-      end do
-      error = min(1.0_wp, error/merge(length, characteristic_length, length > 0))
-      associate (vector => model%element_vector(:, k))
-         if (any(abs(vector) > 0)) error = max(error, uncertainties(vector)/length_of(vector))
+      associate (p => model%element_node(1, k), q => model%element_node(3, k), vector => model%element_vector(:, k))
+         if (p > 0 .and. q > 0) &
+            error = errors_of_offset(model%node_value(1:axes, p), model%node_value(1:axes, q), extent)
+         error = min(1.0_wp, error/merge(length, characteristic_length, length > 0))
+         if (any(abs(vector) > 0)) &
+            error = max(error, errors_of_offset(0*vector, vector, maxval(abs(vector)))/length_of(vector))
       end associate
    end function errors_of_direction
 
-   pure function uncertainties(numbers) result(largest)
-      real(wp), intent(in) :: numbers(:)
-      real(wp) :: largest(2)
-      largest = [maxval(last_bits(numbers)), maxval(last_digit(numbers))]
-   end function uncertainties
+   !> By how much the vector from p to q may be wrong. Bits are lost where the
+   !> points stand; digits count from the one to the other.
+   pure function errors_of_offset(p, q, extent) result(error)
+      real(wp), intent(in) :: p(:), q(:), extent
+      real(wp) :: error(2)
+      error = [maxval(last_bits([p, q], extent)), maxval(last_digit(difference(decimal(p), decimal(q))))]
+   end function errors_of_offset
 end module flexact_scaling

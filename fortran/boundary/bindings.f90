@@ -236,23 +236,136 @@ subroutine assemble(entries, nn, ne, node_number, node_kind, node_value, coordin
    value(:used) = jacobian%value(:used)
 end subroutine assemble
 
-! Rank, motions and self-stresses in the reference configuration. numbers:
-! tolerance on scaled_values, characteristic length, noise, 0. status: 0 fine,
-! 1 no convergence, 2 not enough memory, 3 sizes that are not the model's.
-subroutine analyse_model(rows, columns, least, nn, ne, node_number, node_kind, node_value, coordinate_class, &
+! Rank, motions and self-stresses in the reference configuration. wishes:
+! tolerance (negative: from the data), bytes of memory that may be used, and 1
+! if every vector is wanted.
+! Indices count from 0. A basis that does not fit its room is given in part.
+! numbers: tolerance, characteristic length, noise, bytes needed. facts: rank,
+! method, 1 if confirmed, singular values of D(c) and scaled values given, pairs,
+! motions, self-stresses, parts, rows and columns of the largest. stage: what is
+! at work and per cent, kept up to date. status: as in flexact_answer, or 3 for
+! sizes that are not the model's.
+subroutine analyse_model(rows, columns, least, pairs, motion_room, stress_room, nn, ne, method, wishes, &
+                         node_number, node_kind, node_value, coordinate_class, &
                          element_number, element_kind, element_node, element_vector, deformation_class, &
-                         motions, stresses, row_label, column_label, length, singular_values, scaled_values, &
-                         row_scale, column_scale, numbers, rank, status)
+                         stage, motion_start, motion_place, motion_value, stress_start, stress_place, stress_value, &
+                         row_label, column_label, length, singular_values, scaled_values, row_scale, column_scale, &
+                         pair_value, pair_motion, pair_stress, numbers, facts, status)
    use iso_c_binding
-   use flexact_determinacy, only: determinacy_t, analyse
-   use flexact_exchange, only: make_model
+   use flexact_answer, only: answer_t, options_t
+   use flexact_determinacy, only: analyse
+   use flexact_exchange, only: make_model, give_basis, largest_part
    use flexact_model, only: model_t
    use flexact_partition, only: model_count_t, count_model_again => count_model
+   use flexact_problem, only: problem_t
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: rows
    integer(c_int), intent(in) :: columns
    integer(c_int), intent(in) :: least
+   integer(c_int), intent(in) :: pairs
+   integer(c_int), intent(in) :: motion_room
+   integer(c_int), intent(in) :: stress_room
+   integer(c_int), intent(in) :: nn
+   integer(c_int), intent(in) :: ne
+   integer(c_int), intent(in) :: method
+   real(c_double), intent(in) :: wishes(3)
+   integer(c_int), intent(in) :: node_number(nn)
+   integer(c_int), intent(in) :: node_kind(nn)
+   real(c_double), intent(in) :: node_value(4, nn)
+   integer(c_int), intent(in) :: coordinate_class(3, nn)
+   integer(c_int), intent(in) :: element_number(ne)
+   integer(c_int), intent(in) :: element_kind(ne)
+   integer(c_int), intent(in) :: element_node(4, ne)
+   real(c_double), intent(in) :: element_vector(3, ne)
+   integer(c_int), intent(in) :: deformation_class(6, ne)
+   integer(c_int), intent(inout), target :: stage(2)
+   integer(c_int), intent(inout) :: motion_start(columns + 1)
+   integer(c_int), intent(inout) :: motion_place(motion_room)
+   real(c_double), intent(inout) :: motion_value(motion_room)
+   integer(c_int), intent(inout) :: stress_start(rows + 1)
+   integer(c_int), intent(inout) :: stress_place(stress_room)
+   real(c_double), intent(inout) :: stress_value(stress_room)
+   integer(c_int), intent(out) :: row_label(2, rows)
+   integer(c_int), intent(out) :: column_label(2, columns)
+   real(c_double), intent(out) :: length(ne)
+   real(c_double), intent(out) :: singular_values(least)
+   real(c_double), intent(out) :: scaled_values(least)
+   real(c_double), intent(out) :: row_scale(rows)
+   real(c_double), intent(out) :: column_scale(columns)
+   real(c_double), intent(out) :: pair_value(pairs)
+   real(c_double), intent(out) :: pair_motion(columns, pairs)
+   real(c_double), intent(out) :: pair_stress(rows, pairs)
+   real(c_double), intent(out) :: numbers(4)
+   integer(c_int), intent(out) :: facts(12)
+   integer(c_int), intent(out) :: status
+   type(model_t) :: model
+   type(options_t) :: options
+   type(problem_t) :: problem
+   type(answer_t) :: answer
+   type(model_count_t) :: counts
+   integer :: given
+
+   numbers = 0
+   facts = 0
+   status = 3
+   call make_model(node_number, node_kind, node_value, coordinate_class, element_number, element_kind, &
+                   element_node, element_vector, deformation_class, model)
+   call count_model_again(model, counts)
+   if (counts%rows /= rows .or. counts%columns /= columns .or. least /= min(rows, columns)) return
+   options%method = method
+   if (wishes(1) >= 0) options%tolerance = wishes(1)
+   options%memory = wishes(2)
+   options%every_vector = wishes(3) > 0
+   options%stage => stage
+   call analyse(model, options, problem, answer)
+   status = answer%status
+   numbers(4) = answer%bytes
+   if (status /= 0) return
+   row_label = problem%partition%row_label
+   column_label = problem%partition%column_label
+   length = problem%length
+   row_scale = problem%scaling%row
+   column_scale = problem%scaling%column
+   facts(4) = size(answer%singular_values)
+   facts(5) = size(answer%scaled_values)
+   singular_values(:facts(4)) = answer%singular_values
+   scaled_values(:facts(5)) = answer%scaled_values
+   given = min(pairs, size(answer%pair_value))
+   pair_value(:given) = answer%pair_value(:given)
+   pair_motion(:, :given) = answer%pair_motion(:, :given)
+   pair_stress(:, :given) = answer%pair_stress(:, :given)
+   facts(6) = given
+   call give_basis(answer%motions, motion_start, motion_place, motion_value, facts(7))
+   call give_basis(answer%stresses, stress_start, stress_place, stress_value, facts(8))
+   facts(1) = answer%decision%rank
+   facts(2) = answer%method
+   facts(3) = merge(1, 0, answer%confirmed)
+   facts(9) = problem%parts%count
+   facts(10:11) = largest_part(problem%parts)
+   numbers(:3) = [answer%decision%tolerance, problem%scaling%characteristic_length, answer%decision%noise]
+end subroutine analyse_model
+
+! What small changes of the geometry make of the singular values of pairs of
+! vectors of D(c) (flexact_sensitivity). numbers: lifts by the last bits and by
+! the digits typed, largest effects of moving a node and of turning an element;
+! place: that node and that element, 0 without one. status: 0, or 3 for sizes
+! that are not the model's.
+subroutine find_sensitivities(rows, columns, a, b, pairs, nn, ne, node_number, node_kind, node_value, coordinate_class, &
+                              element_number, element_kind, element_node, element_vector, deformation_class, &
+                              u, v, pair, numbers, place, status)
+   use iso_c_binding
+   use flexact_exchange, only: make_model
+   use flexact_model, only: model_t
+   use flexact_partition, only: model_count_t, count_model_again => count_model
+   use flexact_sensitivity, only: sensitivity_t, find => find_sensitivities
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: rows
+   integer(c_int), intent(in) :: columns
+   integer(c_int), intent(in) :: a
+   integer(c_int), intent(in) :: b
+   integer(c_int), intent(in) :: pairs
    integer(c_int), intent(in) :: nn
    integer(c_int), intent(in) :: ne
    integer(c_int), intent(in) :: node_number(nn)
@@ -264,41 +377,29 @@ subroutine analyse_model(rows, columns, least, nn, ne, node_number, node_kind, n
    integer(c_int), intent(in) :: element_node(4, ne)
    real(c_double), intent(in) :: element_vector(3, ne)
    integer(c_int), intent(in) :: deformation_class(6, ne)
-   real(c_double), intent(inout) :: motions(columns, columns)
-   real(c_double), intent(inout) :: stresses(rows, rows)
-   integer(c_int), intent(out) :: row_label(2, rows)
-   integer(c_int), intent(out) :: column_label(2, columns)
-   real(c_double), intent(out) :: length(ne)
-   real(c_double), intent(out) :: singular_values(least)
-   real(c_double), intent(out) :: scaled_values(least)
-   real(c_double), intent(out) :: row_scale(rows)
-   real(c_double), intent(out) :: column_scale(columns)
-   real(c_double), intent(out) :: numbers(4)
-   integer(c_int), intent(out) :: rank
+   real(c_double), intent(in) :: u(rows, a)
+   real(c_double), intent(in) :: v(columns, b)
+   integer(c_int), intent(in) :: pair(2, pairs)
+   real(c_double), intent(out) :: numbers(4, pairs)
+   integer(c_int), intent(out) :: place(2, pairs)
    integer(c_int), intent(out) :: status
    type(model_t) :: model
-   type(determinacy_t) :: result
    type(model_count_t) :: counts
+   type(sensitivity_t) :: found(pairs)
+   integer :: i
 
-   rank = 0
    numbers = 0
+   place = 0
    status = 3
    call make_model(node_number, node_kind, node_value, coordinate_class, element_number, element_kind, &
                    element_node, element_vector, deformation_class, model)
    call count_model_again(model, counts)
-   if (counts%rows /= rows .or. counts%columns /= columns .or. least /= min(rows, columns)) return
-   call analyse(model, motions, stresses, result)
-   status = result%status
-   if (status /= 0) return
-   row_label = result%partition%row_label
-   column_label = result%partition%column_label
-   length = result%length
-   singular_values = result%singular_values
-   scaled_values = result%scaled_values
-   row_scale = result%scaling%row
-   column_scale = result%scaling%column
-   numbers(1) = result%decision%tolerance
-   numbers(2) = result%scaling%characteristic_length
-   numbers(3) = result%decision%noise
-   rank = result%decision%rank
-end subroutine analyse_model
+   if (counts%rows /= rows .or. counts%columns /= columns) return
+   if (any(pair < 1) .or. any(pair(1, :) > a) .or. any(pair(2, :) > b)) return
+   status = 0
+   call find(model, u, v, pair, found)
+   do i = 1, pairs
+      numbers(:, i) = [found(i)%lift_of_bits, found(i)%lift_of_digits, found(i)%by_move, found(i)%by_turn]
+      place(:, i) = [found(i)%node, found(i)%element]
+   end do
+end subroutine find_sensitivities

@@ -1,13 +1,15 @@
 !> Between flat arrays of C types and the core's types; what bindings.f90 needs.
 module flexact_exchange
    use, intrinsic :: iso_c_binding, only: c_signed_char
+   use flexact_basis, only: basis_t
    use flexact_deck, only: locate
    use flexact_diagnostics, only: span_t, diagnostics_t, most_shown, text_length
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, slots, most_deformations
+   use flexact_parts, only: parts_t
    implicit none
    private
-   public :: to_text, from_text, make_model, give_diagnostics
+   public :: to_text, from_text, make_model, give_diagnostics, give_basis, largest_part
 
 contains
 
@@ -55,6 +57,36 @@ contains
       allocate (model%deformation_class(most_deformations, model%elements), source=deformation_class)
       allocate (model%element_origin(model%elements), source=0)
    end subroutine make_model
+
+   !> A basis as arrays; only as many vectors as fit.
+   pure subroutine give_basis(basis, start, place, value, given)
+      type(basis_t), intent(in) :: basis
+      integer, intent(inout) :: start(:), place(:)
+      real(wp), intent(inout) :: value(:)
+      integer, intent(out) :: given
+      integer :: entries
+
+      given = min(basis%vectors, size(start) - 1)
+      do while (basis%start(given + 1) - 1 > size(place))
+         given = given - 1
+      end do
+      entries = basis%start(given + 1) - 1
+      start(:given + 1) = basis%start(:given + 1) - 1
+      place(:entries) = basis%place(:entries) - 1
+      value(:entries) = basis%value(:entries)
+   end subroutine give_basis
+
+   !> Rows and columns of the part that is largest in its shorter side.
+   pure function largest_part(parts) result(largest)
+      type(parts_t), intent(in) :: parts
+      integer :: largest(2), size_of(2), i
+
+      largest = 0
+      do i = 1, parts%count
+         size_of = [parts%row_start(i + 1) - parts%row_start(i), parts%column_start(i + 1) - parts%column_start(i)]
+         if (minval(size_of) > minval(largest) .or. i == 1) largest = size_of
+      end do
+   end function largest_part
 
    !> Diagnostics as arrays. count: errors, warnings, notes, shown. number:
    !> severity, line, first and last column, the same three of the other place,

@@ -6,6 +6,9 @@ Every call is a function of its arguments. Arrays of a model are in Fortran orde
 
 from __future__ import annotations
 
+import math
+import sys
+
 import numpy as np
 
 from . import _core
@@ -19,6 +22,7 @@ from .exchange import (
     RawCount,
     RawDeck,
     RawDiagnostics,
+    RawSensitivities,
     first_of,
     room_for,
 )
@@ -27,6 +31,12 @@ from .exchange import (
 METHODS = ("auto", "svd", "jacobi", "qr", "sparse")
 #: What the core is at while it analyses, by number.
 STAGES = ("assembling", "ordering", "factorising", "motions", "self-stresses", "singular values")
+
+#: So many of the smallest non-zero singular values come with their vectors.
+_MOST_PAIRS = 6
+
+#: Entries of a basis beyond which vectors are left out.
+_MOST_ENTRIES = 100_000_000
 
 #: Bytes of the shortest statement of an element, with its line's end.
 _SHORTEST_ELEMENT = len("BEAM 1 1 2")
@@ -128,6 +138,8 @@ def analyse_model(
     method: str = "auto",
     tolerance: float | None = None,
     stage: IntArray | None = None,
+    memory: float = math.inf,
+    every_vector: bool = False,
 ) -> RawAnalysis:
     """Decompose D(c) of `rows` x `columns`, as counted by `count_model`.
 
@@ -138,27 +150,87 @@ def analyse_model(
         method: one of `METHODS`.
         tolerance: scaled singular values up to here count as zero; None: from the data.
         stage: (2,) kept up to date while the call runs: stage (an index of `STAGES`), per cent.
+        memory: bytes that may be used.
+        every_vector: whether vectors are wanted even where there are very many.
     """
-    motions = np.empty((columns, columns), np.float64, order="F")
-    stresses = np.empty((rows, rows), np.float64, order="F")
-    found = _core.analyse_model(min(rows, columns), *arrays, motions, stresses)
-    numbers, rank, status = found[7:]
-    for values in found[3:5]:
-        np.abs(values, out=values)  # LAPACK's zeros may be negative
+    motions, stresses = _room_for_basis(columns), _room_for_basis(rows)
+    least = min(rows, columns)
+    found = _core.analyse_model(
+        least,
+        min(least, _MOST_PAIRS),
+        METHODS.index(method),
+        np.array(
+            [
+                -1.0 if tolerance is None else tolerance,
+                min(memory, sys.float_info.max),
+                float(every_vector),
+            ]
+        ),
+        *arrays,
+        np.zeros(2, np.int32) if stage is None else stage,
+        *motions,
+        *stresses,
+    )
+    *at_rows, plain, scaled, row_scale, column_scale, value, motion, stress = found[:10]
+    numbers, facts, status = found[10:]
+    rank, used, confirmed, plains, scaleds, pairs, moving, stressed, parts = facts[:9].tolist()
+    plain, scaled = np.abs(plain[:plains]), np.abs(scaled[:scaleds])  # LAPACK has zeros of -0
     return RawAnalysis(
-        *found[:7],
-        pair_value=np.zeros(0),
-        pair_motion=np.zeros((columns, 0)),
-        pair_stress=np.zeros((rows, 0)),
+        *at_rows,
+        singular_values=plain,
+        scaled_values=scaled,
+        row_scale=row_scale,
+        column_scale=column_scale,
+        pair_value=value[:pairs],
+        pair_motion=motion[:, :pairs],
+        pair_stress=stress[:, :pairs],
         tolerance=float(numbers[0]),
         characteristic_length=float(numbers[1]),
         noise=float(numbers[2]),
+        bytes_needed=float(numbers[3]),
         rank=rank,
-        method="svd",
-        confirmed=True,
-        parts=1,
-        largest_part=(rows, columns),
+        method=METHODS[used],
+        confirmed=confirmed == 1,
+        parts=parts,
+        largest_part=(int(facts[9]), int(facts[10])),
         status=status,
-        motions=Basis.of_dense(motions[:, : columns - rank]),
-        stresses=Basis.of_dense(stresses[:, : rows - rank]),
+        motions=_basis_of(columns, motions, moving),
+        stresses=_basis_of(rows, stresses, stressed),
     )
+
+
+def _room_for_basis(size: int) -> tuple[IntArray, IntArray, FloatArray]:
+    """Start, place and value of vectors; memory is taken only where it is written to."""
+    entries = max(1, min(size * size, _MOST_ENTRIES))  # f2py refuses arrays of no length here
+    return np.zeros(size + 1, np.int32), np.empty(entries, np.int32), np.empty(entries)
+
+
+def _basis_of(size: int, room: tuple[IntArray, IntArray, FloatArray], vectors: int) -> Basis:
+    start, place, value = room
+    entries = int(start[vectors])
+    return Basis(size, start[: vectors + 1].copy(), place[:entries].copy(), value[:entries].copy())
+
+
+def find_sensitivities(
+    arrays: ModelArrays, stresses: FloatArray, motions: FloatArray, pairs: IntArray
+) -> RawSensitivities:
+    """What small changes of the geometry make of singular values of D(c), to first order.
+
+    Args:
+        arrays: the model.
+        stresses: (m, a) left vectors, in the sense of D(c) without its scales.
+        motions: (n, b) right vectors, likewise.
+        pairs: (2, p) the columns of both that belong together, from 0.
+
+    Raises:
+        ValueError: a shape is not that of the model, or a pair names no column.
+    """
+    numbers, place, status = _core.find_sensitivities(
+        *arrays,
+        np.asfortranarray(stresses, np.float64),
+        np.asfortranarray(motions, np.float64),
+        np.asfortranarray(pairs + 1, np.int32),
+    )
+    if status != 0:
+        raise ValueError("the vectors are not of the model's size, or a pair names none of them")
+    return RawSensitivities(*numbers, *(place - 1))

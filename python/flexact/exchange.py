@@ -159,6 +159,8 @@ class RawAnalysis(NamedTuple):
     """Rows and columns of the largest of them."""
     status: int
     """0 fine, 1 not converged, 2 not enough memory, 5 built without SuiteSparse."""
+    bytes_needed: float
+    """What the decomposition needs of memory, where the core knows."""
     motions: Basis
     """n - rank vectors, an orthonormal basis of the null space of D(c); see `analysis`.
 
@@ -167,6 +169,23 @@ class RawAnalysis(NamedTuple):
     """
     stresses: Basis
     """m - rank vectors: the same for its transpose."""
+
+
+class RawSensitivities(NamedTuple):
+    """What small changes of the geometry make of the singular values of p pairs of vectors."""
+
+    lift_of_bits: FloatArray
+    """(p,) what rounding in the last bits can make of each."""
+    lift_of_digits: FloatArray
+    """(p,) what half a unit of the last digits typed can make of it."""
+    by_move: FloatArray
+    """(p,) its largest change by the move of one node [1/m]."""
+    by_turn: FloatArray
+    """(p,) its largest change by the turn of one element [1/rad]."""
+    node: IntArray
+    """(p,) index of that node, -1 without one."""
+    element: IntArray
+    """(p,) index of that element, -1 without one."""
 
 
 #: Leading size (None: one dimension), last size and type of every array of a model.

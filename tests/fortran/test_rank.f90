@@ -1,29 +1,20 @@
-!> Which singular values count as zero: noise, typed digits, and the gap.
+!> Which singular values count as zero: noise, typed digits, the gap, and what
+!> was asked.
 program test_rank
    use flexact_kinds, only: wp
    use flexact_rank, only: rank_t, decide_rank
-   use flexact_rounding, only: last_bits, last_digit
    use flexact_scaling, only: scaling_t
    use flexact_testing, only: tally_t
    implicit none
    type(tally_t) :: tally
 
-   call digits_that_look_rounded()
    call noise_is_zero()
    call lifted_zeros_need_a_gap()
+   call a_tolerance_decides_alone()
    call nothing_to_decide()
    call tally%finish()
 
 contains
-
-   !> Half a unit in the last place, for six coordinates: 1.25 units.
-   subroutine digits_that_look_rounded()
-      call tally%near(last_digit([0.8660254038_wp, 0.866025403784_wp]), [1.25e-10_wp, 1.25e-12_wp], 1.0e-16_wp, &
-                      'ten and twelve digits')
-      call tally%near(last_digit([0.0_wp, 12.0_wp, 0.5_wp, 0.8660_wp, 0.86602540378443865_wp]), &
-                      spread(0.0_wp, 1, 5), 0.0_wp, 'meant as they stand, or known to the last bit')
-      call tally%check(last_bits(-2.0_wp) > 0.0_wp, 'bits of a negative number')
-   end subroutine digits_that_look_rounded
 
    subroutine noise_is_zero()
       type(rank_t) :: decision
@@ -47,6 +38,18 @@ contains
       decision = decide_rank(scaling, [1.0_wp, 2.0e-3_wp, 1.0e-4_wp, 1.0e-7_wp])
       call tally%check(decision%rank == 3, 'a value that the gap leaves above is not zero')
    end subroutine lifted_zeros_need_a_gap
+
+   subroutine a_tolerance_decides_alone()
+      real(wp), parameter :: values(4) = [1.0_wp, 1.0e-3_wp, 1.0e-15_wp, 0.0_wp]
+      type(rank_t) :: decision
+
+      decision = decide_rank(scaling_of(1.0e-14_wp, 0.1_wp), values, 1.0e-3_wp)
+      call tally%check(decision%rank == 1, 'a value as large as the tolerance is zero')
+      call tally%near([decision%tolerance], [1.0e-3_wp], 0.0_wp, 'the tolerance that was asked')
+      decision = decide_rank(scaling_of(1.0e-14_wp, 0.1_wp), values, 0.0_wp)
+      call tally%check(decision%rank == 3, 'noise counts where zero was asked')
+      call tally%check(decision%noise > 1.0e-15_wp, 'the noise is told all the same')
+   end subroutine a_tolerance_decides_alone
 
    subroutine nothing_to_decide()
       type(rank_t) :: decision

@@ -2,10 +2,11 @@
 program test_scene
    use flexact_deck, only: read_deck
    use flexact_deck_scene, only: scene_t
-   use flexact_determinacy, only: determinacy_t, analyse
+   use flexact_answer, only: answer_t, options_t
+   use flexact_determinacy, only: analyse
    use flexact_diagnostics, only: diagnostics_t
    use flexact_kinds, only: wp
-   use flexact_partition, only: model_count_t, count_model
+   use flexact_problem, only: problem_t
    use flexact_testing, only: tally_t
    implicit none
    type(tally_t) :: tally
@@ -22,20 +23,21 @@ contains
    subroutine planar_and_spatial()
       type(scene_t) :: scene
       type(diagnostics_t) :: diagnostics
-      type(determinacy_t) :: result
-      type(model_count_t) :: counts
-      real(wp), allocatable :: motions(:, :), stresses(:, :)
+      type(answer_t) :: answer
+      type(problem_t) :: problem
+      real(wp) :: motion(3)
       real(wp), parameter :: shadow(3) = [0.9_wp, 0.1_wp, 0.0_wp], bar(3) = [1.0_wp, -0.4_wp, -0.3_wp]
       integer :: unused
 
       call read_deck('PLTRUSS 1 1 3'//nl//'TRUSS 2 3 5'//nl//'X 1 0.1 0.2'//nl//'X 3 1 0.3 0.5'//nl// &
                      'X 5 2 -0.1 0.2'//nl//'FIX 1'//nl//'FIX 5', scene, unused, diagnostics)
       call tally%check(diagnostics%kept == 0, 'a deck of both kinds')
-      call count_model(scene%model, counts)
-      allocate (motions(counts%columns, counts%columns), stresses(counts%rows, counts%rows))
-      call analyse(scene%model, motions, stresses, result)
-      call tally%check(counts%rows == 2 .and. counts%columns == 3 .and. result%decision%rank == 2, 'rank of both')
-      call tally%near([dot_product(motions(:, 1), shadow), dot_product(motions(:, 1), bar)], [0.0_wp, 0.0_wp], &
+      call analyse(scene%model, options_t(), problem, answer)
+      call tally%check(problem%by_column%rows == 2 .and. problem%by_column%columns == 3 .and. &
+                       answer%decision%rank == 2, 'rank of both')
+      motion = 0.0_wp
+      motion(answer%motions%place(:answer%motions%entries())) = answer%motions%value(:answer%motions%entries())
+      call tally%near([dot_product(motion, shadow), dot_product(motion, bar)], [0.0_wp, 0.0_wp], &
                       1.0e-15_wp, 'the motion keeps both lengths')
    end subroutine planar_and_spatial
 

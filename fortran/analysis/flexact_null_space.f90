@@ -1,0 +1,269 @@
+!> The smallest singular values of a matrix A with no fewer rows than columns,
+!> and bases of the null spaces of A and A', from its pinned factorisation.
+!>
+!> Values are those of A itself on a small space (Rayleigh and Ritz), so that they
+!> do not suffer from squaring: k orthonormal vectors with small |A v| prove that
+!> k singular values are small.
+module flexact_null_space
+   use, intrinsic :: iso_fortran_env, only: int64
+   use flexact_kinds, only: wp
+   use flexact_basis, only: basis_t
+   use flexact_sparse, only: sparse_t, times_transposed
+   use flexact_decomposition, only: decompose, orthonormalise
+   use flexact_lapack, only: dgeqrf
+   use flexact_vectors, only: length_of
+   use flexact_pinned, only: pinned_t, apply_inverse
+   implicit none
+   private
+   public :: operator_t, correct, pinned_space, next_space, left_null_space
+
+   !> A by columns and by rows, so that both products gather.
+   type :: operator_t
+      type(sparse_t) :: by_column
+      type(sparse_t) :: by_row
+   end type operator_t
+
+   !> Steps of the Lanczos process, and the least width of its blocks.
+   integer, parameter :: most_steps = 12
+   integer, parameter :: narrowest = 3
+   !> Relative change of a value that ends the process.
+   real(wp), parameter :: settled = 1.0e-10_wp
+   !> What is left of a vector that brings nothing new.
+   real(wp), parameter :: new = 1.0e-7_wp
+
+contains
+
+   !> Orthonormal vectors (columns, k) whose span, with that of `apart`, holds the
+   !> null space, for k of the pins, and their values, ascending.
+   subroutine pinned_space(a, pinned, pin, apart, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      integer, intent(in) :: pin(:)
+      type(basis_t), intent(in) :: apart
+      real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
+      integer, intent(out) :: status
+      integer :: k, round
+
+      allocate (vectors(a%by_column%columns, size(pin)), source=0.0_wp)
+      allocate (values(size(pin)))
+      status = 0
+      if (size(pin) == 0) return
+      do k = 1, size(pin)
+         vectors(pin(k), k) = 1.0_wp
+      end do
+      call apply_inverse(pinned, vectors, status)
+      do round = 1, 3
+         if (status /= 0) return
+         call correct(a, pinned, vectors, status)
+      end do
+      call apart%remove(vectors)
+      if (status == 0) call orthonormalise(vectors, status)
+      call apart%remove(vectors)
+      if (status == 0) call settle(a, vectors, values, status)
+   end subroutine pinned_space
+
+   !> Take from each vector what A does not send to zero.
+   subroutine correct(a, pinned, vectors, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+      integer, intent(out) :: status
+      real(wp) :: image(a%by_column%rows, size(vectors, 2)), step(size(vectors, 1), size(vectors, 2))
+
+      call times_transposed(a%by_row, vectors, image)
+      call times_transposed(a%by_column, image, step)
+      call apply_inverse(pinned, step, status)
+      vectors = vectors - step
+   end subroutine correct
+
+   !> Turn orthonormal vectors among themselves so that their images under A are
+   !> orthogonal; the lengths of these ascend.
+   subroutine settle(a, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+      real(wp), intent(out), contiguous :: values(:)
+      integer, intent(out) :: status
+      real(wp), allocatable :: image(:, :)
+      real(wp), dimension(size(values), size(values)) :: r, u, vt
+      integer :: k
+
+      k = size(values)
+      allocate (image(a%by_column%rows, k))
+      call times_transposed(a%by_row, vectors, image)
+      call triangle_of(image, r, status)
+      if (status == 0) call decompose(r, values, u, vt, status)
+      if (status /= 0) return
+      values = values(k:1:-1)
+      vectors = matmul(vectors, transpose(vt(k:1:-1, :)))
+   end subroutine settle
+
+   !> The triangle R of the QR factorisation of a matrix with no fewer rows than
+   !> columns, which is destroyed.
+   subroutine triangle_of(matrix, r, status)
+      real(wp), intent(inout), contiguous :: matrix(:, :)
+      real(wp), intent(out) :: r(:, :)
+      integer, intent(out) :: status
+      real(wp) :: tau(size(matrix, 2)), work(64*size(matrix, 2))
+      integer :: j
+
+      call dgeqrf(size(matrix, 1), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), status)
+      r = 0.0_wp
+      do j = 1, size(matrix, 2)
+         r(:j, j) = matrix(:j, j)
+      end do
+   end subroutine triangle_of
+
+   !> The `wanted` smallest values beyond those of `apart` and of `lowest`,
+   !> orthonormal vectors (columns, k), and their vectors (columns, wanted): by the
+   !> block Lanczos process for the inverse of A'A, until the smallest settles, or
+   !> a mere estimate of it from above.
+   subroutine next_space(a, pinned, apart, lowest, wanted, careful, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      type(basis_t), intent(in) :: apart
+      real(wp), intent(in), contiguous :: lowest(:, :)
+      integer, intent(in) :: wanted
+      logical, intent(in) :: careful
+      real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
+      integer, intent(out) :: status
+      real(wp), allocatable :: space(:, :), block(:, :)
+      real(wp) :: before
+      integer :: step, used, fresh, rest
+
+      allocate (vectors(a%by_column%columns, wanted), values(wanted))
+      status = 0
+      if (wanted == 0) return
+      rest = a%by_column%columns - apart%vectors - size(lowest, 2)
+      associate (width => min(rest, max((wanted + 1)/2, narrowest)), steps => merge(most_steps, 2, careful))
+         allocate (space(a%by_column%columns, min(rest, width*steps)), block(a%by_column%columns, width))
+         call fill_at_random(block)
+         used = 0
+         before = huge(before)
+         do step = 1, steps
+            call apply_inverse(pinned, block, status)
+            if (status /= 0) return
+            call extend(apart, lowest, block, space, used, fresh)
+            block = space(:, used - fresh + 1:used)
+            if (.not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
+            if (used < wanted) cycle
+            call take_lowest(a, space(:, :used), vectors, values, status)
+            if (status /= 0 .or. fresh == 0 .or. used == size(space, 2)) exit
+            if (abs(before - values(1)) <= settled*values(1)) exit
+            before = values(1)
+         end do
+      end associate
+   end subroutine next_space
+
+   !> Whether the values are looked at after this step.
+   pure logical function is_due(step, steps)
+      integer, intent(in) :: step, steps
+      is_due = modulo(step, 3) == 0 .or. step == steps
+   end function is_due
+
+   !> Append what is new in a block (n, k) to an orthonormal space, of which the
+   !> first `used` columns are there.
+   pure subroutine extend(apart, lowest, block, space, used, fresh)
+      type(basis_t), intent(in) :: apart
+      real(wp), intent(in) :: lowest(:, :), block(:, :)
+      real(wp), intent(inout) :: space(:, :)
+      integer, intent(inout) :: used
+      integer, intent(out) :: fresh
+      real(wp) :: vector(size(block, 1), 1), length, left
+      integer :: k, round
+
+      fresh = 0
+      do k = 1, size(block, 2)
+         if (used == size(space, 2)) return
+         vector(:, 1) = block(:, k)
+         length = length_of(vector(:, 1))
+         if (.not. length > 0) cycle
+         do round = 1, 2
+            call apart%remove(vector)
+            call remove(lowest, vector)
+            call remove(space(:, :used), vector)
+            left = length_of(vector(:, 1))
+            if (left <= new*length) exit
+            vector = vector/left
+            length = 1.0_wp
+         end do
+         if (left <= new*length) cycle
+         used = used + 1
+         fresh = fresh + 1
+         space(:, used) = vector(:, 1)
+      end do
+   end subroutine extend
+
+   !> The vectors of a space with the shortest images, and the lengths of these.
+   subroutine take_lowest(a, space, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      real(wp), intent(in), contiguous :: space(:, :)
+      real(wp), intent(out) :: vectors(:, :), values(:)
+      integer, intent(out) :: status
+      real(wp) :: turned(size(space, 1), size(space, 2)), lengths(size(space, 2))
+
+      turned = space
+      call settle(a, turned, lengths, status)
+      vectors = turned(:, :size(values))
+      values = lengths(:size(values))
+   end subroutine take_lowest
+
+   !> Make vectors orthogonal to orthonormal ones.
+   pure subroutine remove(orthonormal, vectors)
+      real(wp), intent(in) :: orthonormal(:, :)
+      real(wp), intent(inout) :: vectors(:, :)
+      integer :: j, k
+
+      do k = 1, size(vectors, 2)
+         do j = 1, size(orthonormal, 2)
+            vectors(:, k) = vectors(:, k) - dot_product(orthonormal(:, j), vectors(:, k))*orthonormal(:, j)
+         end do
+      end do
+   end subroutine remove
+
+   !> The same numbers between -1 and 1 every time (Park and Miller's generator).
+   pure subroutine fill_at_random(x)
+      real(wp), intent(out) :: x(:, :)
+      integer(int64), parameter :: modulus = 2147483647_int64
+      integer(int64) :: seed
+      integer :: i, k
+
+      seed = 20111_int64
+      do k = 1, size(x, 2)
+         do i = 1, size(x, 1)
+            seed = mod(16807_int64*seed, modulus)
+            x(i, k) = 2*real(seed, wp)/modulus - 1
+         end do
+      end do
+   end subroutine fill_at_random
+
+   !> Orthonormal vectors (rows, wanted) that A' sends to zero: random ones less
+   !> their projections on the range of A, A inverse(F) A'. `known` (rows, k):
+   !> orthonormal directions in the range that the pins hide.
+   subroutine left_null_space(a, pinned, known, wanted, vectors, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(in), contiguous :: known(:, :)
+      integer, intent(in) :: wanted
+      real(wp), allocatable, intent(out) :: vectors(:, :)
+      integer, intent(out) :: status
+      real(wp), allocatable :: image(:, :), step(:, :)
+      integer :: round
+
+      allocate (vectors(a%by_column%rows, wanted))
+      status = 0
+      if (wanted == 0) return
+      allocate (image(a%by_column%columns, wanted), step(a%by_column%rows, wanted))
+      call fill_at_random(vectors)
+      do round = 1, 4
+         call times_transposed(a%by_column, vectors, image)
+         call apply_inverse(pinned, image, status)
+         if (status /= 0) return
+         call times_transposed(a%by_row, image, step)
+         vectors = vectors - step
+         call remove(known, vectors)
+         if (round == 2) call orthonormalise(vectors, status)
+         if (status /= 0) return
+      end do
+      call orthonormalise(vectors, status)
+   end subroutine left_null_space
+end module flexact_null_space

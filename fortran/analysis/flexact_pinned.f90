@@ -1,0 +1,235 @@
+!> A factorisation that tells how many singular values of a matrix A, with no
+!> fewer rows than columns, can be zero, and solves for what belongs to them.
+!>
+!> Some columns P are pinned, so that F = A'A + E_P E_P' - t**2 I is positive
+!> definite. Then at most as many singular values of A as there are pins lie
+!> below t: of one more vector x with |A x| < t |x| some combination would have
+!> x_P = 0, and x'F x < 0. Cholesky's factorisation that runs to its end proves
+!> this up to its rounding, which t is chosen to exceed (Rump, BIT 46, 2006).
+module flexact_pinned
+   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
+   use flexact_kinds, only: wp
+   use flexact_answer, only: options_t, stage_ordering, stage_factorising
+   use flexact_sparse, only: sparse_t
+   use flexact_envelope, only: envelope_t, factorise, solve
+   use flexact_gram, only: gram_t, breadth_first_order, envelope_size, fill_envelope, make_gram, group_graph
+   use flexact_cholmod, only: cholmod_is_there, cholmod_order, cholmod_analyse, cholmod_factor, cholmod_pivots, &
+                              cholmod_solve, cholmod_free
+   implicit none
+   private
+   public :: pinned_t, make_pinned, apply_inverse, release
+   public :: pinned_fine, pinned_no_memory, pinned_not_definite, pinned_no_library
+
+   integer, parameter :: pinned_fine = 0
+   integer, parameter :: pinned_no_memory = 1
+   integer, parameter :: pinned_not_definite = 2
+   integer, parameter :: pinned_no_library = 3
+
+   !> t**2 over the largest diagonal entry of A'A: well above the rounding of the
+   !> factorisation.
+   real(wp), parameter :: least_square = 1.0e-13_wp
+   !> Pivots below this part of the largest diagonal entry are pinned. To pin one
+   !> too many does no harm.
+   real(wp), parameter :: small_pivot = 1.0e-9_wp
+   !> So wide an envelope a column is as quick as any sparse factorisation.
+   real(wp), parameter :: narrow = 40.0_wp
+   integer, parameter :: most_attempts = 12
+
+   type :: pinned_t
+      integer :: n = 0
+      integer :: pins = 0
+      integer, allocatable :: pin(:)
+      !> t: no more singular values than pins are below it.
+      real(wp) :: least = 0.0_wp
+      !> Bytes that the factor needs, where it was too large.
+      real(wp) :: bytes = 0.0_wp
+      logical :: is_narrow = .false.
+      !> Place of each column in the envelope.
+      integer, allocatable :: place_of(:)
+      type(envelope_t) :: envelope
+      type(c_ptr) :: handle = c_null_ptr
+   end type pinned_t
+
+contains
+
+   !> group (columns) ascends: columns of one group share their rows.
+   subroutine make_pinned(by_column, by_row, group, options, pinned, status)
+      type(sparse_t), intent(in) :: by_column, by_row
+      integer, intent(in) :: group(:)
+      type(options_t), intent(in) :: options
+      type(pinned_t), intent(out) :: pinned
+      integer, intent(out) :: status
+      integer :: order(by_column%columns), first(by_column%columns), i
+      real(wp) :: entries, largest
+
+      pinned%n = by_column%columns
+      largest = largest_diagonal(by_column)
+      pinned%least = sqrt(least_square*largest)
+      call breadth_first_order(by_column, by_row, order)
+      allocate (pinned%place_of(pinned%n))
+      do i = 1, pinned%n
+         pinned%place_of(order(i)) = i
+      end do
+      call envelope_size(by_row, pinned%place_of, first, entries)
+      pinned%is_narrow = entries <= narrow*pinned%n
+      if (pinned%is_narrow) then
+         call fill_envelope(by_row, pinned%place_of, first, pinned%least**2, pinned%envelope)
+         allocate (pinned%pin(pinned%n))
+         call factorise(pinned%envelope, small_pivot*largest, pinned%pin, pinned%pins)
+         pinned%pin = order(pinned%pin(:pinned%pins))
+         status = pinned_fine
+      else
+         call factorise_sparse(by_column, by_row, group, largest, options, pinned, status)
+      end if
+   end subroutine make_pinned
+
+   !> The largest diagonal entry of A'A, one where all are zero.
+   pure real(wp) function largest_diagonal(by_column) result(largest)
+      type(sparse_t), intent(in) :: by_column
+      integer :: j
+
+      largest = 0.0_wp
+      do j = 1, by_column%columns
+         largest = max(largest, sum(by_column%value(by_column%start(j):by_column%start(j + 1) - 1)**2))
+      end do
+      if (.not. largest > 0) largest = 1.0_wp
+   end function largest_diagonal
+
+   subroutine factorise_sparse(by_column, by_row, group, largest, options, pinned, status)
+      type(sparse_t), intent(in) :: by_column, by_row
+      integer, intent(in) :: group(:)
+      real(wp), intent(in) :: largest
+      type(options_t), intent(in) :: options
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      type(gram_t) :: gram
+      integer, allocatable :: order(:)
+      real(wp), allocatable :: pivot(:)
+      real(wp) :: entries
+
+      status = pinned_no_library
+      if (cholmod_is_there() == 0) return
+      call options%tell(stage_ordering, 0, 1)
+      call nested_order(by_column, by_row, group, order, status)
+      if (status /= pinned_fine) return
+      call make_gram(by_column, by_row, gram)
+      status = pinned_no_memory
+      pinned%handle = cholmod_analyse(pinned%n, gram%start, gram%place, order, entries)
+      if (.not. c_associated(pinned%handle)) return
+      pinned%bytes = 8*entries
+      if (pinned%bytes > options%memory) return
+      call options%tell(stage_factorising, 0, 1)
+      allocate (pivot(pinned%n))
+      call find_pivots(gram, pinned, pivot, status)
+      if (status == pinned_fine) call factorise_pinned(gram, pivot, largest, pinned, status)
+   end subroutine factorise_sparse
+
+   !> A fill-reducing order of the columns (from 0), found on their groups.
+   subroutine nested_order(by_column, by_row, group, order, status)
+      type(sparse_t), intent(in) :: by_column, by_row
+      integer, intent(in) :: group(:)
+      integer, allocatable, intent(out) :: order(:)
+      integer, intent(out) :: status
+      type(gram_t) :: graph
+      integer, allocatable :: of_groups(:), first(:)
+      integer :: groups, i, j, g
+
+      groups = group(size(group))
+      call group_graph(by_column, by_row, group, groups, graph)
+      allocate (of_groups(groups), order(size(group)), first(groups + 1))
+      status = merge(pinned_fine, pinned_no_memory, cholmod_order(groups, graph%start, graph%place, of_groups) == 0)
+      if (status /= pinned_fine) return
+      first(groups + 1) = size(group) + 1
+      do j = size(group), 1, -1
+         first(group(j)) = j
+      end do
+      i = 0
+      do g = 1, groups
+         do j = first(of_groups(g) + 1), first(of_groups(g) + 2) - 1
+            i = i + 1
+            order(i) = j - 1
+         end do
+      end do
+   end subroutine nested_order
+
+   !> The pivots of A'A, lifted a little so that its factorisation runs to its
+   !> end. They vanish at columns that depend on those before them.
+   subroutine find_pivots(gram, pinned, pivot, status)
+      type(gram_t), intent(inout) :: gram
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(out) :: pivot(:)
+      integer, intent(out) :: status
+
+      gram%value(gram%diagonal) = gram%value(gram%diagonal) + pinned%least**2
+      status = pinned_no_memory
+      select case (cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value))
+      case (0)
+         call cholmod_pivots(pinned%handle, pivot)
+         status = pinned_fine
+      case (1:)
+         status = pinned_not_definite
+      end select
+      gram%value(gram%diagonal) = gram%value(gram%diagonal) - pinned%least**2
+   end subroutine find_pivots
+
+   !> Pin the columns with small pivots and factorise, with more pins where it
+   !> turns out not to be positive definite.
+   subroutine factorise_pinned(gram, pivot, largest, pinned, status)
+      type(gram_t), intent(inout) :: gram
+      real(wp), intent(in) :: pivot(:), largest
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      logical :: is_pinned(pinned%n), is_new(pinned%n)
+      real(wp) :: small
+      integer :: attempt, column, i
+
+      small = small_pivot*largest
+      is_pinned = pivot < small
+      gram%value(gram%diagonal) = gram%value(gram%diagonal) - pinned%least**2
+      where (is_pinned) gram%value(gram%diagonal) = gram%value(gram%diagonal) + 1.0_wp
+      do attempt = 1, most_attempts
+         column = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
+         status = merge(pinned_fine, pinned_no_memory, column == 0)
+         if (column <= 0) exit
+         status = pinned_not_definite
+         small = 4*small
+         is_new = .not. is_pinned .and. pivot < small
+         if (.not. is_pinned(column)) is_new(column) = .true.
+         where (is_new) gram%value(gram%diagonal) = gram%value(gram%diagonal) + 1.0_wp
+         is_pinned = is_pinned .or. is_new
+      end do
+      pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
+      pinned%pins = size(pinned%pin)
+   end subroutine factorise_pinned
+
+   !> x = inverse(F) x, column by column.
+   subroutine apply_inverse(pinned, x, status)
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(inout), contiguous :: x(:, :)
+      integer, intent(out) :: status
+      real(wp) :: y(size(x, 1), size(x, 2))
+      integer :: i
+
+      status = pinned_fine
+      if (size(x) == 0) return
+      if (pinned%is_narrow) then
+         do i = 1, pinned%n
+            y(pinned%place_of(i), :) = x(i, :)
+         end do
+         call solve(pinned%envelope, y)
+         do i = 1, pinned%n
+            x(i, :) = y(pinned%place_of(i), :)
+         end do
+      else
+         if (cholmod_solve(pinned%handle, pinned%n, size(x, 2), x, y) /= 0) status = pinned_no_memory
+         x = y
+      end if
+   end subroutine apply_inverse
+
+   subroutine release(pinned)
+      type(pinned_t), intent(inout) :: pinned
+
+      if (c_associated(pinned%handle)) call cholmod_free(pinned%handle)
+      pinned%handle = c_null_ptr
+   end subroutine release
+end module flexact_pinned

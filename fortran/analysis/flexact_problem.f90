@@ -1,0 +1,55 @@
+!> D(c) of a model as a sparse matrix, its scales and its connected parts.
+module flexact_problem
+   use flexact_kinds, only: wp
+   use flexact_model, only: model_t
+   use flexact_jacobian, only: jacobian_t, make_jacobian
+   use flexact_partition, only: partition_t, make_partition
+   use flexact_parts, only: parts_t, find_parts
+   use flexact_scaling, only: scaling_t, make_scaling
+   use flexact_sparse, only: sparse_t, compress, transposed
+   implicit none
+   private
+   public :: problem_t, make_problem
+
+   type :: problem_t
+      type(partition_t) :: partition
+      type(scaling_t) :: scaling
+      !> Reference length of each element [m], (elements).
+      real(wp), allocatable :: length(:)
+      !> D(c), and the scaled matrix by columns and by rows.
+      type(sparse_t) :: jacobian, by_column, by_row
+      type(parts_t) :: parts
+   end type problem_t
+
+contains
+
+   pure subroutine make_problem(model, problem)
+      type(model_t), intent(in) :: model
+      type(problem_t), intent(out) :: problem
+      type(jacobian_t) :: jacobian
+      integer, allocatable :: row(:), column(:)
+      integer :: entry, j
+
+      call make_partition(model, problem%partition)
+      call make_jacobian(model, model%node_value, jacobian)
+      call make_scaling(model, problem%partition, jacobian, problem%scaling)
+      call move_alloc(jacobian%length, problem%length)
+      allocate (row(jacobian%entries), column(jacobian%entries))
+      do entry = 1, jacobian%entries
+         row(entry) = problem%partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
+         column(entry) = problem%partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
+      end do
+      associate (count => problem%partition%count, scaling => problem%scaling)
+         call compress(count%rows, count%columns, row, column, jacobian%value(:jacobian%entries), problem%jacobian)
+         problem%by_column = problem%jacobian
+         do j = 1, count%columns
+            do entry = problem%jacobian%start(j), problem%jacobian%start(j + 1) - 1
+               problem%by_column%value(entry) = problem%jacobian%value(entry)*scaling%column(j) &
+                                                *scaling%row(problem%jacobian%place(entry))
+            end do
+         end do
+      end associate
+      call transposed(problem%by_column, problem%by_row)
+      call find_parts(problem%by_column, problem%by_row, problem%parts)
+   end subroutine make_problem
+end module flexact_problem

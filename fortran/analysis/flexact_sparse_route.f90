@@ -1,0 +1,412 @@
+!> Rank and null spaces part by part from pinned Cholesky factorisations.
+!>
+!> Two independent routes lead to the count of zeros of a part: vectors that D(c)
+!> itself sends to zero show that there are so many, and a factorisation that
+!> runs to its end shows that there are no more (`flexact_pinned`).
+module flexact_sparse_route
+   use flexact_kinds, only: wp
+   use flexact_answer, only: options_t, answer_t, most_pairs, status_no_library, &
+                             stage_motions, stage_stresses, stage_values
+   use flexact_decomposition, only: status_fine, status_no_convergence, status_no_memory
+   use flexact_basis, only: basis_t, new_basis
+   use flexact_local, only: find_local_vectors
+   use flexact_many, only: find_many
+   use flexact_modes, only: untangle, add_modes, add_sparse_modes
+   use flexact_null_space, only: operator_t, pinned_space, next_space, left_null_space
+   use flexact_pairs, only: offer_pair
+   use flexact_pinned, only: pinned_t, make_pinned, release, pinned_fine, pinned_no_memory, pinned_no_library
+   use flexact_problem, only: problem_t
+   use flexact_rank, only: rank_t, decide_rank
+   use flexact_sort, only: sort_descending
+   use flexact_sparse, only: part_of, transposed, times_transposed, norm_bound
+   implicit none
+   private
+   public :: analyse_sparse
+
+   !> A part, or its transpose, so that there are no fewer rows than columns.
+   type :: part_t
+      logical :: is_turned = .false.
+      type(operator_t) :: matrix
+      !> Where the rows and columns of the matrix stand in D(c), and which of its
+      !> columns belong to one node (or element).
+      integer, allocatable :: row(:), column(:), group(:)
+   end type part_t
+
+   !> The low end of a part: values ascend; vectors (columns, k) and the directions
+   !> of their images (rows, k). The first `pins` of them span what was pinned.
+   type :: low_end_t
+      integer :: pins = 0
+      !> Vectors with the value zero that live on few columns, beside those, and the
+      !> same made orthonormal.
+      type(basis_t) :: local, apart
+      real(wp), allocatable :: values(:), vectors(:, :), images(:, :)
+      type(rank_t) :: decision
+   end type low_end_t
+
+   !> From this size on a part is gone through once, with all care.
+   integer, parameter :: large = 1000
+   integer, parameter :: most_values = 256
+   !> So many pins are dealt with together; more where they live.
+   integer, parameter :: few = 16
+   integer, parameter :: most_dense = 400
+   !> Of more than so many vectors of the longer side the first are given.
+   integer, parameter :: most_left = 64
+   integer, parameter :: first_left = 12
+
+contains
+
+   subroutine analyse_sparse(problem, options, answer)
+      type(problem_t), intent(in) :: problem
+      type(options_t), intent(in) :: options
+      type(answer_t), intent(inout) :: answer
+      integer :: candidate(most_pairs), i, missing
+      real(wp) :: lowest(most_pairs), estimate
+      real(wp), allocatable :: zeros(:)
+      integer, allocatable :: new_row(:)
+      logical :: careful
+
+      allocate (zeros(0))
+      allocate (new_row(max(problem%by_column%rows, problem%by_column%columns)), source=0)
+      candidate = 0
+      lowest = huge(1.0_wp)
+      do i = 1, problem%parts%count
+         careful = problem%parts%count <= most_pairs .or. size_of(problem, i) >= large
+         call take_part(problem, options, i, careful, .true., new_row, answer, zeros, estimate)
+         if (answer%status /= status_fine) return
+         if (.not. careful) call keep_lowest(estimate, i, lowest, candidate)
+      end do
+      do i = 1, most_pairs
+         if (candidate(i) == 0) exit
+         call take_part(problem, options, candidate(i), .true., .false., new_row, answer, zeros, estimate)
+         if (answer%status /= status_fine) return
+      end do
+      call sort_descending(zeros)
+      ! Zeros of a matrix whose parts are not all of full shape.
+      missing = min(problem%by_column%rows, problem%by_column%columns)
+      do i = 1, problem%parts%count
+         missing = missing - size_of(problem, i)
+      end do
+      answer%scaled_values = [answer%pair_value(size(answer%pair_value):1:-1), zeros, [(0.0_wp, i=1, missing)]]
+      allocate (answer%singular_values(0))
+   end subroutine analyse_sparse
+
+   pure integer function size_of(problem, i)
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: i
+      size_of = min(problem%parts%row_start(i + 1) - problem%parts%row_start(i), &
+                    problem%parts%column_start(i + 1) - problem%parts%column_start(i))
+   end function size_of
+
+   !> Keep a part among those whose smallest non-zero values are the smallest.
+   pure subroutine keep_lowest(estimate, part, lowest, candidate)
+      real(wp), intent(in) :: estimate
+      integer, intent(in) :: part
+      real(wp), intent(inout) :: lowest(:)
+      integer, intent(inout) :: candidate(:)
+      integer :: at
+
+      at = count(lowest <= estimate) + 1
+      if (at > size(lowest)) return
+      lowest(at + 1:) = lowest(at:size(lowest) - 1)
+      candidate(at + 1:) = candidate(at:size(candidate) - 1)
+      lowest(at) = estimate
+      candidate(at) = part
+   end subroutine keep_lowest
+
+   !> Count the zeros of part i, add its modes, and offer its smallest non-zero
+   !> values, where it is gone through with care; else only estimate the smallest.
+   !> first_time: the zeros and modes have not been taken yet.
+   subroutine take_part(problem, options, i, careful, first_time, new_row, answer, zeros, estimate)
+      type(problem_t), intent(in) :: problem
+      type(options_t), intent(in) :: options
+      integer, intent(in) :: i
+      logical, intent(in) :: careful, first_time
+      integer, intent(inout) :: new_row(:)
+      type(answer_t), intent(inout) :: answer
+      real(wp), allocatable, intent(inout) :: zeros(:)
+      real(wp), intent(out) :: estimate
+      type(part_t) :: part
+      type(pinned_t) :: pinned
+      type(low_end_t) :: low
+      integer :: rank, k
+
+      estimate = huge(estimate)
+      call make_part(problem, i, new_row, part)
+      if (size(part%column) == 0) then
+         if (first_time) call add_unit(part, answer)
+         return
+      end if
+      call make_pinned(part%matrix%by_column, part%matrix%by_row, part%group, options, pinned, answer%status)
+      if (answer%status == pinned_fine) then
+         call find_low_end(part, pinned, problem, options, careful, low, answer)
+         if (answer%status == status_fine .and. first_time) call add_null_spaces(problem, options, part, pinned, low, answer)
+      else
+         call translate(pinned, answer)
+      end if
+      call release(pinned)
+      if (answer%status /= status_fine) return
+      rank = count(low%values > low%decision%tolerance)
+      if (first_time) then
+         zeros = [zeros, pack(low%values, low%values <= low%decision%tolerance), [(0.0_wp, k=1, low%local%vectors)]]
+         answer%decision%rank = answer%decision%rank + size(part%column) - (size(low%values) - rank) - low%local%vectors
+         answer%decision%noise = max(answer%decision%noise, low%decision%noise)
+         answer%decision%tolerance = max(answer%decision%tolerance, low%decision%tolerance)
+      end if
+      if (rank > 0) estimate = minval(low%values, low%values > low%decision%tolerance)
+      if (careful) call offer_all(part, low, answer)
+   end subroutine take_part
+
+   pure subroutine translate(pinned, answer)
+      type(pinned_t), intent(in) :: pinned
+      type(answer_t), intent(inout) :: answer
+
+      answer%bytes = pinned%bytes
+      select case (answer%status)
+      case (pinned_no_memory)
+         answer%status = status_no_memory
+      case (pinned_no_library)
+         answer%status = status_no_library
+      case default
+         answer%status = status_no_convergence
+      end select
+   end subroutine translate
+
+   !> Cut part i out of the scaled matrix.
+   pure subroutine make_part(problem, i, new_row, part)
+      type(problem_t), intent(in) :: problem
+      integer, intent(in) :: i
+      integer, intent(inout) :: new_row(:)
+      type(part_t), intent(out) :: part
+      integer :: j
+
+      associate (p => problem%parts)
+         part%row = p%row(p%row_start(i):p%row_start(i + 1) - 1)
+         part%column = p%column(p%column_start(i):p%column_start(i + 1) - 1)
+      end associate
+      part%is_turned = size(part%row) < size(part%column)
+      if (part%is_turned) call swap(part%row, part%column)
+      new_row(part%row) = [(j, j=1, size(part%row))]
+      allocate (part%group(size(part%column)))
+      if (part%is_turned) then
+         call part_of(problem%by_row, size(part%row), part%column, new_row, part%matrix%by_column)
+         call number_groups(problem%partition%row_label(1, part%column), part%group)
+      else
+         call part_of(problem%by_column, size(part%row), part%column, new_row, part%matrix%by_column)
+         call number_groups(problem%partition%column_label(1, part%column), part%group)
+      end if
+      call transposed(part%matrix%by_column, part%matrix%by_row)
+   end subroutine make_part
+
+   pure subroutine swap(a, b)
+      integer, allocatable, intent(inout) :: a(:), b(:)
+      integer, allocatable :: c(:)
+
+      call move_alloc(a, c)
+      call move_alloc(b, a)
+      call move_alloc(c, b)
+   end subroutine swap
+
+   !> Number the runs of equal labels.
+   pure subroutine number_groups(label, group)
+      integer, intent(in) :: label(:)
+      integer, intent(out) :: group(:)
+      integer :: j
+
+      do j = 1, size(label)
+         if (j == 1) then
+            group(j) = 1
+         else
+            group(j) = group(j - 1) + merge(0, 1, label(j) == label(j - 1))
+         end if
+      end do
+   end subroutine number_groups
+
+   !> A row without columns is a self-stress by itself, a column without rows a motion.
+   pure subroutine add_unit(part, answer)
+      type(part_t), intent(in) :: part
+      type(answer_t), intent(inout) :: answer
+
+      if (part%is_turned) then
+         call answer%motions%add(part%row, [1.0_wp])
+      else
+         call answer%stresses%add(part%row, [1.0_wp])
+      end if
+   end subroutine add_unit
+
+   !> The smallest singular values, as many as the decision needs.
+   subroutine find_low_end(part, pinned, problem, options, careful, low, answer)
+      type(part_t), intent(in) :: part
+      type(pinned_t), intent(in) :: pinned
+      type(problem_t), intent(in) :: problem
+      type(options_t), intent(in) :: options
+      logical, intent(in) :: careful
+      type(low_end_t), intent(out) :: low
+      type(answer_t), intent(inout) :: answer
+      real(wp), allocatable :: spanned(:, :), next(:, :), in_pins(:), beyond(:)
+      integer, allocatable :: pin(:)
+      integer :: rest, wanted, k
+
+      if (size(part%column) >= large) call options%tell(stage_motions, 0, 1)
+      call split_pins(part, pinned, low, pin, answer)
+      if (answer%status /= status_fine) return
+      call pinned_space(part%matrix, pinned, pin, low%apart, spanned, in_pins, answer%status)
+      if (answer%status /= status_fine) return
+      if (size(part%column) >= large) call options%tell(stage_values, 0, 1)
+      rest = size(part%column) - pinned%pins
+      wanted = min(rest, merge(most_pairs, 1, careful))
+      do
+         call next_space(part%matrix, pinned, low%apart, spanned, wanted, careful, next, beyond, answer%status)
+         if (answer%status /= status_fine) return
+         low%decision = decide_rank(problem%scaling, [norm_bound(part%matrix%by_column), beyond(wanted:1:-1), &
+                                                      in_pins(size(pin):1:-1)], options%tolerance)
+         if (wanted == rest) exit
+         if (beyond(wanted) > low%decision%tolerance) exit
+         wanted = min(rest, 4*wanted)
+         if (wanted > most_values) then
+            answer%confirmed = .false.
+            exit
+         end if
+      end do
+      low%pins = size(pin)
+      low%values = [in_pins, beyond]
+      allocate (low%vectors(size(part%column), size(low%values)))
+      low%vectors(:, :low%pins) = spanned
+      low%vectors(:, low%pins + 1:) = next
+      allocate (low%images(size(part%row), size(low%values)))
+      call times_transposed(part%matrix%by_row, low%vectors, low%images)
+      do k = 1, size(low%values)
+         if (low%values(k) > 0) low%images(:, k) = low%images(:, k)/low%values(k)
+      end do
+   end subroutine find_low_end
+
+   !> Find the vectors of many pins where they live; `pin` lists the other pins.
+   subroutine split_pins(part, pinned, low, pin, answer)
+      type(part_t), intent(in) :: part
+      type(pinned_t), intent(in) :: pinned
+      type(low_end_t), intent(inout) :: low
+      integer, allocatable, intent(out) :: pin(:)
+      type(answer_t), intent(inout) :: answer
+      integer :: i
+
+      call new_basis(low%local)
+      call new_basis(low%apart)
+      pin = pinned%pin
+      if (pinned%pins <= few) return
+      call find_local_vectors(part%matrix, pinned%pin, low%local, pin)
+      call add_sparse_modes(low%local, [(i, i=1, size(part%column))], [(1.0_wp, i=1, size(part%column))], low%apart, &
+                            answer%status)
+      if (size(pin) <= most_dense) return
+      answer%confirmed = .false.
+      pin = pin(:most_dense)
+   end subroutine split_pins
+
+   !> Add the vectors of both null spaces to the answer.
+   subroutine add_null_spaces(problem, options, part, pinned, low, answer)
+      type(problem_t), intent(in) :: problem
+      type(options_t), intent(in) :: options
+      type(part_t), intent(in) :: part
+      type(pinned_t), intent(in) :: pinned
+      type(low_end_t), intent(in) :: low
+      type(answer_t), intent(inout) :: answer
+      real(wp), allocatable :: right(:, :), left(:, :)
+      type(basis_t) :: many
+      logical :: is_zero(size(low%values))
+      integer :: k
+
+      is_zero = low%values <= low%decision%tolerance
+      right = low%vectors(:, pack([(k, k=1, size(is_zero))], is_zero))
+      if (size(part%column) >= large) call options%tell(stage_stresses, 0, 1)
+      call new_basis(many)
+      call find_left(problem, options, part, pinned, low, is_zero, left, many, answer%status)
+      if (answer%status /= status_fine) return
+      call untangle(right)
+      call untangle(left)
+      associate (scaling => problem%scaling)
+         if (part%is_turned) then
+            call add_both(low%local, right, part%column, scaling%row(part%column), answer%stresses, answer%status)
+            call add_both(many, left, part%row, scaling%column(part%row), answer%motions, answer%status)
+         else
+            call add_both(low%local, right, part%column, scaling%column(part%column), answer%motions, answer%status)
+            call add_both(many, left, part%row, scaling%row(part%row), answer%stresses, answer%status)
+         end if
+      end associate
+   end subroutine add_null_spaces
+
+   subroutine add_both(sparse, dense, place, scale, basis, status)
+      type(basis_t), intent(in) :: sparse
+      real(wp), intent(inout) :: dense(:, :)
+      integer, intent(in) :: place(:)
+      real(wp), intent(in) :: scale(:)
+      type(basis_t), intent(inout) :: basis
+      integer, intent(inout) :: status
+
+      if (status == status_fine) call add_sparse_modes(sparse, place, scale, basis, status)
+      if (status == status_fine) call add_modes(dense, place, scale, basis, status)
+   end subroutine add_both
+
+   !> The left null space: as few dense vectors, or as many sparse ones, or the
+   !> first of very many.
+   subroutine find_left(problem, options, part, pinned, low, is_zero, left, many, status)
+      type(problem_t), intent(in) :: problem
+      type(options_t), intent(in) :: options
+      type(part_t), intent(in) :: part
+      type(pinned_t), intent(in) :: pinned
+      type(low_end_t), intent(in) :: low
+      logical, intent(in) :: is_zero(:)
+      real(wp), allocatable, intent(out) :: left(:, :)
+      type(basis_t), intent(inout) :: many
+      integer, intent(out) :: status
+      real(wp), allocatable :: projected(:, :)
+      integer, allocatable :: hidden(:), lifted(:)
+      integer :: k, wanted
+
+      hidden = pack([(k, k=1, low%pins)],.not. is_zero(:low%pins))
+      lifted = pack([(k, k=low%pins + 1, size(is_zero))], is_zero(low%pins + 1:))
+      wanted = size(part%row) - size(part%column) + pinned%pins - size(hidden)
+      if (wanted > most_left .and. options%every_vector .and. size(lifted) == 0) then
+         allocate (left(size(part%row), 0))
+         call find_many_left(problem, part, options, many, status)
+         return
+      end if
+      call left_null_space(part%matrix, pinned, low%images(:, hidden), merge(first_left, wanted, wanted > most_left), &
+                           projected, status)
+      if (status /= status_fine) return
+      allocate (left(size(part%row), size(projected, 2) + size(lifted)))
+      left(:, :size(projected, 2)) = projected
+      left(:, size(projected, 2) + 1:) = low%images(:, lifted)
+   end subroutine find_left
+
+   subroutine find_many_left(problem, part, options, many, status)
+      type(problem_t), intent(in) :: problem
+      type(part_t), intent(in) :: part
+      type(options_t), intent(in) :: options
+      type(basis_t), intent(out) :: many
+      integer, intent(out) :: status
+      type(operator_t) :: turned
+      integer :: group(size(part%row))
+
+      turned = operator_t(part%matrix%by_row, part%matrix%by_column)
+      if (part%is_turned) then
+         call number_groups(problem%partition%column_label(1, part%row), group)
+      else
+         call number_groups(problem%partition%row_label(1, part%row), group)
+      end if
+      call find_many(turned, group, options, many, status)
+   end subroutine find_many_left
+
+   pure subroutine offer_all(part, low, answer)
+      type(part_t), intent(in) :: part
+      type(low_end_t), intent(in) :: low
+      type(answer_t), intent(inout) :: answer
+      integer :: k
+
+      do k = 1, size(low%values)
+         if (low%values(k) <= low%decision%tolerance) cycle
+         if (part%is_turned) then
+            call offer_pair(answer, low%values(k), part%row, low%images(:, k), part%column, low%vectors(:, k))
+         else
+            call offer_pair(answer, low%values(k), part%column, low%vectors(:, k), part%row, low%images(:, k))
+         end if
+      end do
+   end subroutine offer_all
+end module flexact_sparse_route
