@@ -25,7 +25,9 @@ lint: .venv/ready-to-test
 	$(BIN)/mypy
 	$(BIN)/fprettify --diff --recursive fortran tests/fortran | (! grep .)
 
+# Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test
+	$(BIN)/python -c 'import matplotlib' 2>/dev/null || $(BIN)/python -m pip install -q 'matplotlib>=3.8'
 	$(BIN)/python tests/benchmarks/run.py
 
 clean:

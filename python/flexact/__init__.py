@@ -11,13 +11,14 @@ from .handles import Element, Node, Sheet
 from .model import Model
 from .modes import Motion, SelfStress
 from .reading import read, read_text
-from .verdict import ClassCounts, Counts, Gap, Verdict
+from .verdict import Certainty, ClassCounts, Counts, Gap, Margin, Nearly, Verdict
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Analysis",
     "AnalysisError",
+    "Certainty",
     "ClassCounts",
     "Configuration",
     "Counts",
@@ -27,9 +28,11 @@ __all__ = [
     "FlexactError",
     "Gap",
     "Jacobian",
+    "Margin",
     "Model",
     "ModelError",
     "Motion",
+    "Nearly",
     "Node",
     "Place",
     "SelfStress",

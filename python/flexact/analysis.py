@@ -7,24 +7,48 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from . import _boundary, memory
+from . import _boundary, memory, remedies
 from .configuration import Labels, column_labels, jacobian, row_labels
 from .diagnostics import Diagnostic, FlexactError, Severity
-from .exchange import FloatArray, RawAnalysis
+from .exchange import Basis, FloatArray, IntArray, RawAnalysis
 from .frozen import Frozen
 from .model import Model
 from .model_data import ModelData
-from .modes import Motion, SelfStress
+from .modes import Modes, Motion, SelfStress
+from .progress import Progress, told
 from .reading import read
-from .verdict import ClassCounts, Counts, Gap, Verdict
+from .verdict import Certainty, ClassCounts, Counts, Gap, Margin, Nearly, Verdict
 
 if TYPE_CHECKING:
     import meshio
 
+    from .certainty import Assessment
+    from .pairs import Pair
+
 #: A smallest non-zero singular value below this part of the largest is worth a warning.
 _NEARLY_ZERO = 1.0e-5
+
+
+#: What the core says by its status.
+_FAILURES = {
+    1: "the decomposition of D(c) did not converge",
+    5: "this build of Flexact has no SuiteSparse, which the method 'sparse' needs: install it "
+    "(apt-get install libsuitesparse-dev), then build Flexact again",
+}
+
+
+class Asked(NamedTuple):
+    """How an analysis was asked to be done."""
+
+    method: str = "auto"
+    """One of `flexact._boundary.METHODS`."""
+    tolerance: float | None = None
+    """None: it follows from the data and the arithmetic."""
+
+
+_PLAIN = Asked()
 
 
 class AnalysisError(FlexactError):
@@ -39,11 +63,13 @@ class Analysis(Frozen):
         name: What the deck or model is called.
         data: The model at the time of the analysis.
         raw: The results as the core gives them.
+        asked: The method and the tolerance that were asked for.
     """
 
     name: str
     data: ModelData
     raw: RawAnalysis
+    asked: Asked = _PLAIN
 
     @property
     def model(self) -> Model:
@@ -84,13 +110,37 @@ class Analysis(Frozen):
 
     @property
     def singular_values(self) -> FloatArray:
-        """(min(m, n),) singular values of D(c) in the model's units, descending, eq. (16)."""
+        """Singular values of D(c) in the model's units, descending, eq. (16).
+
+        All min(m, n) of them, or, of a large model, the smallest; see `singular_values_given`.
+        """
         return self.raw.singular_values
 
     @property
     def scaled_singular_values(self) -> FloatArray:
-        """(min(m, n),) singular values of the scaled D(c), on which the rank is decided."""
+        """Likewise those of the scaled D(c), on which the rank is decided."""
         return self.raw.scaled_values
+
+    @property
+    def singular_values_given(self) -> str:
+        """Which singular values there are: "all" or the "smallest"."""
+        given = min(self.singular_values.size, self.scaled_singular_values.size)
+        return "all" if given == min(self.rows, self.columns) else "smallest"
+
+    @property
+    def _values_left_out(self) -> int:
+        """How many of the largest singular values are not given."""
+        return min(self.rows, self.columns) - self.scaled_singular_values.size
+
+    @property
+    def method(self) -> str:
+        """How D(c) was decomposed: svd, jacobi, qr or sparse."""
+        return self.raw.method
+
+    @property
+    def parts(self) -> int:
+        """Number of connected parts of D(c), which are decomposed one by one."""
+        return self.raw.parts
 
     @property
     def tolerance(self) -> float:
@@ -108,20 +158,75 @@ class Analysis(Frozen):
     @cached_property
     def gap(self) -> Gap:
         """Smallest non-zero and largest zero of the scaled singular values."""
-        values, rank = self.scaled_singular_values, self.rank
+        values, pairs = self.scaled_singular_values, self.raw.pair_value
+        rank = max(self.rank - self._values_left_out, 0)
+        # Where only zeros are given, the core may know the value above them all the same.
+        above = values[rank - 1] if rank > 0 else next(iter(pairs), None) if self.rank else None
         return Gap(
-            float(values[rank - 1]) if rank > 0 else None,
+            None if above is None else float(above),
             float(values[rank]) if rank < values.size else None,
         )
+
+    @cached_property
+    def assessment(self) -> Assessment:
+        """What is to be thought of the decision on the rank (`flexact.certainty`)."""
+        from .certainty import assess
+
+        return assess(self)
+
+    @property
+    def certainty(self) -> Certainty:
+        """`CERTAIN`, or `NEARLY` where rounding or the method leaves a doubt."""
+        return self.assessment.certainty
+
+    @property
+    def nearly(self) -> Nearly | None:
+        """The counts that hold if every singular value in doubt is zero; None without doubt."""
+        return self.assessment.nearly
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Sentences that say why the decision is not certain."""
+        return tuple(doubt.sentence for doubt in self.assessment.doubts)
+
+    @cached_property
+    def pairs(self) -> tuple[Pair, ...]:
+        """What moves the smallest singular values that are not zero, ascending."""
+        from .pairs import of_nonzeros
+
+        return of_nonzeros(self)
+
+    @cached_property
+    def zero_pairs(self) -> tuple[tuple[Pair, ...], ...]:
+        """For each zero what may lift it (`flexact.pairs`)."""
+        from .pairs import of_zeros
+
+        return of_zeros(self)
+
+    @cached_property
+    def margins(self) -> tuple[Margin, ...]:
+        """Of each zero, and of the smallest other singular values (`flexact.margin`)."""
+        from .margin import margins
+
+        return margins(self)
+
+    @property
+    def margin(self) -> Margin:
+        """The smallest misalignment that would change the verdict: a length and an angle."""
+        from .margin import margin
+
+        return margin(self)
 
     @cached_property
     def condition_number(self) -> float | None:
         """Largest over smallest singular value of D(c), in the model's units.
 
-        None where D(c) is rank-deficient or empty, or the quotient is not finite.
+        None where D(c) is rank-deficient or empty, the quotient is not finite, or the largest
+        is not given.
         """
         values = self.singular_values
-        if values.size == 0 or self.rank < values.size or not values[-1] > 0.0:
+        full = self.rank == min(self.rows, self.columns) == values.size > 0
+        if not full or not values[-1] > 0.0:
             return None
         quotient = float(values[0]) / float(values[-1])
         return quotient if math.isfinite(quotient) else None
@@ -147,21 +252,30 @@ class Analysis(Frozen):
         """Node number and coordinate name of each column of D(c)."""
         return column_labels(self.data.arrays, self.raw.column_label - 1)
 
-    @cached_property
-    def motions(self) -> tuple[Motion, ...]:
+    @property
+    def motions(self) -> Modes[Motion]:
         """Motions that nothing determines: an orthonormal basis, from V of eq. (16).
 
-        Where there are several, single ones depend on the choice of the basis.
+        Where there are several, single ones depend on the choice of the basis. Where there
+        are so many that they would not fit, only the first are here; where thousands belong
+        to one part of D(c), they need not be orthogonal.
         """
-        return tuple(Motion(k, self) for k in range(self.under_constrained))
+        return Modes(Motion, self)
+
+    @property
+    def self_stresses(self) -> Modes[SelfStress]:
+        """Stresses without load: an orthonormal basis, from U of eq. (16); see `motions`."""
+        return Modes(SelfStress, self)
 
     @cached_property
-    def self_stresses(self) -> tuple[SelfStress, ...]:
-        """Stresses without load: an orthonormal basis, from U of eq. (16).
+    def motion_space(self) -> Basis:
+        """Orthonormal basis of the motions, weighted as `flexact.remedies` does."""
+        return remedies.motion_space(self)
 
-        Where there are several, single ones depend on the choice of the basis.
-        """
-        return tuple(SelfStress(k, self) for k in range(self.over_constrained))
+    @cached_property
+    def stress_space(self) -> Basis:
+        """Orthonormal basis of the self-stresses, weighted as `flexact.remedies` does."""
+        return remedies.stress_space(self)
 
     @cached_property
     def warnings(self) -> tuple[Diagnostic, ...]:
@@ -169,22 +283,17 @@ class Analysis(Frozen):
         return (*self.data.problems.kept, *self._warnings_of_the_decision())
 
     def _warnings_of_the_decision(self) -> Iterator[Diagnostic]:
-        (small, zero), values = self.gap, self.scaled_singular_values
-        if small is not None and small < _NEARLY_ZERO * values[0]:
+        doubts = self.assessment.doubts
+        for doubt in doubts:
+            yield Diagnostic(Severity.WARNING, doubt.code, doubt.sentence, help=doubt.help)
+        small, largest = self.gap.smallest_nonzero, max(self.scaled_singular_values, default=0.0)
+        if small is not None and small < _NEARLY_ZERO * largest and not doubts:
             yield Diagnostic(
                 Severity.WARNING,
                 "close-decision",
-                f"the smallest singular value that counts as non-zero is {small / values[0]:.1e} "
-                "of the largest: the rank may hang on digits of the coordinates that were left out",
-                help="give the coordinates with more digits, or look at the geometry",
-            )
-        if zero is not None and zero > self.raw.noise:
-            yield Diagnostic(
-                Severity.WARNING,
-                "rounded-coordinates",
-                f"singular values up to {zero:.1e} count as zero because the coordinates are "
-                "given with so many digits only",
-                help="give the coordinates with all their digits",
+                f"the smallest singular value that counts as non-zero is {small / largest:.1e} "
+                "of the largest: a small misalignment would change the verdict",
+                help="look at the margin, and at the geometry",
             )
 
     def dense_jacobian(self) -> FloatArray:
@@ -204,10 +313,10 @@ class Analysis(Frozen):
         return dictionary_of(self)
 
     def to_json(self) -> str:
-        """One line of JSON; numbers read back to the last bit."""
-        import json
+        """One line of JSON, of `to_dict`; numbers read back to the last bit."""
+        from .json_result import text_of
 
-        return json.dumps(self.to_dict(), allow_nan=False)
+        return text_of(self)
 
     def to_meshio(self) -> meshio.Mesh:
         """The mechanism with its motions and self-stresses as a mesh (`flexact.mesh`)."""
@@ -238,7 +347,12 @@ class Analysis(Frozen):
 
 
 def analyse(
-    model: Model | str | bytes | os.PathLike[str] | os.PathLike[bytes], *, name: str | None = None
+    model: Model | str | bytes | os.PathLike[str] | os.PathLike[bytes],
+    *,
+    method: str = "auto",
+    tolerance: float | None = None,
+    name: str | None = None,
+    progress: Progress | None = None,
 ) -> Analysis:
     """Decide whether a mechanism is exactly, under- or over-constrained.
 
@@ -247,42 +361,83 @@ def analyse(
 
     Args:
         model: A model, or the path of a deck.
+        method: How D(c) is decomposed: `auto` chooses by size and structure; `svd`;
+            `jacobi`, small singular values to high relative accuracy; `qr`, an estimate;
+            `sparse`, for large models.
+        tolerance: Singular values of the scaled D(c) up to this one count as zero; by
+            default it follows from the data and the arithmetic.
         name: What the result is called; by default the model's name or the path.
+        progress: Called with what is being done and how much of that is done, from 0 to 1,
+            some times a second.
 
     Raises:
-        DeckError: the deck is wrong.
+        DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
-        AnalysisError: the model is too large for the memory, or the decomposition
-            did not converge.
-        TypeError: what is given is neither a model nor a path, or the name is no text.
+        AnalysisError: the model is too large for the memory, the decomposition did not
+            converge, or this build lacks what the method needs.
+        TypeError: what is given is neither a model nor a path, or the tolerance no number,
+            or the method or the name no text.
+        ValueError: there is no such method, or the tolerance is negative or not finite.
     """
     if not isinstance(model, (Model, str, bytes, os.PathLike)):
         kind = type(model).__name__
         raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
     if not isinstance(name, (str, type(None))):
         raise TypeError(f"the name of a result must be text, not {type(name).__name__}")
+    asked = Asked(_checked_method(method), _checked_tolerance(tolerance))
     if not isinstance(model, Model):
         model = read(model)
     data = model.data
     data.require_sound()
-    count = data.count
-    if not memory.is_enough(count.rows, count.columns):
-        raise AnalysisError(_too_large(count.rows, count.columns))
+    raw = _decompose(data, asked, progress)
+    return Analysis(data.name if name is None else name, data, raw, asked)
+
+
+def _checked_method(method: str) -> str:
+    if not isinstance(method, str):
+        raise TypeError(f"a method is given by its name, not by {type(method).__name__}")
+    if method not in _boundary.METHODS:
+        choices = ", ".join(_boundary.METHODS)
+        raise ValueError(f"there is no method {method!r}; choose from {choices}")
+    return method
+
+
+def _checked_tolerance(tolerance: float | None) -> float | None:
+    if tolerance is None:
+        return None
+    if isinstance(tolerance, (str, bytes, bytearray, bool)):
+        raise TypeError(f"the tolerance must be a number, not {type(tolerance).__name__}")
     try:
-        raw = _boundary.analyse_model(data.arrays, count.rows, count.columns)
+        value = float(tolerance)
+    except TypeError:
+        kind = type(tolerance).__name__
+        raise TypeError(f"the tolerance must be a number, not {kind}") from None
+    if not (math.isfinite(value) and value >= 0.0):
+        raise ValueError(f"the tolerance must be finite and not negative, not {value}")
+    return value
+
+
+def _decompose(data: ModelData, asked: Asked, progress: Progress | None) -> RawAnalysis:
+    rows, columns = data.count.rows, data.count.columns
+    room = memory.allowance()
+
+    def work(stage: IntArray | None) -> RawAnalysis:
+        return _boundary.analyse_model(data.arrays, rows, columns, *asked, stage, room)
+
+    try:
+        raw = work(None) if progress is None else told(work, progress)
     except MemoryError:
-        raise AnalysisError(_too_large(count.rows, count.columns)) from None
-    if raw.status == 1:
-        raise AnalysisError("the singular value decomposition of D(c) did not converge")
+        raise AnalysisError(_too_large(rows, columns, None)) from None
     if raw.status == 2:
-        raise AnalysisError(_too_large(count.rows, count.columns))
+        raise AnalysisError(_too_large(rows, columns, raw.bytes_needed))
     if raw.status:
-        raise AnalysisError(f"the core refused the model (status {raw.status})")
-    return Analysis(data.name if name is None else name, data, raw)
+        raise AnalysisError(_FAILURES.get(raw.status, f"the core failed (status {raw.status})"))
+    return raw
 
 
-def _too_large(rows: int, columns: int) -> str:
+def _too_large(rows: int, columns: int, needed: float | None) -> str:
+    size = "" if needed is None else f"about {needed / 1e9:.3g} GB of memory, "
     return (
-        f"D(c) has {rows} rows and {columns} columns; its decomposition needs about "
-        f"{memory.needed(rows, columns) / 1e9:.3g} GB of memory, more than there is"
+        f"D(c) has {rows} rows and {columns} columns; its decomposition needs {size}"
+        f"more {'' if size else 'memory '}than there is"
     )

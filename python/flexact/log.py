@@ -9,20 +9,50 @@ import numpy as np
 
 from . import __version__
 from .analysis import Analysis
+from .exchange import FloatArray
 from .words import describe
 
+#: So many motions, and so many self-stresses, are told one by one.
+MOST_MODES = 1000
 
-def log_text(analysis: Analysis) -> str:
-    """The words, every singular value, what the rows and columns of D(c) are, and versions."""
-    return "\n".join((describe(analysis), "", *_sections(analysis))) + "\n"
+
+def log_text(analysis: Analysis, *, most_in_mesh: int | None = None) -> str:
+    """The words, every singular value, what the rows and columns of D(c) are, and versions.
+
+    Args:
+        analysis: The result.
+        most_in_mesh: How many motions, and how many self-stresses, a mesh beside the log
+            holds at most.
+    """
+    words = describe(analysis, most=MOST_MODES)
+    return "\n".join((words, *_left_out(analysis, most_in_mesh), "", *_sections(analysis))) + "\n"
+
+
+def _left_out(analysis: Analysis, most_in_mesh: int | None) -> Iterator[str]:
+    for count, what in (
+        (analysis.under_constrained, "motions"),
+        (analysis.over_constrained, "self-stresses"),
+    ):
+        if most_in_mesh is not None and count > most_in_mesh:
+            yield f"The mesh holds the first {most_in_mesh} of {count} {what}."
+
+
+def _last(values: FloatArray, count: int) -> list[str]:
+    """The last of `count` singular values, behind dashes for those that are not given."""
+    return ["-"] * (count - values.size) + [f"{value:.16e}" for value in values.tolist()]
 
 
 def _sections(analysis: Analysis) -> Iterator[str]:
-    yield "Singular values of D(c), and of the scaled matrix on which its rank is decided"
-    pairs = zip(analysis.singular_values, analysis.scaled_singular_values, strict=True)
-    for number, (value, scaled) in enumerate(pairs, start=1):
+    smallest = analysis.singular_values_given == "smallest"
+    which = "The smallest singular values" if smallest else "Singular values"
+    yield f"{which} of D(c), and of the scaled matrix on which its rank is decided"
+    values, scaled_values = analysis.singular_values, analysis.scaled_singular_values
+    count = max(values.size, scaled_values.size)
+    first = min(analysis.rows, analysis.columns) - count + 1
+    pairs = zip(_last(values, count), _last(scaled_values, count), strict=True)
+    for number, (value, scaled) in enumerate(pairs, start=first):
         zero = "  counts as zero" if number > analysis.rank else ""
-        yield f"  {number:5d}  {value:23.16e}  {scaled:23.16e}{zero}"
+        yield f"  {number:5d}  {value:>23}  {scaled:>23}{zero}"
     yield f"  tolerance on the scaled values: {analysis.tolerance:.16e}"
     yield from ("", "Rows of D(c)")
     for number, (element, deformation) in enumerate(analysis.row_labels, start=1):

@@ -9,18 +9,17 @@ import os
 _SMALL = 2**26
 
 
-def needed(rows: int, columns: int) -> float:
-    """Bytes for D(c), its copies, U, V and the work of the decomposition.
+def dense_needed(rows: int, columns: int) -> float:
+    """Bytes for D(c), or one of its parts, its copies, U, V and the work of the decomposition.
 
     Peaks that were measured, up to 3136 x 2175, are about 0.7 of it.
     """
     return (3.0 * rows * columns + rows * rows + columns * columns) * 8 * 1.5
 
 
-def is_enough(rows: int, columns: int) -> bool:
-    """Whether D(c) of this size can be decomposed."""
-    bytes_needed = needed(rows, columns)
-    return bytes_needed <= _SMALL or bytes_needed <= available()
+def allowance() -> float:
+    """Bytes that an analysis may use: what is not worth a look, or what there is."""
+    return max(_SMALL, available())
 
 
 def available() -> float:

@@ -16,6 +16,8 @@ Cell data
     both ends are a constant moment, and planar beams count as in space. RBEAM, PINBODY and
     PLRBEAM have no axis: N is the magnitude of their force. HINGE: T about its axis, My and Mz
     the other two. PLHINGE: Mz.
+
+Of very many motions or self-stresses only the first are there; see `most_modes`.
 """
 
 from __future__ import annotations
@@ -36,6 +38,18 @@ if TYPE_CHECKING:
     import meshio
 
 Integers = NDArray[np.int64]
+
+#: So many motions, and so many self-stresses, are in a mesh at most, and so many at least;
+#: between the two it is as many as give so many numbers.
+_MOST = 200
+_LEAST = 6
+_NUMBERS = 20_000_000
+
+
+def most_modes(analysis: Analysis) -> int:
+    """So many motions, and so many self-stresses, a mesh of this analysis holds at most."""
+    numbers = 12 * analysis.data.arrays.element_number.size  # two points an element
+    return min(max(_NUMBERS // max(numbers, 1), _LEAST), _MOST)
 
 
 def to_meshio(analysis: Analysis) -> meshio.Mesh:
@@ -68,7 +82,7 @@ def to_meshio(analysis: Analysis) -> meshio.Mesh:
 
 def _point_values(analysis: Analysis, scene: _Scene) -> dict[str, NDArray[np.generic]]:
     values: dict[str, NDArray[np.generic]] = {"node": scene.at_points(scene.number, scene.node)}
-    for k, motion in enumerate(analysis.motions, start=1):
+    for k, motion in enumerate(analysis.motions[: most_modes(analysis)], start=1):
         values[f"motion_{k}"] = scene.at_points(motion.displacement, scene.node)
         values[f"motion_{k}_rotation"] = scene.at_points(motion.rotation, scene.turning_node)
     return values
@@ -76,7 +90,7 @@ def _point_values(analysis: Analysis, scene: _Scene) -> dict[str, NDArray[np.gen
 
 def _cell_values(analysis: Analysis, scene: _Scene) -> dict[str, NDArray[np.generic]]:
     values: dict[str, NDArray[np.generic]] = {"element": scene.element, "kind": scene.kind}
-    for k, stress in enumerate(analysis.self_stresses, start=1):
+    for k, stress in enumerate(analysis.self_stresses[: most_modes(analysis)], start=1):
         for name, resultant in _resultants(scene.kind, stress).items():
             values[f"selfstress_{k}_{name}"] = resultant
     return values
@@ -154,14 +168,20 @@ def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]])
     for a, b in hinges:
         beyond[a].append(b)
         beyond[b].append(a)
+    nowhere: set[int] = set()
     for start in [node for node in places if not places[node]]:
-        joined, around = [start], Counter[int]()
+        if start in nowhere:
+            continue
+        joined, around, found = [start], Counter[int](), {start}
         for node in joined:
             for other in beyond[node]:
                 if places[other]:
                     around.update(dict.fromkeys(places[other], 1))
-                elif other not in joined:
+                elif other not in found:
+                    found.add(other)
                     joined.append(other)
+        if not around:
+            nowhere |= found
         for node in joined:
             places[node] = [place for place, _ in around.most_common(1)]
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from operator import eq
+from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .elements import Dual, NodeKind, dual_table
-from .exchange import FloatArray
+from .elements import Dual, NodeKind, coordinate_name, dual_table
+from .exchange import Basis, FloatArray, IntArray
 from .frozen import Frozen
 
 if TYPE_CHECKING:
@@ -18,34 +20,41 @@ if TYPE_CHECKING:
 
 #: Parts of a mode below this part of its largest are not named.
 _UNNAMED = 1.0e-9
+#: So many modes of a row stand in its `repr`.
+_TOLD = 12
 
 
-def column_weights(analysis: Analysis) -> FloatArray:
-    """(n,) 1 for a displacement, the characteristic length for a rotation."""
-    kinds = analysis.data.arrays.node_kind[analysis.raw.column_label[0] - 1]
+#: Rows or columns of D(c): all of them, or those of an array.
+Places = IntArray | slice
+_ALL = slice(None)
+
+
+def column_weights(analysis: Analysis, columns: Places = _ALL) -> FloatArray:
+    """(columns,) 1 for a displacement, the characteristic length for a rotation."""
+    kinds = analysis.data.arrays.node_kind[analysis.raw.column_label[0, columns] - 1]
     return np.where(kinds <= NodeKind.POSITION, 1.0, analysis.characteristic_length)
 
 
-def row_duals(analysis: Analysis) -> NDArray[np.int32]:
-    """(m,) `Dual` of each row of D(c)."""
-    element, deformation = analysis.raw.row_label - 1
+def row_duals(analysis: Analysis, rows: Places = _ALL) -> NDArray[np.int32]:
+    """(rows,) `Dual` of rows of D(c)."""
+    element, deformation = analysis.raw.row_label[:, rows] - 1
     table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
     return table
 
 
-def row_factors(analysis: Analysis) -> FloatArray:
-    """(m,) what makes a force or a moment of a stress resultant: 1, or l0 [m]."""
-    over_length = row_duals(analysis) == Dual.MOMENT_OVER_LENGTH
-    return np.where(over_length, analysis.raw.length[analysis.raw.row_label[0] - 1], 1.0)
+def row_factors(analysis: Analysis, rows: Places = _ALL) -> FloatArray:
+    """(rows,) what makes a force or a moment of a stress resultant: 1, or l0 [m]."""
+    over_length = row_duals(analysis, rows) == Dual.MOMENT_OVER_LENGTH
+    return np.where(over_length, analysis.raw.length[analysis.raw.row_label[0, rows] - 1], 1.0)
 
 
-def row_weights(analysis: Analysis) -> FloatArray:
-    """(m,) what makes a stress resultant comparable with a force.
+def row_weights(analysis: Analysis, rows: Places = _ALL) -> FloatArray:
+    """(rows,) what makes a stress resultant comparable with a force.
 
     A moment is divided by the characteristic length.
     """
-    moment = row_duals(analysis) != Dual.FORCE
-    return row_factors(analysis) / np.where(moment, analysis.characteristic_length, 1.0)
+    moment = row_duals(analysis, rows) != Dual.FORCE
+    return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)
 
 
 def ranked(weighted: FloatArray, most: int) -> list[int]:
@@ -55,12 +64,19 @@ def ranked(weighted: FloatArray, most: int) -> list[int]:
     if not largest > 0.0:
         return []
     rounded = np.round(size / largest, 9)
-    order = np.argsort(-rounded, kind="stable")
-    chosen: list[int] = order[rounded[order] > _UNNAMED][:most].tolist()
+    least = np.partition(rounded, -most)[-most] if 0 < most < size.size else 0.0
+    able = np.flatnonzero((rounded > _UNNAMED) & (rounded >= least))
+    chosen: list[int] = able[np.argsort(-rounded[able], kind="stable")][:most].tolist()
     return chosen
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+def _entries(basis: Basis, index: int) -> tuple[IntArray, FloatArray]:
+    """Places and values of what is stored of a vector."""
+    part = slice(int(basis.start[index]), int(basis.start[index + 1]))
+    return basis.place[part], basis.value[part]
+
+
+@dataclass(frozen=True, repr=False)
 class Motion(Frozen):
     """A kinematically indeterminate motion: velocities that nothing determines.
 
@@ -91,10 +107,11 @@ class Motion(Frozen):
 
     def _at_nodes(self, positions: bool) -> FloatArray:
         kinds = self.analysis.data.arrays.node_kind
-        node, axis = self.analysis.raw.column_label - 1
+        place, value = _entries(self.analysis.raw.motions, self.index)
+        node, axis = self.analysis.raw.column_label[:, place] - 1
         chosen = (kinds[node] <= NodeKind.POSITION) == positions
         made = np.zeros((kinds.size, 3))
-        made[node[chosen], axis[chosen]] = self.vector[chosen]
+        made[node[chosen], axis[chosen]] = value[chosen]
         made.flags.writeable = False
         return made
 
@@ -103,9 +120,13 @@ class Motion(Frozen):
 
         Rotations are compared with displacements by the characteristic length.
         """
-        order = ranked(self.vector * column_weights(self.analysis), k)
-        labels = self.analysis.column_labels
-        return [(*labels[i], float(self.vector[i])) for i in order]
+        analysis = self.analysis
+        place, value = _entries(analysis.raw.motions, self.index)
+        order = ranked(value * column_weights(analysis, place), k)
+        node, axis = analysis.raw.column_label[:, place[order]] - 1
+        numbers = analysis.data.arrays.node_number[node].tolist()
+        names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
+        return list(zip(numbers, names, value[order].tolist(), strict=True))
 
     def __repr__(self) -> str:
         """Its largest parts."""
@@ -113,7 +134,7 @@ class Motion(Frozen):
         return f"<Motion {self.index + 1}: {parts}>"
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, repr=False)
 class SelfStress(Frozen):
     """A statically indeterminate stress: stress resultants that need no load.
 
@@ -146,9 +167,10 @@ class SelfStress(Frozen):
         return self._at_elements(moments=True)
 
     def _at_elements(self, moments: bool) -> FloatArray:
-        element, deformation = self.analysis.raw.row_label - 1
-        chosen = (row_duals(self.analysis) != Dual.FORCE) == moments
-        values = self.vector * row_factors(self.analysis)
+        place, value = _entries(self.analysis.raw.stresses, self.index)
+        element, deformation = self.analysis.raw.row_label[:, place] - 1
+        chosen = (row_duals(self.analysis, place) != Dual.FORCE) == moments
+        values = value * row_factors(self.analysis, place)
         made = np.zeros((self.analysis.data.arrays.element_number.size, 6))
         made[element[chosen], deformation[chosen]] = values[chosen]
         made.flags.writeable = False
@@ -159,12 +181,62 @@ class SelfStress(Frozen):
 
         Moments are compared with forces by the characteristic length.
         """
-        order = ranked(self.vector * row_weights(self.analysis), k)
-        values = self.vector * row_factors(self.analysis)
-        labels = self.analysis.row_labels
-        return [(*labels[i], float(values[i])) for i in order]
+        analysis = self.analysis
+        place, value = _entries(analysis.raw.stresses, self.index)
+        order = ranked(value * row_weights(analysis, place), k)
+        element, deformation = analysis.raw.row_label[:, place[order]]
+        numbers = analysis.data.arrays.element_number[element - 1].tolist()
+        values = value[order] * row_factors(analysis, place[order])
+        return list(zip(numbers, deformation.tolist(), values.tolist(), strict=True))
 
     def __repr__(self) -> str:
         """Its largest parts."""
         parts = ", ".join(f"element {e}, {d}: {v:.4g}" for e, d, v in self.largest(4))
         return f"<SelfStress {self.index + 1}: {parts}>"
+
+
+Mode = TypeVar("Mode", Motion, SelfStress)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes(Frozen, Sequence[Mode], Generic[Mode]):
+    """Motions or self-stresses in a row, like a tuple; each is made when it is asked for.
+
+    Attributes:
+        kind: What they are.
+        analysis: The analysis that they belong to.
+    """
+
+    kind: type[Mode]
+    analysis: Analysis
+
+    def __len__(self) -> int:
+        """How many are given: all, or, where there are very many, the first."""
+        raw = self.analysis.raw
+        return (raw.motions if self.kind is Motion else raw.stresses).vectors
+
+    @overload
+    def __getitem__(self, index: int) -> Mode: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Mode, ...]: ...
+    def __getitem__(self, index: int | slice) -> Mode | tuple[Mode, ...]:
+        """One of them, or a tuple of several."""
+        chosen = range(len(self))[index]
+        if isinstance(chosen, range):
+            return tuple(self.kind(k, self.analysis) for k in chosen)
+        return self.kind(chosen, self.analysis)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the same ones stand in another row or tuple."""
+        if not isinstance(other, (Modes, tuple)):
+            return NotImplemented
+        return len(self) == len(other) and all(map(eq, self, other))
+
+    def __hash__(self) -> int:
+        """As of any object that does not change."""
+        return hash((self.kind, self.analysis))
+
+    def __repr__(self) -> str:
+        """The first ones."""
+        told = [repr(mode) for mode in self[:_TOLD]]
+        return f"({', '.join(told)}{', ...' if len(self) > _TOLD else ''})"

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .exchange import FloatArray
-from .stored_answer import NUMBERS, Projector, StoredAnswer
+from .images import Images, fixed_vectors
+from .stored_answer import NUMBERS, Kept, Projector, StoredAnswer
 
 MOST_NAMED = 6
 
@@ -24,7 +25,7 @@ class Tolerances:
 
     Attributes:
         singular_values: Largest difference, as a fraction of the largest singular value.
-        projectors: Largest difference of an entry of a projector.
+        projectors: Largest difference of an entry of a projector, or of an image under one.
     """
 
     singular_values: float = 1e-9
@@ -40,7 +41,7 @@ def differences(
     """What differs from a stored answer, a sentence each; empty where nothing does."""
     return (
         *_in_counts(stored, found),
-        *_in_singular_values(stored.singular_values, found.singular_values, tolerances),
+        *_in_singular_values(stored, found, tolerances),
         *_in_subspaces("motions", "node", stored.motions, found.motions, tolerances),
         *_in_subspaces(
             "self-stresses", "element", stored.self_stresses, found.self_stresses, tolerances
@@ -63,44 +64,89 @@ def _in_counts(stored: StoredAnswer, found: StoredAnswer) -> Iterator[str]:
 
 
 def _in_singular_values(
-    stored: FloatArray, found: FloatArray, tolerances: Tolerances
+    stored: StoredAnswer, found: StoredAnswer, tolerances: Tolerances
 ) -> Iterator[str]:
-    if len(stored) != len(found):
-        yield f"singular values: {len(found)}, stored {len(stored)}"
+    (before, all_before), (now, all_now) = _singular_values(stored), _singular_values(found)
+    if all_before and all_now and len(before) != len(now):
+        yield f"singular values: {len(now)}, stored {len(before)}"
         return
-    if not len(stored):
-        return
-    apart = np.abs(stored - found)
-    largest = float(np.max(np.abs(stored), initial=0.0))
+    common = min(len(before), len(now))
+    before, now = before[len(before) - common :], now[len(now) - common :]
+    largest = float(np.max(np.abs(before), initial=0.0))
+    if not (all_before and all_now):
+        # The largest is not known; it is about one or more, since D(c) holds unit vectors.
+        largest = max(largest, 1.0)
+    apart = np.abs(before - now)
     wrong = ~(apart <= tolerances.singular_values * largest)
     if wrong.any():
         k = int(np.argmax(apart))
+        number = min(stored.numbers["rows"], stored.numbers["columns"]) - common + k + 1
         yield (
-            f"singular values: {int(wrong.sum())} of {len(stored)} differ; the largest difference "
-            f"is in number {k + 1}: {float(found[k])!r}, stored {float(stored[k])!r}"
+            f"singular values: {int(wrong.sum())} of {common} differ; the largest difference "
+            f"is in number {number}: {float(now[k])!r}, stored {float(before[k])!r}"
         )
 
 
+def _singular_values(answer: StoredAnswer) -> tuple[FloatArray, bool]:
+    """Singular values, and whether they are all there."""
+    least = min(answer.numbers["rows"], answer.numbers["columns"])
+    return answer.singular_values, len(answer.singular_values) >= least
+
+
 def _in_subspaces(
-    name: str, owner: str, stored: Projector, found: Projector, tolerances: Tolerances
+    name: str, owner: str, stored: Kept, found: Kept, tolerances: Tolerances
 ) -> Iterator[str]:
-    labels = tuple(dict.fromkeys((*stored.labels, *found.labels)))
-    before, now = _spread(stored, labels), _spread(found, labels)
-    apart = float(np.max(np.abs(before - now), initial=0.0))
-    if apart <= tolerances.projectors:
+    if stored is None or found is None:
         return
-    dimensions = round(float(np.trace(before))), round(float(np.trace(now)))
-    if dimensions[0] == dimensions[1]:
-        angle = math.degrees(math.asin(min(1.0, float(np.linalg.norm(before - now, 2)))))
-        what = f"the subspace turned by {angle:.2g} degrees"
+    labels = tuple(dict.fromkeys((*stored.labels, *found.labels)))
+    if isinstance(stored, Projector) and isinstance(found, Projector):
+        before, now = _spread(stored, labels), _spread(found, labels)
+        what = _how_projectors_differ
     else:
-        what = f"{dimensions[1]}, stored {dimensions[0]}"
-    yield "; ".join((f"{name}: {what}", *_who(owner, labels, before, now)))
+        before, now = _images(stored, labels), _images(found, labels)
+        what = _how_images_differ
+    if float(np.max(np.abs(before - now), initial=0.0)) <= tolerances.projectors:
+        return
+    shares = _shares(stored, labels), _shares(found, labels)
+    yield "; ".join((f"{name}: {what(before, now)}", *_who(owner, labels, *shares)))
+
+
+def _how_projectors_differ(before: FloatArray, now: FloatArray) -> str:
+    dimensions = round(float(np.trace(before))), round(float(np.trace(now)))
+    if dimensions[0] != dimensions[1]:
+        return f"{dimensions[1]}, stored {dimensions[0]}"
+    angle = math.degrees(math.asin(min(1.0, float(np.linalg.norm(before - now, 2)))))
+    return f"the subspace turned by {angle:.2g} degrees"
+
+
+def _how_images_differ(before: FloatArray, now: FloatArray) -> str:
+    apart = float(np.max(np.abs(before - now)))
+    return f"projections on the subspace differ by up to {apart:.2g}"
+
+
+def _images(kept: Projector | Images, labels: tuple[str, ...]) -> FloatArray:
+    """(labels, vectors) images of the fixed vectors."""
+    of_kept = kept.values if isinstance(kept, Images) else kept.matrix @ fixed_vectors(kept.labels)
+    made = np.zeros((len(labels), of_kept.shape[1]))
+    made[_places(kept, labels)] = of_kept
+    return made
+
+
+def _shares(kept: Projector | Images, labels: tuple[str, ...]) -> FloatArray:
+    """(labels,) how far each reaches into the subspace, as far as what is kept tells."""
+    of_kept = np.diag(kept.matrix) if isinstance(kept, Projector) else (kept.values**2).sum(axis=1)
+    made = np.zeros(len(labels))
+    made[_places(kept, labels)] = of_kept
+    return made
+
+
+def _places(kept: Projector | Images, labels: tuple[str, ...]) -> list[int]:
+    place = {label: k for k, label in enumerate(labels)}
+    return [place[label] for label in kept.labels]
 
 
 def _spread(projector: Projector, labels: tuple[str, ...]) -> FloatArray:
-    place = {label: k for k, label in enumerate(labels)}
-    index = [place[label] for label in projector.labels]
+    index = _places(projector, labels)
     matrix = np.zeros((len(labels), len(labels)))
     matrix[np.ix_(index, index)] = projector.matrix
     return matrix
@@ -119,6 +165,6 @@ def _who(owner: str, labels: tuple[str, ...], before: FloatArray, now: FloatArra
             yield f"{who} {named}{more} {before_verb}{takes} part{after}"
 
 
-def _taking_part(labels: tuple[str, ...], projector: FloatArray) -> set[int]:
-    share = np.diag(projector) > TAKES_PART**2
-    return {int(label.split(":")[0]) for label, used in zip(labels, share, strict=True) if used}
+def _taking_part(labels: tuple[str, ...], shares: FloatArray) -> set[int]:
+    parts = shares > TAKES_PART**2
+    return {int(label.split(":")[0]) for label, used in zip(labels, parts, strict=True) if used}

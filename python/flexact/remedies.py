@@ -5,6 +5,8 @@ far each coordinate or deformation reaches into the space, its leverage: the nor
 row in an orthonormal basis, with rotations and moments made comparable by the
 characteristic length. A coordinate that is no column of D(c) reaches into the
 self-stresses by the reaction that they cause there.
+
+Of thousands of vectors that hang together the leverage is not exact; see `subspace`.
 """
 
 from __future__ import annotations
@@ -16,8 +18,9 @@ from numpy.typing import NDArray
 
 from .configuration import assembled
 from .elements import AXES, Class, Dual, NodeKind, dual_table
-from .exchange import FloatArray, RawAssembly
+from .exchange import Basis, FloatArray, RawAssembly
 from .modes import column_weights, ranked, row_weights
+from .subspace import Sparse, norms_of_product, orthonormal, row_norms, support_of
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -36,12 +39,12 @@ def releases(analysis: Analysis) -> list[int]:
 
     Rows of independent deformations are not among them; see `driven_deformations`.
     """
-    return _largest(_norms(_rows_of_class(analysis, Class.FIXED)))
+    return _largest(_leverage_of_class(analysis, Class.FIXED))
 
 
 def release_set(analysis: Analysis) -> list[int]:
     """Rows of D(c) that remove all self-stresses when all of them are released."""
-    return _independent_rows(_rows_of_class(analysis, Class.FIXED))
+    return _independent_rows(analysis.stress_space, _is_of_class(analysis, Class.FIXED))
 
 
 def driven_deformations(analysis: Analysis) -> Deformations:
@@ -49,7 +52,7 @@ def driven_deformations(analysis: Analysis) -> Deformations:
 
     To release one in place of its declaration removes a self-stress.
     """
-    rows = _largest(_norms(_rows_of_class(analysis, Class.INDEPENDENT)))
+    rows = _largest(_leverage_of_class(analysis, Class.INDEPENDENT))
     labels = analysis.raw.row_label[:, rows].T.tolist()
     return [(element - 1, deformation) for element, deformation in labels]
 
@@ -66,12 +69,12 @@ def supports(analysis: Analysis) -> Coordinates:
 
 def coordinates(analysis: Analysis) -> list[int]:
     """Columns of D(c) that can be fixed or made independent to remove a motion."""
-    return _largest(_norms(_motions(analysis)))
+    return _largest(row_norms(analysis.motion_space))
 
 
 def coordinate_set(analysis: Analysis) -> list[int]:
     """Columns of D(c) that remove all motions when all are fixed or made independent."""
-    return _independent_rows(_motions(analysis))
+    return _independent_rows(analysis.motion_space)
 
 
 def deformations(analysis: Analysis) -> Deformations:
@@ -80,17 +83,18 @@ def deformations(analysis: Analysis) -> Deformations:
     To hold one, or to make it independent, removes a motion.
     """
     arrays = analysis.data.arrays
+    released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
+    if not released.any():
+        return []
     whole = _assembled(analysis)
-    motions = _motions(analysis) / column_weights(analysis)[:, None]
     node, axis = analysis.raw.column_label - 1
-    velocity = np.zeros((3 * arrays.node_number.size, motions.shape[1]))
-    velocity[3 * node + axis] = motions
-    size = 6 * arrays.element_number.size
-    rates = _norms_of_product(whole.row_of, whole.column_of, whole.value, velocity, size)
+    column = _inverse(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
+    chosen = released[whole.row_of] & (column >= 0)
+    matrix = Sparse(whole.row_of, column, whole.value, released.size).only(chosen)
+    value = matrix.value / column_weights(analysis)[matrix.column_of]
+    rates = norms_of_product(matrix._replace(value=value), analysis.motion_space)
     angle = dual_table()[arrays.element_kind] == Dual.MOMENT
-    weight = np.where(angle, analysis.characteristic_length, 1.0)
-    released = arrays.deformation_class.T == Class.DEPENDENT
-    leverage = np.where(released, weight, 0.0).ravel() * rates
+    leverage = np.where(angle, analysis.characteristic_length, 1.0).ravel() * rates
     return [(row // 6, row % 6 + 1) for row in _largest(leverage)]
 
 
@@ -108,91 +112,96 @@ def _assembled(analysis: Analysis) -> RawAssembly:
     return assembled(model, model.reference())
 
 
-def _motions(analysis: Analysis) -> FloatArray:
-    """(n, motions) orthonormal basis of the motions, rotations in lengths."""
-    return _orthonormal(column_weights(analysis), analysis.raw.motions.toarray())
+def motion_space(analysis: Analysis) -> Basis:
+    """Orthonormal basis of the motions, rotations in lengths."""
+    return orthonormal(analysis.raw.motions, column_weights(analysis))
 
 
-def _stresses(analysis: Analysis) -> FloatArray:
-    """(m, self-stresses) as `_motions`, moments in forces."""
-    return _orthonormal(row_weights(analysis), analysis.raw.stresses.toarray())
+def stress_space(analysis: Analysis) -> Basis:
+    """Orthonormal basis of the self-stresses, moments in forces."""
+    return orthonormal(analysis.raw.stresses, row_weights(analysis))
 
 
-def _rows_of_class(analysis: Analysis, wanted: Class) -> FloatArray:
-    """`_stresses`, zero where the deformation is of another class."""
+def _is_of_class(analysis: Analysis, wanted: Class) -> NDArray[np.bool_]:
+    """(m,) whether the deformation of a row is of a class."""
     element, deformation = analysis.raw.row_label - 1
-    classes = analysis.data.arrays.deformation_class[deformation, element]
-    return np.where((classes == wanted)[:, None], _stresses(analysis), 0.0)
+    is_wanted: NDArray[np.bool_] = (
+        analysis.data.arrays.deformation_class[deformation, element] == wanted
+    )
+    return is_wanted
+
+
+def _leverage_of_class(analysis: Analysis, wanted: Class) -> FloatArray:
+    """(m,) leverage in the self-stresses, zero where the deformation is of another class."""
+    return np.where(_is_of_class(analysis, wanted), row_norms(analysis.stress_space), 0.0)
 
 
 def _with_reaction(analysis: Analysis, wanted: Class) -> Coordinates:
     """Coordinates of a class on which the self-stresses act, the largest reaction first."""
     classes = analysis.data.arrays.coordinate_class.T
-    if not (classes == wanted).any():
+    able = (classes == wanted).ravel()
+    if not able.any():
         return []
-    reaction = np.where((classes == wanted).ravel(), _reactions(analysis), 0.0)
-    return [(place // 3, place % 3) for place in _largest(reaction)]
+    return [(place // 3, place % 3) for place in _largest(_reactions(analysis, able))]
 
 
-def _reactions(analysis: Analysis) -> FloatArray:
-    """(3 nodes,) reactions to the self-stresses by coordinate, sigma^T D, moments in forces.
+def _reactions(analysis: Analysis, able: NDArray[np.bool_]) -> FloatArray:
+    """(3 nodes,) reactions to the self-stresses at some coordinates, sigma^T D, as forces.
 
     Zero where nothing is left of what the elements contribute.
     """
     arrays = analysis.data.arrays
     whole = _assembled(analysis)
-    sigma = _stresses(analysis) / row_weights(analysis)[:, None]
     element, deformation = analysis.raw.row_label - 1
-    of_row = np.zeros((6 * arrays.element_number.size, sigma.shape[1]))
-    of_row[6 * element + deformation] = sigma
+    row = _inverse(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
+    chosen = able[whole.column_of] & (row >= 0)
+    matrix = Sparse(whole.column_of, row, whole.value, able.size).only(chosen)
     turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
     weight = 1.0 / np.where(turned, analysis.characteristic_length, 1.0)
-    value = whole.value * weight[whole.column_of]
+    value = matrix.value * weight[matrix.row_of] / row_weights(analysis)[matrix.column_of]
+    space = analysis.stress_space
     reaction, contributed = (
-        _norms_of_product(whole.column_of, whole.row_of, entries, stresses, turned.size)
-        for entries, stresses in ((value, of_row), (np.abs(value), np.abs(of_row)))
+        norms_of_product(matrix._replace(value=entries), stresses)
+        for entries, stresses in (
+            (value, space),
+            (np.abs(value), space._replace(value=np.abs(space.value))),
+        )
     )
     return np.where(reaction > _NOTHING * contributed, reaction, 0.0)
 
 
-def _norms_of_product(
-    row_of: NDArray[np.int32],
-    column_of: NDArray[np.int32],
-    value: FloatArray,
-    basis: FloatArray,
-    size: int,
-) -> FloatArray:
-    """(size,) norms of the rows of a sparse matrix times a basis, vector by vector."""
-    total = np.zeros(size)
-    for vector in basis.T:
-        total += np.bincount(row_of, value * vector[column_of], size) ** 2
-    return np.sqrt(total)
-
-
-def _orthonormal(weights: FloatArray, basis: FloatArray) -> FloatArray:
-    """Orthonormal basis of the weighted space."""
-    q: FloatArray = np.linalg.qr(weights[:, None] * basis)[0]
-    return q
-
-
-def _norms(rows: FloatArray) -> FloatArray:
-    norms: FloatArray = np.sqrt(np.einsum("ij,ij->i", rows, rows))
-    return norms
+def _inverse(places: NDArray[np.integer], size: int) -> NDArray[np.int64]:
+    """(size,) where each of `size` numbers stands among the places, -1 where it does not."""
+    made = np.full(size, -1)
+    made[places] = np.arange(places.size)
+    return made
 
 
 def _largest(leverage: FloatArray) -> list[int]:
-    return [i for i in ranked(leverage, leverage.size) if leverage[i] > _NOTHING]
+    order = np.array(ranked(leverage, leverage.size), np.int64)
+    chosen: list[int] = order[leverage[order] > _NOTHING].tolist()
+    return chosen
 
 
-def _independent_rows(basis: FloatArray) -> list[int]:
-    """Rows that span the space together, each as far from the ones before as can be."""
-    rest = basis.copy()
+def _independent_rows(basis: Basis, able: NDArray[np.bool_] | None = None) -> list[int]:
+    """Rows that span the space together, each as far from the ones before as can be.
+
+    Only of `able` rows, if given.
+    """
+    support = support_of(basis)
+    if able is not None:
+        support = support[able[support]]
+    place = _inverse(support, basis.size)[basis.place]
+    there = place >= 0
+    rest = np.zeros((support.size, basis.vectors))
+    rest[place[there], basis.of_entries()[there]] = basis.value[there]
     chosen: list[int] = []
-    for _ in range(basis.shape[1]):
-        first = ranked(_norms(rest), 1)
-        if not first or _norms(rest)[first[0]] < _NOTHING:
+    for _ in range(basis.vectors):
+        norms = np.sqrt(np.einsum("ij,ij->i", rest, rest))
+        first = ranked(norms, 1)
+        if not first or norms[first[0]] < _NOTHING:
             break
-        direction = rest[first[0]] / np.linalg.norm(rest[first[0]])
+        direction = rest[first[0]] / norms[first[0]]
         rest -= np.outer(rest @ direction, direction)
-        chosen.append(first[0])
+        chosen.append(int(support[first[0]]))
     return chosen

@@ -2,27 +2,33 @@
 
 A stored answer keeps what does not depend on the sign, order or basis that a decomposition
 happens to choose: verdict, counts, rank, singular values, and the two null spaces of D(c) as
-orthogonal projectors V V' and U U'.
+orthogonal projectors V V' and U U'. Of a projector that is too large its images of a few fixed
+vectors are kept, and nothing of a null space of which not all vectors are given.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import __version__
 from .analysis import Analysis
 from .batch import BatchError, reason_of
-from .exchange import FloatArray
-from .modes import Motion, SelfStress
+from .configuration import column_labels, row_labels
+from .exchange import Basis, FloatArray
+from .images import VECTORS, Images, fixed_vectors, project
+from .subspace import support_of
 
 FORMAT = 1
+#: Projectors that reach more labels than this are kept by their images.
+LARGEST_PROJECTOR = 1000
 SMALLEST_ENTRY = 1e-14
 NUMBERS = ("rank", "rows", "columns", "under_constrained", "over_constrained", "degrees_of_freedom")
 
@@ -45,6 +51,10 @@ class Projector:
     matrix: FloatArray
 
 
+#: A subspace as it is kept; None where it is not known as a whole.
+Kept = Projector | Images | None
+
+
 @dataclass(frozen=True)
 class StoredAnswer:
     """What is kept of an analysis.
@@ -55,7 +65,7 @@ class StoredAnswer:
         verdict: The verdict in words.
         numbers: rank, rows, columns, under_constrained, over_constrained, degrees_of_freedom.
         counts: By ``coordinates`` and ``deformations``, then by class.
-        singular_values: Of D(c), descending, (min(rows, columns),).
+        singular_values: Of D(c), descending: all min(rows, columns), or the smallest.
         motions: Projector onto the null space of D(c).
         self_stresses: Projector onto the null space of its transpose.
     """
@@ -66,12 +76,16 @@ class StoredAnswer:
     numbers: Mapping[str, int]
     counts: Mapping[str, Mapping[str, int]]
     singular_values: FloatArray
-    motions: Projector
-    self_stresses: Projector
+    motions: Kept
+    self_stresses: Kept
 
 
 def answer_of(analysis: Analysis) -> StoredAnswer:
     """What is kept of an analysis."""
+    arrays, raw = analysis.data.arrays, analysis.raw
+    motions, stresses = support_of(raw.motions), support_of(raw.stresses)
+    nodes = column_labels(arrays, raw.column_label[:, motions] - 1)
+    elements = row_labels(arrays, raw.row_label[:, stresses] - 1)
     return StoredAnswer(
         deck=analysis.name,
         source=f"flexact {__version__}",
@@ -79,19 +93,25 @@ def answer_of(analysis: Analysis) -> StoredAnswer:
         numbers={name: int(getattr(analysis, name)) for name in NUMBERS},
         counts={name: part._asdict() for name, part in analysis.counts._asdict().items()},
         singular_values=analysis.singular_values,
-        motions=_project(analysis.column_labels, analysis.motions),
-        self_stresses=_project(analysis.row_labels, analysis.self_stresses),
+        motions=_kept(_within(raw.motions, motions), nodes, analysis.under_constrained),
+        self_stresses=_kept(_within(raw.stresses, stresses), elements, analysis.over_constrained),
     )
 
 
-def _project(
-    labels: Sequence[tuple[int, int | str]], modes: Sequence[Motion | SelfStress]
-) -> Projector:
-    basis = np.array([mode.vector for mode in modes]).reshape(len(modes), len(labels))
-    used = np.flatnonzero(np.any(basis != 0.0, axis=0))
-    part = basis[:, used]
-    names = tuple(f"{labels[k][0]}:{labels[k][1]}" for k in used.tolist())
-    return Projector(names, part.T @ part)
+def _within(basis: Basis, support: NDArray[np.integer]) -> Basis:
+    """The same vectors without places at which all are zero."""
+    place = np.searchsorted(support, basis.place).astype(np.int32)
+    return basis._replace(size=support.size, place=place)
+
+
+def _kept(basis: Basis, labels: Sequence[tuple[int, int | str]], dimension: int) -> Kept:
+    if basis.vectors < dimension:
+        return None
+    names = tuple(f"{number}:{part}" for number, part in labels)
+    if len(names) > LARGEST_PROJECTOR:
+        return Images(names, project(basis, fixed_vectors(names)))
+    vectors = basis.toarray()
+    return Projector(names, vectors @ vectors.T)
 
 
 def text_of(answer: StoredAnswer) -> str:
@@ -100,11 +120,24 @@ def text_of(answer: StoredAnswer) -> str:
     content |= {"verdict": answer.verdict, **answer.numbers, "counts": answer.counts}
     content["singular_values"] = answer.singular_values.tolist()
     lines = [f"{json.dumps(key)}: {json.dumps(value)}" for key, value in content.items()]
-    for name, projector in (("motions", answer.motions), ("self_stresses", answer.self_stresses)):
-        entries = ",".join(f"\n      {json.dumps(entry)}" for entry in _triangle(projector))
-        end = "\n    " if entries else ""
-        lines.append(f'"{name}": {{\n    "projector": [{entries}{end}]\n  }}')
+    for name, kept in (("motions", answer.motions), ("self_stresses", answer.self_stresses)):
+        lines.append(f'"{name}": {_text_of_subspace(kept)}')
     return "{\n  " + ",\n  ".join(lines) + "\n}\n"
+
+
+def _text_of_subspace(kept: Kept) -> str:
+    if kept is None:
+        return "null"
+    what = "projector" if isinstance(kept, Projector) else "images"
+    rows = map(json.dumps, _triangle(kept) if isinstance(kept, Projector) else _rows(kept))
+    entries = ",".join(f"\n      {row}" for row in rows)
+    end = "\n    " if entries else ""
+    return f'{{\n    "{what}": [{entries}{end}]\n  }}'
+
+
+def _rows(images: Images) -> Iterator[list[Any]]:
+    for label, values in zip(images.labels, images.values.tolist(), strict=True):
+        yield [label, *values]
 
 
 def _triangle(projector: Projector) -> list[tuple[str, str, float]]:
@@ -147,15 +180,35 @@ def _understood(content: dict[str, Any]) -> StoredAnswer:
         numbers={name: int(content[name]) for name in NUMBERS},
         counts={kind: dict(part) for kind, part in content["counts"].items()},
         singular_values=values,
-        motions=_assemble(content["motions"]["projector"]),
-        self_stresses=_assemble(content["self_stresses"]["projector"]),
+        motions=_understood_subspace(content["motions"]),
+        self_stresses=_understood_subspace(content["self_stresses"]),
     )
 
 
-def _assemble(triangle: Sequence[tuple[str, str, float]]) -> Projector:
-    labels = tuple(dict.fromkeys(name for row, column, _ in triangle for name in (row, column)))
+def _understood_subspace(kept: dict[str, Any] | None) -> Kept:
+    if kept is None:
+        return None
+    return _listed(kept["images"]) if "images" in kept else _assemble(kept["projector"])
+
+
+def _listed(rows: Sequence[Sequence[Any]]) -> Images:
+    labels = _checked_labels(row[0] for row in rows)
+    values = np.array([row[1:] for row in rows], np.float64).reshape(len(rows), -1)
+    if values.shape != (len(labels), VECTORS) or not np.isfinite(values).all():
+        raise StoredAnswerError(f"'images' is no list of labels with {VECTORS} finite numbers")
+    return Images(labels, values)
+
+
+def _checked_labels(names: Iterable[str]) -> tuple[str, ...]:
+    """Each label once."""
+    labels = tuple(dict.fromkeys(names))
     if wrong := [name for name in labels if not re.fullmatch(r"\d+:\w+", name)]:
         raise StoredAnswerError(f"{wrong[0]!r} is no label")
+    return labels
+
+
+def _assemble(triangle: Sequence[tuple[str, str, float]]) -> Projector:
+    labels = _checked_labels(name for row, column, _ in triangle for name in (row, column))
     place = {name: k for k, name in enumerate(labels)}
     matrix = np.zeros((len(labels), len(labels)))
     for row, column, value in triangle:

@@ -1,4 +1,4 @@
-"""Verdict, counts and gap: the small parts of a result."""
+"""Verdict, counts, gap, certainty and margin: the small parts of a result."""
 
 from __future__ import annotations
 
@@ -40,3 +40,36 @@ class Gap(NamedTuple):
 
     smallest_nonzero: float | None
     largest_zero: float | None
+
+
+class Certainty(str, Enum):
+    """Whether the geometry could be meant with another rank than was decided."""
+
+    CERTAIN = "certain"
+    NEARLY = "nearly"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+class Nearly(NamedTuple):
+    """The counts that hold if every singular value in doubt is zero."""
+
+    under_constrained: int
+    over_constrained: int
+
+
+class Margin(NamedTuple):
+    """The smallest misalignment that changes the verdict, to first order; None where none does."""
+
+    length: float | None
+    """By so much one node must be moved [m]."""
+    angle: float | None
+    """By so much one element must be turned about its centre [rad]."""
+    node: int | None
+    """Number of that node."""
+    element: int | None
+    """Number of that element."""
+    singular_value: float | None
+    """The value of the scaled D(c) that becomes zero, or is zero and becomes non-zero."""

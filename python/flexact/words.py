@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from . import remedies
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 MOST_MODES = 12
 _PARTS = 6
 _SUPPORTS = 3
+#: From so many rows or columns on it is told in how many parts D(c) was decomposed.
+_LARGE = 500
 _NUMBERS = (
     *("no", "one", "two", "three", "four", "five", "six"),
     *("seven", "eight", "nine", "ten", "eleven", "twelve"),
@@ -34,7 +37,7 @@ def describe(analysis: Analysis, *, about_model: bool = True, most: int | None =
         about_model: Whether warnings and notes about the model or deck itself are told;
             not on a screen where they have been shown already.
         most: So many motions, and so many self-stresses, are told one by one; by default
-            all of them.
+            all that are given.
     """
     sections = (
         _verdict(analysis),
@@ -100,6 +103,7 @@ def _decision(analysis: Analysis) -> Iterator[str]:
     rows, columns, rank = analysis.rows, analysis.columns, analysis.rank
     size = f"{_plural(rows, 'row', '', 's')} and {_plural(columns, 'column', '', 's')}"
     yield f"D(c) has {size}; its rank is {rank}."
+    yield from _method(analysis)
     small, zero = analysis.gap
     if small is not None or zero is not None:
         above = "no singular value but zeros"
@@ -108,8 +112,51 @@ def _decision(analysis: Analysis) -> Iterator[str]:
         below = "no zeros" if zero is None else f"largest zero {zero:.2g}"
         limit = f"limit {analysis.tolerance:.2g}"
         yield _wrapped(f"Rank decision (free of units): {above}, {below}, {limit}.")
+    yield from _certainty(analysis)
     if analysis.condition_number is not None:
         yield f"The condition number of D(c) itself is {analysis.condition_number:.4g}."
+
+
+def _certainty(analysis: Analysis) -> Iterator[str]:
+    """Whether the decision is certain, and what would change it; doubts stand among the warnings."""
+    if analysis.nearly is None:
+        yield "The decision is certain."
+    else:
+        counts = _counts_in_words(*analysis.nearly)
+        yield _wrapped(
+            "The decision is nearly certain only: if every singular value in doubt is zero, the "
+            f"mechanism is {counts}."
+        )
+    margin = analysis.margin
+    ways = []
+    if margin.length is not None:
+        ways.append(f"moving node {margin.node} by {margin.length:.2g} m")
+    if margin.angle is not None:
+        ways.append(f"turning element {margin.element} by {margin.angle:.2g} rad")
+    if ways:
+        yield _wrapped(
+            "Smallest misalignment that would change the verdict, to first order: "
+            f"{' or '.join(ways)}."
+        )
+
+
+def _counts_in_words(under: int, over: int) -> str:
+    parts = [f"under-constrained by {under}"] * (under > 0)
+    parts += [f"over-constrained by {over}"] * (over > 0)
+    return " and ".join(parts) or "exactly constrained"
+
+
+def _method(analysis: Analysis) -> Iterator[str]:
+    """How D(c) was decomposed, where somebody asked for it or the default is not plain."""
+    method, parts = analysis.method, analysis.parts
+    automatic = analysis.asked.method == "auto"
+    plain = method == "svd" and (parts <= 1 or max(analysis.rows, analysis.columns) < _LARGE)
+    if automatic and plain:
+        return
+    chosen = " (chosen automatically)" if automatic else ""
+    rows, columns = analysis.raw.largest_part
+    pieces = f", in {parts} parts, the largest {rows} x {columns}" if parts > 1 else ""
+    yield f"Method: {method}{chosen}{pieces}."
 
 
 def _motions(analysis: Analysis, most: int | None) -> Iterator[str]:
@@ -123,15 +170,14 @@ def _motions(analysis: Analysis, most: int | None) -> Iterator[str]:
             for node, coordinate, value in motion.largest(_PARTS + 1)
         )
         yield _listed(f"  {number}. ", parts)
-    yield from _more(count, most, "motion", "s")
+    yield from _more(count, len(analysis.motions), most, "motion", "s")
     yield from _basis(count, "motions")
     yield from _remedies_of_motions(analysis)
 
 
 def _remedies_of_motions(analysis: Analysis) -> Iterator[str]:
     count = analysis.under_constrained
-    places = [(node - 1, axis - 1) for node, axis in analysis.raw.column_label.T.tolist()]
-    able = [places[i] for i in remedies.coordinates(analysis)]
+    able = _columns(analysis, remedies.coordinates(analysis)[: _PARTS + 1])
     operands = remedies.coordinate_operands(analysis, *able[0]) if able else ""
     yield _listed(
         "To remove one motion, declare or hold one of: "
@@ -151,7 +197,10 @@ def _remedies_of_motions(analysis: Analysis) -> Iterator[str]:
     if 1 < count <= MOST_MODES:
         yield _listed(
             f"To remove {_all(count)}, declare or hold all of: ",
-            (_coordinate(analysis, *places[i]) for i in remedies.coordinate_set(analysis)),
+            (
+                _coordinate(analysis, *p)
+                for p in _columns(analysis, remedies.coordinate_set(analysis))
+            ),
             most=count,
         )
 
@@ -169,25 +218,29 @@ def _self_stresses(analysis: Analysis, most: int | None) -> Iterator[str]:
             for element, mode, value in stress.largest(_PARTS + 1)
         )
         yield _listed(f"  {number}. ", parts)
-    yield from _more(count, most, "self-stress", "es")
+    yield from _more(count, len(analysis.self_stresses), most, "self-stress", "es")
     yield from _basis(count, "self-stresses")
     yield from _remedies_of_self_stresses(analysis)
 
 
 def _remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
     count = analysis.over_constrained
-    places = [(index - 1, mode) for index, mode in analysis.raw.row_label.T.tolist()]
-    able = [places[i] for i in remedies.releases(analysis)]
+    able = _rows(analysis, remedies.releases(analysis)[: _PARTS + 1])
     driven = remedies.driven_deformations(analysis)
     moved, held = remedies.driven_coordinates(analysis), remedies.supports(analysis)
-    declared = [_deformation(analysis, *place) for place in driven]
-    declared += [_coordinate(analysis, *place) for place in moved]
+    declared = [_deformation(analysis, *place) for place in driven[: _PARTS + 1]]
+    declared += [_coordinate(analysis, *place) for place in moved[: _PARTS + 1]]
     release = f"(RLSE {_operands(analysis, *able[0])})" if able else ""
     instead = f"(RLSE {_operands(analysis, *driven[0])} instead)" if driven else ""
     offers = (
         ("release one of: ", [_deformation(analysis, *p) for p in able], release, _PARTS),
         ("take a declaration away (driven against a constraint): ", declared, instead, _PARTS),
-        ("free a support: ", [_coordinate(analysis, *p) for p in held], "", _SUPPORTS),
+        (
+            "free a support: ",
+            [_coordinate(analysis, *p) for p in held[: _SUPPORTS + 1]],
+            "",
+            _SUPPORTS,
+        ),
     )
     head = "To remove it, " if count == 1 else "To remove one, "
     for what, parts, note, most in offers:
@@ -198,7 +251,7 @@ def _remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
     if len(chosen) == count > 1:
         yield _listed(
             f"To remove {_all(count)}, release all of: ",
-            (_deformation(analysis, *places[i]) for i in chosen),
+            (_deformation(analysis, *p) for p in _rows(analysis, chosen)),
             most=count,
         )
 
@@ -219,14 +272,27 @@ def _heading(count: int, what: str, ending: str, how: str) -> str:
     return f"{words}; relative values, only their ratios matter)"
 
 
-def _more(count: int, most: int | None, what: str, ending: str) -> Iterator[str]:
-    if most is not None and count > most:
-        yield f"  ... and {_plural(count - most, 'more ' + what, '', ending)}"
+def _more(count: int, given: int, most: int | None, what: str, ending: str) -> Iterator[str]:
+    told = given if most is None else min(given, most)
+    if count > told:
+        yield f"  ... and {_plural(count - told, 'more ' + what, '', ending)}"
+    if count > given:
+        yield f"Of these {count} {what}{ending} the first {given} are given, for want of room."
 
 
 def _basis(count: int, what: str) -> Iterator[str]:
     if count > 1:
         yield f"These {what} are one basis of many: any combination of them is also one."
+
+
+def _columns(analysis: Analysis, chosen: list[int]) -> list[tuple[int, int]]:
+    """Node index and axis of columns of D(c)."""
+    return [(n, a) for n, a in (analysis.raw.column_label[:, chosen].T - 1).tolist()]
+
+
+def _rows(analysis: Analysis, chosen: list[int]) -> list[tuple[int, int]]:
+    """Element index and number of the deformation of rows of D(c)."""
+    return [(i - 1, mode) for i, mode in analysis.raw.row_label[:, chosen].T.tolist()]
 
 
 def _coordinate(analysis: Analysis, node: int, axis: int) -> str:
@@ -258,7 +324,7 @@ def _plural(count: int, word: str, one: str, many: str) -> str:
 
 def _listed(head: str, parts: Iterable[str], most: int = _PARTS, note: str = "") -> str:
     """The first parts in a row; the note stands behind the very first."""
-    every = [part.replace(" ", _TIE) for part in parts]
+    every = [part.replace(" ", _TIE) for part in islice(parts, most + 1)]
     if note and every:
         every[0] += " " + note.replace(" ", _TIE)
     text = "; ".join(every[:most]) + ("; ..." if len(every) > most else "")

@@ -1,99 +1,144 @@
-"""Speed as ratios, each measured side by side in one run.
+"""Measure, and write the table and the picture that README shows.
 
-    python tests/benchmarks/run.py
+    python tests/benchmarks/run.py [--quick]
 
-prints a table and writes it to table.md beside this file. What is compared is run in turn, A B A B,
-and the ratio is that of the medians, so that a slow moment of the machine touches both.
+writes table.md beside this file and trade.svg to docs/. With --quick, sizes up to 1000 only,
+written to quick.md and quick.svg beside this file.
 """
 
 from __future__ import annotations
 
-import statistics
-import subprocess
-import sys
-import tempfile
-import time
-from collections.abc import Callable
+import argparse
+import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-import flexact
+# What is timed runs on one thread, in this process too.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from commands import analysis_against_svd, command_against_import, reading_against_split
+from picture import draw
+from trade import NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
 
 HERE = Path(__file__).parent
-DECK = HERE.parents[1] / "input_decks" / "paper" / "five_folded_sheets.dat"
-COMMAND = Path(sys.executable).parent / "flexact"
-
-
-def in_turn(a: Callable[[], object], b: Callable[[], object], runs: int) -> tuple[float, float]:
-    """Median times of two calls that take turns [s]."""
-    times: tuple[list[float], list[float]] = ([], [])
-    for _ in range(runs + 1):
-        for call, record in zip((a, b), times, strict=True):
-            start = time.perf_counter()
-            call()
-            record.append(time.perf_counter() - start)
-    # The first round warms up.
-    return statistics.median(times[0][1:]), statistics.median(times[1][1:])
-
-
-def bar_grid(elements: int) -> str:
-    """A planar grid of bars with diagonals, its joints off the lattice by random amounts."""
-    side = int((elements / 3) ** 0.5) + 2
-    place = np.random.default_rng(1).random((side, side, 2))
-    lines = []
-    for i in range(side):
-        for j in range(side):
-            node = i * side + j + 1
-            neighbours = [node + side] * (i < side - 1) + [node + 1] * (j < side - 1)
-            neighbours += [node + side + 1] * (i < side - 1 and j < side - 1)
-            lines += [f"PLTRUSS {len(lines) + k + 1} {node} {q}" for k, q in enumerate(neighbours)]
-    for i in range(side):
-        for j in range(side):
-            x, y = (float(v) for v in (i, j) + 0.4 * place[i, j])
-            lines.append(f"X {i * side + j + 1} {x!r} {y!r}")
-    return "\n".join([*lines, "FIX 1", "FIX 2 2", "END", "END", ""])
-
-
-def analysis_against_svd() -> tuple[str, float, float]:
-    """One analysis of the 35 x 35 deck against one SVD of its matrix by numpy."""
-    model = flexact.read(DECK)
-    matrix = flexact.analyse(model).dense_jacobian()
-    times = in_turn(lambda: flexact.analyse(model), lambda: np.linalg.svd(matrix), 2000)
-    rows, columns = matrix.shape
-    return (f"`analyse(model)`, {rows} x {columns}, against `numpy.linalg.svd` of D(c)", *times)
-
-
-def command_against_import() -> tuple[str, float, float]:
-    """The whole command against an interpreter that imports numpy."""
-    times = in_turn(
-        lambda: subprocess.run([COMMAND, "analyse", DECK], check=True, capture_output=True),
-        lambda: subprocess.run([sys.executable, "-c", "import numpy"], check=True),
-        30,
-    )
-    return ('`flexact analyse DECK` against `python -c "import numpy"`', *times)
-
-
-def reading_against_split() -> tuple[str, float, float]:
-    """Reading a deck of 100,000 elements against splitting its text into words."""
-    text = bar_grid(100_000)
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "grid.dat"
-        path.write_text(text)
-        elements = flexact.read(path).element_numbers.size
-        times = in_turn(lambda: flexact.read(path), text.split, 15)
-    return (f"`read` of {elements:,} elements against `str.split` of the text", *times)
+PICTURE = HERE.parents[1] / "docs" / "trade.svg"
+#: Sizes that the table shows of each family; against dgesdd where it ran, else the best peer.
+_SHOWN = (1000, 3000, 100_000, 300_000)
+_METHODS = ("svd", "jacobi", "qr", "sparse", "auto")
+#: Sizes of the arrays on which the smallest singular value is compared.
+_CONDITIONED = (42 * 4, 42 * 9, 42 * 16)
+_QUICK = (100, 300, 1000)
 
 
 def main() -> None:
-    """Measure, print and store the table."""
+    """Measure, print and store."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--quick", action="store_true", help="small sizes, written to quick.*")
+    quick = parser.parse_args().quick
+    commands = _commands()
+    found = outcomes(_QUICK) if quick else outcomes()
+    errors = errors_of_smallest(_CONDITIONED[:2] if quick else _CONDITIONED)
+    parts = [commands, _speed(found), _accuracy(found, errors), _verdicts(found)]
+    text = "\n\n".join("\n".join(part) for part in parts) + "\n"
+    print(text)
+    (HERE / ("quick.md" if quick else "table.md")).write_text(text)
+    draw(found, errors, HERE / "quick.svg" if quick else PICTURE)
+
+
+def _commands() -> list[str]:
     lines = ["| what | Flexact | other | ratio |", "|---|---|---|---|"]
     for measure in (analysis_against_svd, command_against_import, reading_against_split):
         what, ours, other = measure()
         times = f"{ours * 1e3:.3g} ms | {other * 1e3:.3g} ms"
         lines.append(f"| {what} | {times} | {ours / other:.2f} |")
         print(lines[-1], flush=True)
-    (HERE / "table.md").write_text("\n".join(lines) + "\n")
+    return lines
+
+
+def _speed(found: list[Outcome]) -> list[str]:
+    """`auto` against dgesdd where that ran, and else against the best peer."""
+    lines = [
+        "| family | size of D(c) | `auto` took | against | time | memory | counts | residual | "
+        "growth |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for family in ("T", "O", "B", "C", "Tb"):
+        shown = [one for size in _SHOWN if (one := one_of(found, family, size, "auto"))]
+        for one in shown:
+            growth = _growth(found, family) if one is shown[-1] else ""
+            lines.append(f"| {NAMES[family]} | {_against(one, found)} | {growth} |")
+    return lines
+
+
+def _against(one: Outcome, found: list[Outcome]) -> str:
+    other = one_of(found, one.family, one.size, "dgesdd") or best_peer(found, one.family, one.size)
+    size = f"{one.rows:,} x {one.columns:,}"
+    time = f"{_time(one.seconds)} ({one.method})"
+    if other is None:
+        return f"{size} | {time} | | | | {_counts(one)} | {one.residual:.0e}"
+    memory = f"{one.memory / other.memory:.2g}" if one.memory > 0 < other.memory else ""
+    name = other.contestant if other.contestant == "dgesdd" else f"bare {other.contestant}"
+    name += ", motions alone" if other.stresses == -1 else ""
+    ratio = f"{one.seconds / other.seconds:.2g}"
+    return f"{size} | {time} | {name} | {ratio} | {memory} | {_counts(one)} | {one.residual:.0e}"
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds:.3g} s" if seconds >= 1 else f"{seconds * 1e3:.3g} ms"
+
+
+def _counts(one: Outcome) -> str:
+    """Whether they are right, and what the analysis says of them."""
+    right = {True: "right", False: "wrong", None: "truth unknown"}[one.right]
+    return f"{right}, {one.certainty}"
+
+
+def _growth(found: list[Outcome], family: str) -> str:
+    """Exponent of the time of `auto` over the sizes from 10,000 on."""
+    those = [one for one in found if (one.family, one.contestant) == (family, "auto")]
+    those = [one for one in those if one.size >= 10_000]
+    if len(those) < 2:
+        return ""
+    slope = np.polyfit(
+        np.log([one.columns for one in those]), np.log([one.seconds for one in those]), 1
+    )[0]
+    return f"{slope:.2f}"
+
+
+def _accuracy(found: list[Outcome], errors: list[dict[str, Any]]) -> list[str]:
+    """Time over dgesdd on the array of stages, errors and residuals, by method."""
+    sizes = [one.size for one in found if (one.family, one.contestant) == ("B", "dgesdd")]
+    heads = [f"time, n = {one_of(found, 'B', size, 'dgesdd').columns}" for size in sizes]  # type: ignore[union-attr]
+    heads += [f"error at {one['ratio']:.0e}" for one in errors]
+    lines = [f"| method | {' | '.join(heads)} | residual |", "|---" * (len(heads) + 2) + "|"]
+    for method in _METHODS:
+        cells = [_over_dgesdd(found, size, method) for size in sizes]
+        cells += [f"{one['errors'][method]:.0e}" for one in errors]
+        worst = max((one.residual for one in found if one.contestant == method), default=0.0)
+        lines.append(f"| `{method}` | {' | '.join(cells)} | {worst:.0e} |")
+    return lines
+
+
+def _over_dgesdd(found: list[Outcome], size: int, method: str) -> str:
+    one, other = (one_of(found, "B", size, name) for name in (method, "dgesdd"))
+    return f"{one.seconds / other.seconds:.2g}" if one and other else ""
+
+
+def _verdicts(found: list[Outcome]) -> list[str]:
+    """How often the counts were right, of all runs on families whose truth is known."""
+    lines = ["| who | runs with a known answer | right | wrong | wrong and called certain |"]
+    lines.append("|---|---|---|---|---|")
+    ours = [one for one in found if one.contestant in _METHODS]
+    theirs = [one for one in found if one.contestant not in _METHODS]
+    for name, those in (("Flexact", ours), ("dgesdd and the bare peers", theirs)):
+        known = [one for one in those if one.right is not None]
+        wrong = [one for one in known if not one.right]
+        sure = sum(one.certainty == "certain" for one in wrong) if those is ours else ""
+        right = len(known) - len(wrong)
+        lines.append(f"| {name} | {len(known)} | {right} | {len(wrong)} | {sure} |")
+    return lines
 
 
 if __name__ == "__main__":

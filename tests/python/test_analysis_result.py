@@ -63,13 +63,16 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
     read = json.loads(text)
     assert list(read) == [
         *("deck", "flexact", "verdict", "under_constrained", "over_constrained", "rank", "rows"),
-        *("columns", "singular_values", "condition_number", "degrees_of_freedom", "counts"),
-        *("motions", "self_stresses", "warnings"),
+        *("columns", "method", "tolerance", "certainty", "nearly", "gap", "margin"),
+        *("singular_values", "singular_values_given", "condition_number", "degrees_of_freedom"),
+        *("counts", "motions", "self_stresses", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"
     assert read["flexact"] == flexact.__version__
     assert read["verdict"] == "under-constrained and over-constrained"
+    assert (read["method"], read["tolerance"]) == ("svd", analysis.tolerance)
     assert read["singular_values"] == analysis.singular_values.tolist()
+    assert read["singular_values_given"] == "all"
     assert read["condition_number"] is None
     wanted = {"total": 24, "fixed": 12, "dependent": 12, "independent": 0}
     assert read["counts"]["coordinates"] == wanted
@@ -183,11 +186,12 @@ def test_analysis_is_frozen() -> None:
             array[0] = 1.0
 
 
-def test_too_large_for_the_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("method", ["auto", "svd", "jacobi", "qr"])
+def test_too_large_for_the_memory(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "_SMALL", 0)
     monkeypatch.setattr(memory, "available", lambda: 1e3)
     with pytest.raises(flexact.AnalysisError, match=r"12 rows and 12 columns; .* GB of memory"):
-        analyse(twelve_trusses())
+        analyse(twelve_trusses(), method=method)
 
 
 def test_path_and_name(tmp_path: Path) -> None:
@@ -204,7 +208,11 @@ def test_results_travel_between_processes() -> None:
     analysis = analyse(twelve_trusses())
     again = pickle.loads(pickle.dumps(analysis))
     assert again.to_json() == analysis.to_json()
-    for array in (again.raw.motions.value, again.data.arrays.node_value, again.motions[0].displacement):
+    for array in (
+        again.raw.motions.value,
+        again.data.arrays.node_value,
+        again.motions[0].displacement,
+    ):
         assert not array.flags.writeable
     matrix = pickle.loads(pickle.dumps(flexact.jacobian(again.model)))
     assert not matrix.values.flags.writeable

@@ -34,6 +34,20 @@ def test_expect_exits_with_3_for_any_other_verdict(name: str, expected: str, dec
     assert code == (0 if name == expected else 3)
 
 
+def test_method_and_tolerance_are_those_that_are_asked_for(
+    decks: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ["analyse", str(decks / "over.dat"), "--method", "jacobi"]
+    assert main(arguments) == 0
+    assert "Method: jacobi." in capsys.readouterr().out.splitlines()
+    main([*arguments, "--tolerance", "1e-3", "--json"])
+    (result,) = json_lines(capsys.readouterr().out)
+    assert (result["method"], result["tolerance"], result["rank"]) == ("jacobi", 1e-3, 2)
+    main([*arguments, "--tolerance", "100", "--json"])
+    (result,) = json_lines(capsys.readouterr().out)
+    assert result["rank"] == 0
+
+
 def test_a_deck_with_errors_exits_with_2(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -60,6 +74,9 @@ def test_an_empty_folder_exits_with_2(tmp_path: Path, capsys: pytest.CaptureFixt
         ["analyse", "x.dat", "--exp", "exact"],
         ["analyse", "x.dat", "--format", "vtk"],
         ["analyse", "x.dat", "-o", "out", "--format", "nonsense"],
+        ["analyse", "x.dat", "--method", "cholesky"],
+        ["analyse", "x.dat", "--tolerance", "-1"],
+        ["regress", "x.dat", "--against", "d", "--method", "cholesky"],
         ["regress", "x.dat"],
         ["regress", "x.dat", "--against", "d", "--tolerance", "nan"],
     ],

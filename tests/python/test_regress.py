@@ -6,9 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from large_results import changed, first_of
 
 import flexact
+from flexact import stored_answer
 from flexact.cli.main import main
+from flexact.images import VECTORS, Images, fixed_vectors
 from flexact.regress import Tolerances, differences
 from flexact.stored_answer import (
     Projector,
@@ -137,6 +140,90 @@ def test_singular_values_are_compared_by_the_largest() -> None:
     assert differences(answer, other, Tolerances(singular_values=1e-8)) == ()
 
 
+# Large answers: images of fixed vectors in place of projectors, and the smallest values alone
+
+
+def as_images(answer: StoredAnswer) -> StoredAnswer:
+    """The same answer, its projectors replaced by what they make of the fixed vectors."""
+
+    def images(kept: stored_answer.Kept) -> Images:
+        assert isinstance(kept, Projector)
+        return Images(kept.labels, kept.matrix @ fixed_vectors(kept.labels))
+
+    return dataclasses.replace(
+        answer, motions=images(answer.motions), self_stresses=images(answer.self_stresses)
+    )
+
+
+def test_a_large_projector_is_kept_by_its_images(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small = stored(COLLINEAR)
+    monkeypatch.setattr(stored_answer, "LARGEST_PROJECTOR", 0)
+    large = stored(COLLINEAR)
+    for kept, wanted in (
+        (large.motions, as_images(small).motions),
+        (large.self_stresses, as_images(small).self_stresses),
+    ):
+        assert isinstance(kept, Images) and isinstance(wanted, Images)
+        assert kept.labels == wanted.labels
+        np.testing.assert_allclose(kept.values, wanted.values, atol=1e-15)
+    path = tmp_path / "answer.json"
+    path.write_text(text_of(large))
+    assert text_of(read_answer(path)) == text_of(large)
+    rows = json.loads(text_of(large))["self_stresses"]["images"]
+    assert [row[0] for row in rows] == ["1:1", "2:1"]
+    assert {len(row) for row in rows} == {1 + VECTORS}
+    for answer in (small, large):
+        assert differences(answer, large) == differences(large, answer) == ()
+
+
+def test_images_tell_what_differs() -> None:
+    plane = np.array([[1.0, 2.0, 3.0], [0.0, 1.0, -1.0]])
+    mixed = np.array([[-2.0, 1.0], [3.0, 5.0]]) @ plane
+    before = with_motions(plane)
+    assert differences(as_images(before), as_images(with_motions(mixed))) == ()
+    for angle, told in ((1e-10, 0), (1e-6, 1)):
+        turn = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, -angle], [0.0, angle, 1.0]])
+        now = with_motions(plane @ turn)
+        for one, other in ((as_images(before), as_images(now)), (before, as_images(now))):
+            found = differences(one, other)
+            assert len(found) == told
+            assert all(t.startswith("motions: projections on the subspace differ") for t in found)
+
+
+def test_images_tell_who_takes_part() -> None:
+    labels = ("3:x", "5:x", "9:x")
+    before = as_images(with_motions(np.array([[1.0, 0.0, 1.0]]), labels))
+    now = as_images(with_motions(np.array([[1.0, 1.0, 0.0]]), labels))
+    (told,) = differences(before, now)
+    assert told.endswith("; node 5 takes part now; node 9 no longer takes part")
+
+
+def test_a_space_that_is_not_known_as_a_whole_is_not_compared(tmp_path: Path) -> None:
+    analysis = flexact.analyse(flexact.read_text(COLLINEAR))
+    answer = answer_of(changed(analysis, motions=first_of(analysis.raw.motions, 0)))
+    assert answer.motions is None
+    path = tmp_path / "answer.json"
+    path.write_text(text_of(answer))
+    assert read_answer(path).motions is None
+    other = with_motions(np.eye(3)[:1])
+    assert differences(answer, other) == differences(other, answer) == ()
+
+
+def test_of_the_smallest_values_alone_the_common_ones_are_compared() -> None:
+    whole = stored(RAISED)
+    least = whole.singular_values[-1]
+    part = dataclasses.replace(whole, singular_values=whole.singular_values[-1:])
+    assert differences(whole, part) == differences(part, whole) == differences(part, part) == ()
+    apart = dataclasses.replace(part, singular_values=np.array([least + 2e-8]))
+    for answer in (whole, part):
+        (told,) = differences(answer, apart)
+        assert told.startswith(
+            "singular values: 1 of 1 differ; the largest difference is in number 2"
+        )
+
+
 # The command
 
 
@@ -188,6 +275,12 @@ WHOLE = json.loads(text_of(stored(COLLINEAR)))
         (WHOLE | {"motions": {"projector": [["2:y", "y", 1]]}}, ": 'y' is no label"),
         (WHOLE | {"motions": {"projector": [["2:y", "2:y", 1e308]]}}, ": an entry of a projector"),
         (WHOLE | {"motions": {"projector": [["2:y", "2:y", None]]}}, ": an entry of a projector"),
+        (WHOLE | {"motions": {"images": [["2:y", 1, 2]]}}, ": 'images' is no list of labels with"),
+        (
+            WHOLE | {"motions": {"images": [["2:y", 1, 2, 1e999]]}},
+            ": 'images' is no list of labels",
+        ),
+        (WHOLE | {"motions": {"images": [["y", 1, 2, 3]]}}, ": 'y' is no label"),
         (WHOLE | {"counts": [1]}, ""),
         (WHOLE | {"rank": None}, ""),
         (WHOLE | {"rank": 1e999}, ""),

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import flexact
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
 from flexact.cli import failures, remarks
+from flexact.cli.analysed import add_method, analysed, opened, tolerance
+from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import complain, say
 from flexact.interruption import unwinding
@@ -46,6 +48,14 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
     parser.add_argument(
         "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
     )
+    add_method(parser)
+    parser.add_argument(
+        "--tolerance",
+        dest="zero_tolerance",
+        type=tolerance,
+        metavar="T",
+        help="singular values of the scaled matrix up to T count as zero",
+    )
     parser.add_argument("--expect", choices=VERDICTS, help="exit with 3 for any other verdict")
     parser.set_defaults(run=analyse_decks)
 
@@ -76,12 +86,14 @@ class _Work:
 
     def step(self, deck: DeckFile) -> Outcome:
         """Analyse one deck, say and write its results."""
-        model = flexact.read(deck.path)
-        remarks.tell_problems(model)
-        remarks.tell_wait(deck, model)
-        analysis = flexact.analyse(model, name=deck.name)
-        failure = self._write(deck, analysis) if self.format is not None else None
-        say(analysis.to_json() if self.chosen.json else _words(analysis))
+        with Bar(deck.name, deck.path) as bar:
+            model = opened(deck, bar)
+            remarks.tell_problems(model)
+            analysis = analysed(deck, model, self.chosen, bar)
+            bar.show("writing")
+            failure = self._write(deck, analysis) if self.format is not None else None
+            words = analysis.to_json() if self.chosen.json else _words(analysis)
+        say(words)
         outcome = self._judge(deck, analysis.verdict)
         if failure is None:
             return outcome
@@ -91,14 +103,15 @@ class _Work:
     def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> Exception | None:
         """Write the results, or say why not: that is no reason to keep the verdict back."""
         from flexact.log import log_text
-        from flexact.mesh import to_meshio
+        from flexact.mesh import most_modes, to_meshio
         from flexact.mesh_file import mesh_bytes
         from flexact.outputs import OutputError, write_together
 
         assert self.format is not None
         try:
-            texts = (analysis.to_json() + "\n", log_text(analysis))
-            contents = [text.encode("utf-8", "backslashreplace") for text in texts]
+            contents = [f"{analysis.to_json()}\n".encode()]
+            log = log_text(analysis, most_in_mesh=most_modes(analysis))
+            contents.append(log.encode("utf-8", "backslashreplace"))
             with unwinding():
                 contents.append(mesh_bytes(to_meshio(analysis), self.format))
                 write_together(dict(zip(self.plan[deck.path], contents, strict=True)))

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import flexact
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
-from flexact.cli import remarks
+from flexact.cli.analysed import add_method, analysed, opened, tolerance
+from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import say
 from flexact.interruption import unwinding
@@ -34,22 +33,13 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
     parser.add_argument("--store", action="store_true", help="store the answers instead")
     parser.add_argument(
         "--tolerance",
-        type=_tolerance,
+        type=tolerance,
         metavar="T",
         help="largest difference of singular values, as a fraction of the largest "
         "(default 1e-9), and of entries of projectors (default 1e-8)",
     )
-    parser.set_defaults(run=regress_decks)
-
-
-def _tolerance(text: str) -> float:
-    value = float(text)
-    if not (math.isfinite(value) and value >= 0.0):
-        raise ValueError
-    return value
-
-
-_tolerance.__name__ = "tolerance"  # argparse names the type in its message
+    add_method(parser)
+    parser.set_defaults(run=regress_decks, zero_tolerance=None)
 
 
 def regress_decks(chosen: argparse.Namespace) -> ExitCode:
@@ -66,31 +56,35 @@ def regress_decks(chosen: argparse.Namespace) -> ExitCode:
 
     def step(deck: DeckFile) -> Outcome:
         if chosen.store:
-            return _store(deck, plan[deck.path][0])
+            return _store(deck, chosen, plan[deck.path][0])
         stem = chosen.against / deck.relative
-        return _compare(deck, stem.with_name(f"{stem.name}.json"), tolerances)
+        return _compare(deck, chosen, stem.with_name(f"{stem.name}.json"), tolerances)
 
     return take(decks, step)
 
 
-def _store(deck: DeckFile, target: Path) -> Outcome:
+def _store(deck: DeckFile, chosen: argparse.Namespace, target: Path) -> Outcome:
     from flexact.outputs import write_together
     from flexact.stored_answer import answer_of, text_of
 
-    text = text_of(answer_of(_analysed(deck, flexact.read(deck.path))))
+    with Bar(deck.name, deck.path) as bar:
+        text = text_of(answer_of(analysed(deck, opened(deck, bar), chosen, bar)))
     with unwinding():
         write_together({target: text.encode()})
     say(f"{harmless(deck.name)}: stored in {harmless(str(target))}")
     return Outcome(deck.name, ExitCode.ANALYSED, "stored")
 
 
-def _compare(deck: DeckFile, stored: Path, tolerances: Tolerances) -> Outcome:
+def _compare(
+    deck: DeckFile, chosen: argparse.Namespace, stored: Path, tolerances: Tolerances
+) -> Outcome:
     from flexact.regress import differences
     from flexact.stored_answer import answer_of, read_answer
 
-    model = flexact.read(deck.path)
-    answer = read_answer(stored)
-    found = differences(answer, answer_of(_analysed(deck, model)), tolerances)
+    with Bar(deck.name, deck.path) as bar:
+        model = opened(deck, bar)
+        answer = read_answer(stored)
+        found = differences(answer, answer_of(analysed(deck, model, chosen, bar)), tolerances)
     name = harmless(deck.name)
     if not found:
         say(f"{name}: as stored")
@@ -98,8 +92,3 @@ def _compare(deck: DeckFile, stored: Path, tolerances: Tolerances) -> Outcome:
     head = f"{name}: differs from {harmless(str(stored))}"
     say("\n".join((head, *(f"  {harmless(line)}" for line in found))))
     return Outcome(deck.name, ExitCode.DIFFERENT, "different")
-
-
-def _analysed(deck: DeckFile, model: flexact.Model) -> flexact.Analysis:
-    remarks.tell_wait(deck, model)
-    return flexact.analyse(model, name=deck.name)

@@ -1,0 +1,81 @@
+"""The bar that shows on a terminal how far a large deck has come, stage by stage."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from flexact._boundary import STAGES
+from flexact.rendering import harmless
+
+if TYPE_CHECKING:
+    import flexact
+    from flexact.progress import Progress
+
+#: Decks of so many bytes, or elements, are worth a bar.
+LARGE_FILE = 2**20
+LARGE_MODEL = 20_000
+
+_WIDTH, _ROWS = 80, 24
+
+_STAGES = ("reading", *STAGES, "writing")
+
+
+class Bar:
+    """A bar on stderr; it says nothing unless a deck is large and somebody watches."""
+
+    def __init__(self, deck: str, path: str) -> None:
+        """The bar of a deck, of which no more than its file is known so far."""
+        self._deck = harmless(os.path.basename(deck))
+        self._bar: Any = None
+        try:
+            self._wanted = os.path.getsize(path) >= LARGE_FILE
+        except (OSError, ValueError):
+            self._wanted = False
+
+    def __enter__(self) -> Bar:
+        """Nothing is shown yet."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Wipe the bar."""
+        self.clear()
+
+    def of_analysis(self, model: flexact.Model) -> Progress | None:
+        """What shows the progress of an analysis; None where it would show nothing."""
+        self._wanted = model.element_numbers.size >= LARGE_MODEL
+        return self.show if self._wanted and _is_watched() else None
+
+    def show(self, stage: str, done: float = 0.0) -> None:
+        """Draw the bar at a stage, of which a part from 0 to 1 is done."""
+        if not self._wanted or not _is_watched():
+            return
+        text = f"{self._deck}: {stage}"
+        with contextlib.suppress(ImportError, OSError):
+            if self._bar is None:
+                self._bar = _drawn(text)
+            self._bar.n = max(self._bar.n, (_STAGES.index(stage) + done) / len(_STAGES))
+            self._bar.set_description_str(text)
+
+    def clear(self) -> None:
+        """Wipe the bar, so that something else can be said."""
+        if self._bar is not None:
+            with contextlib.suppress(OSError):
+                self._bar.clear()
+
+
+def _drawn(text: str) -> Any:
+    tqdm = import_module("tqdm").tqdm
+    tqdm.monitor_interval = 0  # no thread of its own: the core's calls say when to draw
+    form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
+    # Some terminals say that they have no columns and no rows.
+    width = os.get_terminal_size(sys.stderr.fileno()).columns or _WIDTH
+    size = {"ncols": width - 1, "nrows": _ROWS}
+    return tqdm(total=1.0, file=sys.stderr, leave=False, desc=text, bar_format=form, **size)
+
+
+def _is_watched() -> bool:
+    return sys.stderr is not None and sys.stderr.isatty()

@@ -1,0 +1,112 @@
+"""Pairs of a self-stress and a motion that share a singular value, and what moves that value.
+
+A change dD of D(c) changes the singular value of a pair (u, v) by u' dD v, to first order;
+where several are zero it is the block of all their pairs that counts.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from . import _boundary
+from .exchange import Basis, FloatArray, RawSensitivities
+
+if TYPE_CHECKING:
+    from .analysis import Analysis
+
+#: So many zeros are looked at, each against so many vectors of the other side.
+_MOST_ZEROS = 8
+_MOST_OTHERS = 64
+#: Pairs times nodes and elements: what may be spent (a good second for a large model).
+_MOST_WORK = 1_000_000
+
+
+class Pair(NamedTuple):
+    """What moves one singular value of the scaled D(c), or one entry of the block of zeros."""
+
+    value: float
+    lift_of_bits: float
+    """What rounding in the last bits of the geometry can make of it."""
+    lift_of_digits: float
+    """What half a unit of the last digits typed can make of it."""
+    by_move: float
+    """Its largest change where one node is moved [1/m]."""
+    by_turn: float
+    """Its largest change where one element is turned [1/rad]."""
+    node: int | None
+    """Number of that node; None where no node moves it."""
+    element: int | None
+    """Number of that element, likewise."""
+
+
+def of_nonzeros(analysis: Analysis) -> tuple[Pair, ...]:
+    """The smallest values that are not zero, ascending, as far as the core gives their vectors."""
+    raw = analysis.raw
+    most = min(raw.pair_value.size, max(1, _most_pairs(analysis)))
+    if not most:
+        return ()
+    each = np.arange(most, dtype=np.int32)
+    found = _boundary.find_sensitivities(
+        analysis.data.arrays,
+        raw.row_scale[:, None] * raw.pair_stress[:, :most],
+        raw.column_scale[:, None] * raw.pair_motion[:, :most],
+        np.stack((each, each)),
+    )
+    return _named(analysis, raw.pair_value[:most], found)
+
+
+def of_zeros(analysis: Analysis) -> tuple[tuple[Pair, ...], ...]:
+    """For each zero, at most 8, its pairs with the vectors of the other side.
+
+    A singular value is zero where there is a self-stress and a motion; those that are in
+    excess belong to no singular value.
+    """
+    raw, arrays = analysis.raw, analysis.data.arrays
+    stresses, motions = analysis.over_constrained, analysis.under_constrained
+    most_pairs = _most_pairs(analysis)
+    zeros = min(stresses, motions, raw.stresses.vectors, raw.motions.vectors, _MOST_ZEROS)
+    zeros = min(zeros, max(1, math.isqrt(most_pairs)))
+    if not zeros:
+        return ()
+    most = max(zeros, min(_MOST_OTHERS, most_pairs // zeros))
+    left = _unscaled(raw.stresses, raw.row_scale, zeros if stresses <= motions else most)
+    right = _unscaled(raw.motions, raw.column_scale, most if stresses <= motions else zeros)
+    pairs = np.indices((left.shape[1], right.shape[1]), np.int32).reshape(2, -1)
+    found = _boundary.find_sensitivities(arrays, left, right, pairs)
+    values = np.zeros(pairs.shape[1])
+    of_zero = pairs[0 if stresses <= motions else 1]
+    given = raw.scaled_values[::-1][: min(stresses, motions)][::-1][:zeros]
+    values[of_zero < given.size] = given[of_zero[of_zero < given.size]]
+    named = _named(analysis, values, found)
+    return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
+
+
+def _most_pairs(analysis: Analysis) -> int:
+    arrays = analysis.data.arrays
+    return _MOST_WORK // (arrays.node_number.size + arrays.element_number.size)
+
+
+def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:
+    """The first vectors of a null space of D(c), of unit norm in the scaled matrix."""
+    vectors = np.stack([basis.vector(k) for k in range(min(most, basis.vectors))], axis=1)
+    norms = np.linalg.norm(vectors / scale[:, None], axis=0)
+    made: FloatArray = vectors / norms
+    return made
+
+
+def _named(analysis: Analysis, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
+    """Pairs with the numbers of nodes and elements in place of their indices."""
+    nodes, elements = analysis.model.node_numbers, analysis.model.element_numbers
+    return tuple(
+        Pair(
+            *numbers,
+            node=int(nodes[node]) if node >= 0 else None,
+            element=int(elements[element]) if element >= 0 else None,
+        )
+        for *numbers, node, element in zip(
+            value.tolist(), *(part.tolist() for part in found), strict=True
+        )
+    )

@@ -1,0 +1,254 @@
+"""Speed against accuracy: every method and the peers on families of growing size.
+
+A contestant runs in a process of its own (worker.py, peers.c), on one thread. The contestants
+of one model take turns, and what is kept is the median of the rounds.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import peers
+from exact_rank import rank_of_bars
+from families import FAMILIES, Case
+from matrix import scaled_jacobian
+
+HERE = Path(__file__).parent
+NAMES = {
+    "T": "bar grid",
+    "O": "octet lattice",
+    "B": "array of stages",
+    "C": "separate chains",
+    "Tb": "random removal",
+    "Bx": "amplifying array",
+}
+SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000, 300_000)
+#: Largest size of each family; the lattice costs most, and random removal has more motions
+#: than a bare peer can hold. Bx is there for its verdicts.
+_LARGEST = {"O": 100_000, "Tb": 100_000, "Bx": 30_000}
+#: Largest size at which a dense method runs, and larger ones of single families.
+_DENSE = {"dgesdd": 1000, "svd": 1000, "jacobi": 1000, "qr": 1000}
+_DENSE_OF = {
+    ("dgesdd", "T"): 3000,
+    ("dgesdd", "B"): 3000,
+    ("dgesdd", "C"): 3000,
+    ("svd", "B"): 3000,
+    ("qr", "B"): 3000,
+}
+PEERS = tuple(
+    f"{method} {order}" for method in ("QR", "Cholesky") for order in ("METIS", "default")
+)
+#: Up to here both orderings run; beyond, the one that was faster before.
+_BOTH_ORDERINGS = 10_000
+#: Self-stresses that grow with the size are not asked of the peers, which cannot hold them.
+_MANY_STRESSES = ("T", "O")
+_ROUNDS = 3
+#: No further round starts after so long [s].
+_PATIENCE = 5.0
+#: Longest time of a contestant [s].
+_LIMIT = 150.0
+#: Largest size of random removal at which the exact rank is computed.
+_EXACT = 30_000
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a contestant gave on one model; medians over the rounds."""
+
+    family: str
+    size: int
+    rows: int
+    columns: int
+    contestant: str
+    seconds: float
+    memory: float
+    motions: int
+    stresses: int
+    residual: float
+    method: str
+    certainty: str
+    nearly: tuple[int, int] | None
+    truth: tuple[int, int] | None
+
+    @property
+    def right(self) -> bool | None:
+        """Whether the counts are those known; None where none are known, or none were given."""
+        if self.truth is None or self.motions < 0:
+            return None
+        return self.motions == self.truth[0] and self.stresses in (-1, self.truth[1])
+
+
+def outcomes(sizes: tuple[int, ...] = SIZES) -> list[Outcome]:
+    """All measurements; what is under way is printed."""
+    made: list[Outcome] = []
+    with tempfile.TemporaryDirectory() as folder:
+        program = peers.compiled(Path(folder))
+        if program is None:
+            print("SuiteSparse's headers or a C compiler are missing: no peers", flush=True)
+        for family in FAMILIES:
+            orderings: dict[str, str] = {}
+            for size in sizes:
+                if size <= _LARGEST.get(family, sizes[-1]):
+                    found = list(_on_one_model(family, size, program, Path(folder), orderings))
+                    made += found
+                    _remember_orderings(found, orderings)
+    return made
+
+
+def _on_one_model(
+    family: str, size: int, program: Path | None, folder: Path, orderings: dict[str, str]
+) -> Iterator[Outcome]:
+    case = FAMILIES[family](size)
+    truth = _truth(family, size, case)
+    calls = dict(_flexact_calls(family, size))
+    if program is not None and size >= 300:
+        scaled_jacobian(case.model).write(folder / "matrix")
+        side = "motions" if family in _MANY_STRESSES else "both"
+        for peer in _peers_at(size, orderings):
+            method, order = peer.lower().split()
+            calls[peer] = [str(program), str(folder / "matrix"), method, order, side]
+    for contestant, found in _in_turn(calls).items():
+        yield _outcome(family, size, case, contestant, found, truth)
+        print(_line(family, size, contestant, found), flush=True)
+
+
+def _line(family: str, size: int, contestant: str, found: list[dict[str, Any]]) -> str:
+    seconds = statistics.median(one["time"] for one in found)
+    return f"{family:3s}{size:8d} {contestant:17s}{seconds:10.4f} s"
+
+
+def _truth(family: str, size: int, case: Case) -> tuple[int, int] | None:
+    if case.motions is not None and case.stresses is not None:
+        return case.motions, case.stresses
+    if size > _EXACT:
+        return None
+    rank = rank_of_bars(case.model)
+    return case.columns - rank, case.rows - rank
+
+
+def _flexact_calls(family: str, size: int) -> Iterator[tuple[str, list[str]]]:
+    for contestant in ("dgesdd", "svd", "jacobi", "qr", "sparse", "auto"):
+        largest = _DENSE.get(contestant, SIZES[-1])
+        if family == "Bx" and size < 1000:
+            continue
+        if size <= _DENSE_OF.get((contestant, family), largest):
+            worker = str(HERE / "worker.py")
+            yield contestant, [sys.executable, worker, family, str(size), contestant]
+
+
+def _peers_at(size: int, orderings: dict[str, str]) -> tuple[str, ...]:
+    if size <= _BOTH_ORDERINGS or not orderings:
+        return PEERS
+    return tuple(orderings.values())
+
+
+def _remember_orderings(found: list[Outcome], orderings: dict[str, str]) -> None:
+    """The faster ordering of each of the peers' methods."""
+    for method in ("QR", "Cholesky"):
+        those = [one for one in found if one.contestant.startswith(method)]
+        if those:
+            orderings[method] = min(those, key=lambda one: one.seconds).contestant
+
+
+def _in_turn(calls: dict[str, list[str]]) -> dict[str, list[dict[str, Any]]]:
+    """What each call printed, by round; a contestant that fails is left out."""
+    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    found: dict[str, list[dict[str, Any]]] = {name: [] for name in calls}
+    start = time.perf_counter()
+    for _ in range(_ROUNDS):
+        for name in list(found):
+            answer = _answer(calls[name], environment)
+            if isinstance(answer, str):
+                print(f"{name} gave no answer: {answer}", flush=True)
+                del found[name]
+            else:
+                found[name].append(answer)
+        if time.perf_counter() - start > _PATIENCE:
+            break
+    return {name: seen for name, seen in found.items() if seen}
+
+
+def _answer(call: list[str], environment: dict[str, str]) -> dict[str, Any] | str:
+    try:
+        ran = subprocess.run(
+            call, env=environment, capture_output=True, text=True, timeout=_LIMIT, check=True
+        )
+    except subprocess.TimeoutExpired:
+        return f"more than {_LIMIT:.0f} s"
+    except subprocess.CalledProcessError as error:
+        return (error.stderr.strip() or f"exit {error.returncode}").splitlines()[-1]
+    answer: dict[str, Any] = json.loads(ran.stdout)
+    return answer
+
+
+def _outcome(
+    family: str,
+    size: int,
+    case: Case,
+    contestant: str,
+    found: list[dict[str, Any]],
+    truth: tuple[int, int] | None,
+) -> Outcome:
+    def median(key: str) -> float:
+        return float(statistics.median(one[key] for one in found))
+
+    first = found[0]
+    nearly = first.get("nearly")
+    return Outcome(
+        family,
+        size,
+        case.rows,
+        case.columns,
+        contestant,
+        median("time"),
+        median("memory"),
+        first["motions"],
+        first["stresses"],
+        first["residual"],
+        first.get("method", contestant),
+        first.get("certainty", ""),
+        None if nearly is None else (nearly[0], nearly[1]),
+        truth,
+    )
+
+
+def errors_of_smallest(sizes: tuple[int, ...]) -> list[dict[str, Any]]:
+    """Relative errors of the smallest singular value by method (smallest_value.py)."""
+    methods = ["svd", "jacobi", "qr", "sparse", "auto"]
+    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
+    made = []
+    for size in sizes:
+        script = str(HERE / "smallest_value.py")
+        answer = _answer([sys.executable, script, str(size), *methods], environment)
+        if isinstance(answer, str):
+            print(f"smallest value at {size}: {answer}", flush=True)
+        else:
+            made.append(answer)
+            print(f"smallest value at {size}: {answer['errors']}", flush=True)
+    return made
+
+
+def one_of(found: list[Outcome], family: str, size: int, contestant: str) -> Outcome | None:
+    """The outcome of a contestant on one model."""
+    for one in found:
+        if (one.family, one.size, one.contestant) == (family, size, contestant):
+            return one
+    return None
+
+
+def best_peer(found: list[Outcome], family: str, size: int) -> Outcome | None:
+    """The fastest peer that gave the null spaces; a wrong count is none."""
+    those = [one for one in found if (one.family, one.size) == (family, size)]
+    those = [one for one in those if one.contestant in PEERS and one.right is not False]
+    those = [one for one in those if one.motions >= 0 and one.stresses >= -1]
+    return min(those, key=lambda one: one.seconds, default=None)

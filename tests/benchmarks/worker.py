@@ -1,0 +1,145 @@
+"""One contestant on one model, in a process of its own, so that its memory can be told.
+
+    python tests/benchmarks/worker.py FAMILY COLUMNS METHOD
+
+METHOD is one of Flexact's, or `dgesdd`, numpy's SVD of the same matrix with both bases. Prints
+a line of JSON: time [s], growth of the resident memory [bytes], what was found, and the largest
+residual of a null vector of unit length.
+"""
+
+from __future__ import annotations
+
+import json
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from families import FAMILIES, Case, two_bars
+from matrix import Columns, scaled_jacobian
+from numpy.typing import NDArray
+
+import flexact
+from flexact.exchange import Basis
+
+_T = TypeVar("_T")
+#: Null vectors of which the residual is computed.
+_LOOKED_AT = 64
+#: A call that takes less than this [s] is repeated, the first one having warmed up ...
+_SHORT = 2.0
+#: ... for so long [s].
+_LONG_ENOUGH = 0.1
+_MOST_RUNS = 9
+
+
+def main() -> None:
+    """Measure and print."""
+    letter, columns, method = sys.argv[1:]
+    case = FAMILIES[letter](int(columns))
+    matrix = scaled_jacobian(case.model)
+    found = _by_numpy(matrix) if method == "dgesdd" else _by_flexact(case, matrix, method)
+    print(json.dumps(found))
+
+
+def _by_numpy(matrix: Columns) -> dict[str, Any]:
+    full = matrix.toarray()
+    (u, s, vt), seconds, memory = _measured(lambda: np.linalg.svd(full, full_matrices=True))
+    rank = int(np.count_nonzero(s > max(full.shape) * np.finfo(float).eps * s[0]))
+    motions, stresses = Basis.of_dense(vt[rank:].T), Basis.of_dense(u[:, rank:])
+    return _result(seconds, memory, (motions, stresses), matrix)
+
+
+def _by_flexact(case: Case, matrix: Columns, method: str) -> dict[str, Any]:
+    def analyse() -> flexact.Analysis:
+        # A copy of the data has not been checked or counted yet.
+        model = flexact.Model.from_data(replace(case.model.data))
+        made = flexact.analyse(model, method=method)
+        _ = made.certainty, made.gap
+        return made
+
+    # What is imported late is neither time nor memory of the analysis.
+    _ = flexact.analyse(two_bars(0.1, 0.2), method=method).certainty
+    analysis, seconds, memory = _measured(analyse)
+    raw = analysis.raw
+    bases = (_scaled(raw.motions, raw.column_scale), _scaled(raw.stresses, raw.row_scale))
+    found = _result(seconds, memory, bases, matrix)
+    found |= {"motions": analysis.under_constrained, "stresses": analysis.over_constrained}
+    nearly = analysis.nearly
+    found["nearly"] = None if nearly is None else list(nearly)
+    return found | {"method": analysis.method, "certainty": analysis.certainty.value}
+
+
+def _scaled(basis: Basis, scale: NDArray[np.float64]) -> Basis:
+    """Null vectors of D(c) as those of the scaled matrix."""
+    return basis._replace(value=basis.value / scale[basis.place])
+
+
+def _result(
+    seconds: float, memory: int, bases: tuple[Basis, Basis], matrix: Columns
+) -> dict[str, Any]:
+    column = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.start))
+    residual = max(
+        _residual(bases[0], matrix.row, column, matrix),
+        _residual(bases[1], column, matrix.row, matrix),
+    )
+    motions, stresses = (basis.vectors for basis in bases)
+    return {
+        "time": seconds,
+        "memory": memory,
+        "motions": motions,
+        "stresses": stresses,
+        "residual": residual,
+    }
+
+
+def _residual(
+    basis: Basis, row: NDArray[np.int64], column: NDArray[np.int64], matrix: Columns
+) -> float:
+    largest = 0.0
+    for k in range(min(basis.vectors, _LOOKED_AT)):
+        vector = basis.vector(k)
+        product = np.bincount(row, matrix.value * vector[column])
+        largest = max(largest, float(np.linalg.norm(product) / np.linalg.norm(vector)))
+    return largest
+
+
+def _measured(call: Callable[[], _T]) -> tuple[_T, float, int]:
+    """Result, median time [s], and by how much the resident memory grew at most [bytes]."""
+    _forget_peak()
+    before = _memory("VmRSS:")
+    times: list[float] = []
+    made = _timed(call, times)
+    memory = _memory("VmHWM:") - before
+    if times[0] < _SHORT:
+        times.clear()
+        while len(times) < _MOST_RUNS and sum(times) < _LONG_ENOUGH:
+            made = _timed(call, times)
+    return made, statistics.median(times), memory
+
+
+def _timed(call: Callable[[], _T], times: list[float]) -> _T:
+    start = time.perf_counter()
+    made = call()
+    times.append(time.perf_counter() - start)
+    return made
+
+
+def _memory(name: str) -> int:
+    """A line of /proc/self/status [bytes]."""
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith(name):
+            return 1024 * int(line.split()[1])
+    return 0
+
+
+def _forget_peak() -> None:
+    """Make the highest resident memory the present one."""
+    Path("/proc/self/clear_refs").write_text("5")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,260 @@
+"""How certain a rank is: no wrong one may be called certain, and healthy decks are.
+
+Truths come from the stored references (each names its source), from the paper's twelve trusses,
+and from geometry that is exact by construction.
+"""
+
+import dataclasses
+import importlib
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from known_models import ring, twelve_trusses
+from smallest_pairs import with_pairs
+
+import flexact
+from flexact import Analysis, Model, analyse
+from flexact.exchange import FloatArray
+
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = ROOT / "tests" / "reference"
+if str(REFERENCE) not in sys.path:
+    sys.path.append(str(REFERENCE))
+transform: Any = importlib.import_module("transform")
+
+NAMES = [
+    path.relative_to(ROOT / "input_decks").with_suffix("").as_posix()
+    for path in sorted((ROOT / "input_decks").rglob("*.dat"))
+    if path.relative_to(ROOT / "input_decks").parts[0] != "broken"
+]
+TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
+
+
+def counts(analysis: Analysis) -> tuple[int, int]:
+    return analysis.under_constrained, analysis.over_constrained
+
+
+def text_of(name: str) -> str:
+    return (ROOT / "input_decks" / f"{name}.dat").read_text(encoding="utf-8")
+
+
+def truth_of(name: str) -> tuple[int, int]:
+    content = json.loads((REFERENCE / f"{name}.json").read_text(encoding="utf-8"))
+    return content["under_constrained"], content["over_constrained"]
+
+
+def assert_right_or_nearly(analysis: Analysis, truth: tuple[int, int]) -> None:
+    if analysis.certainty is flexact.Certainty.CERTAIN:
+        assert counts(analysis) == truth
+        assert analysis.nearly is None
+        assert analysis.doubts == ()
+    else:
+        assert analysis.nearly is not None
+        assert analysis.doubts
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_deck_is_certain(name: str) -> None:
+    analysis = with_pairs(analyse(flexact.read_text(text_of(name))))
+    assert (analysis.certainty.value, analysis.nearly) == ("certain", None)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_lengths_and_places_leave_the_counts(name: str) -> None:
+    text, truth = text_of(name), truth_of(name)
+    planar = flexact.read_text(text).planar
+    length = analyse(flexact.read_text(text)).characteristic_length
+    direction = np.array([0.7310585786300049, -0.5963, 0.0 if planar else 0.4123105625617661])
+    changed = [transform.scaled(text, factor) for factor in (1e-9, 1e-3, 1e3, 1e9)]
+    changed += [transform.moved(text, far * length * direction) for far in (1.0, 1e4, 1e6, 1e8)]
+    for other in changed:
+        analysis = with_pairs(analyse(flexact.read_text(other)))
+        assert counts(analysis) == truth
+        assert analysis.nearly in (None, truth)
+
+
+# Digits
+
+
+def rounded(model: Model, turn: FloatArray, form: str) -> Model:
+    """Bars of a model turned, their coordinates printed in a form and read back."""
+    made = Model()
+    places = (turn @ model.positions.T).T
+    nodes = [made.node(*(float(format(part, form)) for part in place)) for place in places]
+    for p, _, q, _ in model.element_nodes.tolist():
+        made.truss(nodes[p], nodes[q])
+    fixed = (model.coordinate_classes == 1).all(axis=1)
+    for index in np.flatnonzero(fixed):
+        made.fix(nodes[index])
+    return made
+
+
+def random_turns(number: int) -> list[FloatArray]:
+    random = np.random.default_rng(20110)
+    return [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(number)]
+
+
+@pytest.mark.parametrize("digits", [3, 4, 5, 6, 7, 8])
+@pytest.mark.parametrize("kind", ["e", "f"])
+def test_rounded_trusses_of_the_paper_are_nearly_both(digits: int, kind: str) -> None:
+    form = f".{digits - 1}e" if kind == "e" else f".{digits}f"
+    for turn in random_turns(40):
+        analysis = with_pairs(analyse(rounded(twelve_trusses(), turn, form)))
+        assert analysis.certainty is flexact.Certainty.NEARLY
+        assert analysis.nearly == (1, 1)
+        assert analysis.nearly.under_constrained == 1
+
+
+def test_digits_explain_in_words() -> None:
+    analysis = with_pairs(analyse(rounded(twelve_trusses(), TURN, ".3e")))
+    assert counts(analysis) == (0, 0)
+    (doubt,) = analysis.doubts
+    assert doubt.startswith("full rank, but a rounding of the deck's own digits explains it")
+    assert [item.message for item in analysis.warnings] == [doubt]
+    text = analysis.describe().replace("\n", " ")
+    assert "if every singular value in doubt is zero, the mechanism is under-constrained by 1" in text
+    data = json.loads(analysis.to_json())
+    assert data["certainty"] == "nearly"
+    assert data["nearly"] == {"under_constrained": 1, "over_constrained": 1}
+
+
+@pytest.mark.parametrize("digits", [3, 4, 6])
+@pytest.mark.parametrize("n", [3, 5])
+def test_rounded_rings_of_odd_number_stay_certain(n: int, digits: int) -> None:
+    """Tarnai 1980: they are rigid, by far more than any rounding."""
+    for turn in random_turns(10):
+        analysis = with_pairs(analyse(rounded(ring(n), turn, f".{digits - 1}e")))
+        assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
+
+
+@pytest.mark.parametrize("digits", [3, 4, 6, 11])
+@pytest.mark.parametrize("n", [4, 6])
+def test_rounded_rings_of_even_number_are_right_or_nearly(n: int, digits: int) -> None:
+    for turn in random_turns(10):
+        analysis = with_pairs(analyse(rounded(ring(n), turn, f".{digits - 1}e")))
+        assert_right_or_nearly(analysis, (1, 1))
+        assert (1, 1) in (counts(analysis), analysis.nearly)
+
+
+def test_zeros_that_count_because_of_digits_are_nearly() -> None:
+    analysis = with_pairs(analyse(rounded(twelve_trusses(), TURN, ".10e")))
+    assert counts(analysis) == (1, 1)
+    assert analysis.nearly == (1, 1)
+    assert [item.code for item in analysis.warnings] == ["rounded-coordinates"]
+
+
+def test_joints_of_a_lattice_are_meant() -> None:
+    """A row of braced squares, at 100, 101, ...: three digits, and every bar is one long."""
+    for start in (0.0, 100.0, 12345.0):
+        model = Model(planar=True)
+        low = [model.node(start + i, 0) for i in range(6)]
+        high = [model.node(start + i, 1) for i in range(6)]
+        for i in range(6):
+            if i:
+                model.truss(low[i], high[i])
+            if i < 5:
+                model.truss(low[i], low[i + 1])
+                model.truss(high[i], high[i + 1])
+                model.truss(low[i], high[i + 1])
+        model.fix(low[0])
+        model.fix(high[0])
+        analysis = with_pairs(analyse(model))
+        assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
+
+
+# Small angles, many beams
+
+
+def two_wires(angle: float, shift: float = 0.0) -> Model:
+    model = Model(planar=True)
+    a, b = model.node(shift, -shift), model.node(shift, angle - shift)
+    c = model.node(1.0 + shift, -shift)
+    for end in (a, b):
+        model.truss(end, c)
+        model.fix(end)
+    return model
+
+
+@pytest.mark.parametrize("power", range(1, 16))
+def test_two_wires_at_an_angle_are_right_or_nearly(power: int) -> None:
+    analysis = with_pairs(analyse(two_wires(10.0**-power)))
+    assert_right_or_nearly(analysis, (0, 0))
+    if power <= 13:
+        assert counts(analysis) == (0, 0)
+    if power <= 11:
+        assert analysis.certainty is flexact.Certainty.CERTAIN
+
+
+@pytest.mark.parametrize("shift", [1e2, 1e4, 1e6, 1e8])
+@pytest.mark.parametrize("power", range(1, 8))
+def test_two_wires_far_from_the_origin_are_right_or_nearly(power: int, shift: float) -> None:
+    """Down to an angle that the stored coordinates still hold to a few bits."""
+    if 10.0**-power > 2e-16 * 8 * shift:
+        analysis = with_pairs(analyse(two_wires(10.0**-power, shift)))
+        assert_right_or_nearly(analysis, (0, 0))
+
+
+def guide(beams: int, size: float) -> Model:
+    """Two parallel sheets and a stage: one motion, one self-stress."""
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(size, 0, 0)
+    c, d = model.node(0, size / 4, 0), model.node(size, size / 4, 0)
+    model.sheet(a, b, (0, 0, 1), beams)
+    model.sheet(c, d, (0, 0, 1), beams)
+    model.rigid(b, d)
+    model.fix(a)
+    model.fix(c)
+    return model
+
+
+@pytest.mark.parametrize("size", [0.06, 60.0, 6e4])
+@pytest.mark.parametrize("beams", [1, 16, 64])
+def test_guide_of_many_beams_in_any_unit(beams: int, size: float) -> None:
+    """Each further beam of a sheet adds three internal motions (paper, section 4.2)."""
+    analysis = with_pairs(analyse(guide(beams, size)))
+    assert counts(analysis) == (1 + 6 * (beams - 1), 1)
+    assert analysis.certainty is flexact.Certainty.CERTAIN
+
+
+# What else leaves a doubt
+
+
+def test_a_tolerance_that_was_given_is_honest() -> None:
+    model = two_wires(1e-4)
+    analysis = with_pairs(analyse(model, tolerance=1e-3))
+    assert counts(analysis) == (1, 1)
+    assert analysis.nearly == (1, 1)
+    assert "the tolerance that was given says so" in analysis.doubts[0]
+    assert [item.code for item in analysis.warnings] == ["given-tolerance"]
+    assert analyse(model, tolerance=1e-6).certainty is flexact.Certainty.CERTAIN
+
+
+def test_noise_that_counts_because_of_a_tolerance_is_nearly() -> None:
+    exact = ring(6)
+    analysis = with_pairs(analyse(exact, tolerance=0.0))
+    assert_right_or_nearly(analysis, (1, 1))
+
+
+def test_a_rank_that_is_not_confirmed_is_not_certain() -> None:
+    analysis = analyse(ring(5))
+    unsure = analysis.raw._replace(confirmed=False, method="qr")
+    estimate = dataclasses.replace(analysis, raw=unsure)
+    assert estimate.nearly == (0, 0)
+    assert estimate.doubts == (
+        "the method qr estimates: its values may be larger than the singular values are",
+    )
+
+
+def test_nothing_is_in_doubt_without_columns() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(math.pi, 0, 0)
+    model.sheet(a, b, (0, 0, 1))
+    model.fix(a)
+    model.fix(b)
+    analysis = analyse(model)
+    assert (analysis.certainty.value, analysis.nearly, analysis.doubts) == ("certain", None, ())

@@ -1,0 +1,164 @@
+"""The margin: misalign by it, and the verdict changes."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from known_models import folded_sheet, ring, twelve_trusses
+from smallest_pairs import with_pairs
+
+from flexact import Model, _boundary, analyse
+
+
+def two_wires(angle: float, length: float = 1.0) -> Model:
+    """From the points 0 and `angle` along y to one joint at x = `length`."""
+    model = Model(planar=True)
+    a, b = model.node(0, 0), model.node(0, length * angle)
+    joint = model.node(length, 0)
+    for end in (a, b):
+        model.truss(end, joint)
+        model.fix(end)
+    return model
+
+
+@pytest.mark.parametrize("length", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("angle", [1e-2, 1e-4, 1e-6, 1e-8])
+def test_margin_of_two_wires_is_their_angle(angle: float, length: float) -> None:
+    """They are parallel once one of them turns by it, or an end moves by its arc."""
+    margin = with_pairs(analyse(two_wires(angle, length))).margin
+    assert margin.angle == pytest.approx(angle, rel=2 * angle + 1e-6)
+    assert margin.length == pytest.approx(angle * length, rel=2 * angle + 1e-6)
+    assert margin.element in (1, 2)
+    assert margin.singular_value == pytest.approx(angle / 2, rel=2 * angle + 1e-6)
+
+
+def smallest_after_move(model: Model, node: int, move: np.ndarray) -> float:
+    """Smallest singular value of the scaled D(c) where a node stands elsewhere."""
+    places = model.positions.copy()
+    places[model.node_index(node)] += move
+    moved = Model()
+    nodes = [moved.node(*place) for place in places]
+    for p, _, q, _ in model.element_nodes.tolist():
+        moved.truss(nodes[p], nodes[q])
+    for index in np.flatnonzero((model.coordinate_classes == 1).all(axis=1)):
+        moved.fix(nodes[index])
+    return float(analyse(moved).scaled_singular_values[-1])
+
+
+def near_yaw_90(degrees: float) -> Model:
+    """Hunt and Fichter's platform, singular at a yaw of 90 degrees."""
+    model = Model()
+    base = [model.node(*polar(1.0, k), 0) for k in (0, 120, 240)]
+    top = [model.node(*polar(0.6, k + degrees), 1) for k in (60, 180, 300)]
+    for k in range(3):
+        model.fix(base[k])
+        model.truss(base[k], top[k])
+        model.truss(base[(k + 1) % 3], top[k])
+        model.truss(top[k], top[(k + 1) % 3])
+    return model
+
+
+def polar(radius: float, degrees: float) -> tuple[float, float]:
+    return radius * math.cos(math.radians(degrees)), radius * math.sin(math.radians(degrees))
+
+
+def test_moving_the_node_by_the_margin_makes_a_zero() -> None:
+    model = near_yaw_90(89.9)
+    analysis = with_pairs(analyse(model))
+    margin = analysis.margin
+    assert margin.length is not None
+    assert margin.node is not None
+    random = np.random.default_rng(7)
+    directions = random.normal(size=(400, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    moved = [smallest_after_move(model, margin.node, margin.length * d) for d in directions]
+    (small, _) = analysis.gap
+    assert small is not None
+    assert min(moved) < 0.1 * small
+    shorter = [smallest_after_move(model, margin.node, 0.5 * margin.length * d) for d in directions]
+    assert min(shorter) > 0.4 * small
+
+
+def test_a_zero_is_lifted_above_the_tolerance() -> None:
+    """The joint of two bars in a line: moving it by d turns both, so u' dD v is 2 d / 2."""
+    model = Model(planar=True)
+    a, b, c = (model.node(x, 0) for x in (-1, 0, 1))
+    model.truss(a, b)
+    model.truss(b, c)
+    model.fix(a)
+    model.fix(c)
+    analysis = analyse(model)
+    margin = analysis.margins[0]
+    # u = (1, 1) / sqrt(2), v = (0, 1), rows scaled by 1 / sqrt(2): u' dD v = d.
+    assert margin.length == pytest.approx(analysis.tolerance, rel=1e-6)
+    assert (margin.node, margin.singular_value) == (b.position, pytest.approx(0.0, abs=1e-15))
+    assert analysis.margin.length == margin.length
+
+
+def test_units_do_not_matter() -> None:
+    metres, millimetres = (with_pairs(analyse(folded_sheet(False, 2, s))) for s in (0.06, 60.0))
+    assert len(metres.margins) == len(millimetres.margins) > 0
+    for one, other in zip(metres.margins, millimetres.margins, strict=True):
+        assert one.singular_value == pytest.approx(other.singular_value, rel=1e-9)
+    assert metres.margin.length is not None
+    assert millimetres.margin.length == pytest.approx(1000 * metres.margin.length, rel=1e-6)
+    assert millimetres.margin.angle == pytest.approx(metres.margin.angle, rel=1e-6)
+
+
+def test_no_misalignment_frees_a_clamped_fold() -> None:
+    """Fig. 4 of the paper: its motion and its self-stress hold for any angle and length."""
+    analysis = analyse(folded_sheet(clamped=True))
+    assert len(analysis.margins) == 1
+    assert analysis.margins[0][:4] == (None, None, None, None)
+
+
+def test_one_margin_for_each_zero_and_each_pair() -> None:
+    analysis = with_pairs(analyse(twelve_trusses()), most=3)
+    assert len(analysis.margins) == 4
+    assert [margin.length is not None for margin in analysis.margins] == [True] * 4
+    smallest = min(margin.length or 0.0 for margin in analysis.margins)
+    assert analysis.margin.length == smallest
+
+
+def test_motions_alone_have_no_margin() -> None:
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.truss(a, b)
+    model.fix(a)
+    analysis = analyse(model)
+    assert analysis.under_constrained == 2
+    assert not [m for m in analysis.margins if m.singular_value == 0.0]
+
+
+def test_margin_in_json_and_in_words() -> None:
+    analysis = with_pairs(analyse(two_wires(1e-4)))
+    margin = json.loads(analysis.to_json())["margin"]
+    assert margin == {"length": analysis.margin.length, "angle": analysis.margin.angle}
+    text = analysis.describe().replace("\n", " ")
+    assert "The decision is certain." in text
+    assert "or turning element " in text
+    assert "by 0.0001 rad." in text
+    none = json.loads(analyse(folded_sheet(clamped=True)).to_json())
+    assert set(none["margin"]) == {"length", "angle"}
+
+
+def test_pairs_of_wrong_size_are_refused() -> None:
+    arrays = ring(3).data.arrays
+    pairs = np.zeros((2, 1), np.int32)
+    with pytest.raises(ValueError, match="the vectors are not of the model's size"):
+        _boundary.find_sensitivities(arrays, np.zeros((2, 1)), np.zeros((9, 1)), pairs)
+    with pytest.raises(ValueError, match="or a pair names none of them"):
+        _boundary.find_sensitivities(arrays, np.zeros((9, 1)), np.zeros((9, 1)), pairs + 1)
+
+
+def test_sensitivities_are_double() -> None:
+    """One third in every real argument; a truss along y, dn_x/dx = 1 / l."""
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(0, 3, 0)
+    model.truss(a, b)
+    model.fix(a)
+    u, v = np.full((1, 1), 1 / 3), np.array([[1 / 3], [0.0], [0.0]])
+    found = _boundary.find_sensitivities(model.data.arrays, u, v, np.zeros((2, 1), np.int32))
+    assert found.by_move[0] == pytest.approx(1 / 27, rel=1e-9)
+    assert found.by_turn[0] == pytest.approx(1 / 9, rel=1e-9)

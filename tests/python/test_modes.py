@@ -1,0 +1,86 @@
+"""Motions and self-stresses as a row of modes, and results that do not give all of them."""
+
+import json
+import pickle
+import re
+
+import numpy as np
+import pytest
+from known_models import folded_sheet, twelve_trusses
+from large_results import changed, first_of
+
+from flexact import Motion, analyse, mesh
+from flexact.log import log_text
+from flexact.words import describe
+
+
+def test_modes_are_like_a_tuple() -> None:
+    motions = analyse(folded_sheet(False)).motions
+    assert len(motions) == 6 and [mode.index for mode in motions] == list(range(6))
+    assert motions[-1].index == 5
+    assert motions[1:3] == (motions[1], motions[2]) and isinstance(motions[1:3], tuple)
+    assert motions[2] in motions
+    assert motions == tuple(motions) and motions != motions[:5]
+    for index in (6, -7):
+        with pytest.raises(IndexError):
+            motions[index]
+    assert repr(motions).startswith("(<Motion 1: node ")
+    assert {motions, motions[:]} and isinstance(motions[0], Motion)
+
+
+def test_modes_of_different_results_differ() -> None:
+    one, other = (analyse(twelve_trusses()).motions for _ in range(2))
+    assert one != other and one[0] != other[0]
+    assert one == one[0].analysis.motions
+
+
+def test_modes_travel_between_processes() -> None:
+    motions = analyse(folded_sheet(False)).motions
+    again = pickle.loads(pickle.dumps(motions))
+    assert len(again) == 6
+    assert np.array_equal(again[2].displacement, motions[2].displacement)
+
+
+def test_largest_parts_are_those_of_the_whole_vector() -> None:
+    analysis = analyse(folded_sheet(False))
+    for motion in analysis.motions:
+        labels, vector = analysis.column_labels, motion.vector
+        values = {label: value for label, value in zip(labels, vector, strict=True)}
+        weight = {c: analysis.characteristic_length if c[0] == "r" else 1.0 for _, c in labels}
+        told = motion.largest(100)
+        assert all(values[node, c] == value for node, c, value in told)
+        sizes = [abs(value) * weight[c] for _, c, value in told]
+        assert sizes == pytest.approx(sorted(sizes, reverse=True), rel=1e-8)
+        assert sizes[0] == pytest.approx(max(abs(v) * weight[c] for (_, c), v in values.items()))
+
+
+def test_vectors_that_are_left_out_are_told() -> None:
+    whole = analyse(folded_sheet(False, beams=4))
+    assert whole.under_constrained == 24
+    part = changed(whole, motions=first_of(whole.raw.motions, 3))
+    assert part.under_constrained == 24 and len(part.motions) == 3
+    read = json.loads(part.to_json())
+    assert read["motions_given"] == 3 and len(read["motions"]) == 3
+    assert list(read).index("motions_given") == list(read).index("motions") - 1
+    assert "self_stresses_given" not in read and "motions_given" not in whole.to_dict()
+    text = re.sub(r"\s+", " ", describe(part))
+    assert "3. node" in text and "4. node" not in text
+    assert "... and 21 more motions Of these 24 motions the first 3 are given" in text
+    assert "are given" not in describe(whole)
+
+
+def test_text_of_json_is_that_of_the_dictionary() -> None:
+    for model in (twelve_trusses(), folded_sheet(True, 3), folded_sheet(False)):
+        analysis = analyse(model, name='a "b" \u00e9')
+        assert analysis.to_json() == json.dumps(analysis.to_dict())
+
+
+def test_a_mesh_holds_so_many_modes_that_it_stays_small(monkeypatch: pytest.MonkeyPatch) -> None:
+    analysis = analyse(folded_sheet(False, beams=4))
+    assert mesh.most_modes(analysis) >= 24
+    assert "The mesh holds" not in log_text(analysis, most_in_mesh=24)
+    monkeypatch.setattr(mesh, "_NUMBERS", 1)
+    names = analysis.to_meshio().point_data
+    assert "motion_6" in names and "motion_7" not in names
+    log = log_text(analysis, most_in_mesh=mesh.most_modes(analysis))
+    assert "The mesh holds the first 6 of 24 motions." in log
