@@ -32,6 +32,9 @@ module flexact_answer
       !> Whether vectors are wanted even where there are very many, which takes
       !> longer than all the rest; else the first of them.
       logical :: every_vector = .false.
+      !> Whether, in place of all else, the smallest singular values of D(c) itself
+      !> are wanted, which come as scaled values then.
+      logical :: only_plain_values = .false.
       !> Where a caller watches: what is at work (see below) and per cent of it.
       integer, pointer :: stage(:) => null()
    contains

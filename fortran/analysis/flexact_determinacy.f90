@@ -1,12 +1,11 @@
 !> Kinematic and static determinacy, section 3 of the paper: the rank of D(c),
 !> the motions that it leaves free and the self-stresses that it admits.
 module flexact_determinacy
-   use flexact_answer, only: options_t, answer_t, method_auto, method_svd, method_sparse
+   use flexact_answer, only: options_t, answer_t, method_auto, method_svd, method_sparse, stage_assembling
    use flexact_basis, only: new_basis
    use flexact_cholmod, only: cholmod_is_there
-   use flexact_decomposition, only: status_fine
+   use flexact_decomposition, only: status_fine, status_no_convergence
    use flexact_dense_route, only: analyse_dense
-   use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t, make_problem
    use flexact_sparse_route, only: analyse_sparse
@@ -18,6 +17,9 @@ module flexact_determinacy
    !> if there are not too many of them.
    integer, parameter :: small_part = 200
    integer, parameter :: small_whole = 600
+   !> Parts up to this size are decomposed completely where the sparse route leaves
+   !> doubt; it may take half a minute.
+   integer, parameter :: still_feasible = 3000
 
 contains
 
@@ -28,21 +30,37 @@ contains
       type(problem_t), intent(out) :: problem
       type(answer_t), intent(out) :: answer
 
-      call make_problem(model, problem)
+      call options%tell(stage_assembling, 0, 1)
+      call make_problem(model, options%only_plain_values, problem)
       answer%method = options%method
       if (options%method == method_auto) answer%method = choice(problem)
       call prepare(problem, answer)
       if (answer%method == method_sparse) then
          call analyse_sparse(problem, options, answer)
-      else
-         call analyse_dense(problem, options, answer)
+         if (is_in_doubt(answer) .and. largest_part(problem) <= still_feasible) then
+            answer%method = method_svd
+            call prepare(problem, answer)
+         end if
       end if
+      if (answer%method /= method_sparse) call analyse_dense(problem, options, answer)
    end subroutine analyse
 
+   !> Whether the sparse route gave no count, or one that is not confirmed.
+   pure logical function is_in_doubt(answer)
+      type(answer_t), intent(in) :: answer
+      is_in_doubt = answer%status == status_no_convergence .or. &
+                    (answer%status == status_fine .and. .not. answer%confirmed)
+   end function is_in_doubt
+
+   !> An answer with nothing in it but the method.
    pure subroutine prepare(problem, answer)
       type(problem_t), intent(in) :: problem
       type(answer_t), intent(inout) :: answer
+      integer :: method
 
+      method = answer%method
+      answer = answer_t()
+      answer%method = method
       answer%status = status_fine
       call new_basis(answer%motions)
       call new_basis(answer%stresses)
@@ -53,20 +71,24 @@ contains
    !> Complete decompositions where they are quick, sparse ones else.
    integer function choice(problem)
       type(problem_t), intent(in) :: problem
-      integer :: i, largest, whole
+
+      choice = method_sparse
+      if (cholmod_is_there() == 0 .or. (largest_part(problem) <= small_part .and. &
+                                        min(problem%by_column%rows, problem%by_column%columns) <= small_whole)) &
+         choice = method_svd
+   end function choice
+
+   !> The shorter side of the part with the longest such.
+   pure integer function largest_part(problem) result(largest)
+      type(problem_t), intent(in) :: problem
+      integer :: i
 
       largest = 0
-      whole = 0
       associate (parts => problem%parts)
          do i = 1, parts%count
-            associate (shorter => min(parts%row_start(i + 1) - parts%row_start(i), &
-                                      parts%column_start(i + 1) - parts%column_start(i)))
-               largest = max(largest, shorter)
-               whole = whole + shorter
-            end associate
+            largest = max(largest, min(parts%row_start(i + 1) - parts%row_start(i), &
+                                       parts%column_start(i + 1) - parts%column_start(i)))
          end do
       end associate
-      choice = method_sparse
-      if ((largest <= small_part .and. whole <= small_whole) .or. cholmod_is_there() == 0) choice = method_svd
-   end function choice
+   end function largest_part
 end module flexact_determinacy

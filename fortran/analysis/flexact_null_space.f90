@@ -8,7 +8,7 @@ module flexact_null_space
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_kinds, only: wp
    use flexact_basis, only: basis_t
-   use flexact_sparse, only: sparse_t, times_transposed
+   use flexact_sparse, only: sparse_t, times_transposed, norm_bound
    use flexact_decomposition, only: decompose, orthonormalise
    use flexact_lapack, only: dgeqrf
    use flexact_vectors, only: length_of
@@ -23,11 +23,16 @@ module flexact_null_space
       type(sparse_t) :: by_row
    end type operator_t
 
+   integer, parameter :: most_rounds = 4
+   !> A value below this part of the norm is as good as zero.
+   real(wp), parameter :: practically_zero = 1.0e-13_wp
    !> Steps of the Lanczos process, and the least width of its blocks.
    integer, parameter :: most_steps = 12
    integer, parameter :: narrowest = 3
    !> Relative change of a value that ends the process.
    real(wp), parameter :: settled = 1.0e-10_wp
+   !> The same for a value to be given beside the smallest.
+   real(wp), parameter :: nearly_settled = 1.0e-8_wp
    !> What is left of a vector that brings nothing new.
    real(wp), parameter :: new = 1.0e-7_wp
 
@@ -60,7 +65,37 @@ contains
       if (status == 0) call orthonormalise(vectors, status)
       call apart%remove(vectors)
       if (status == 0) call settle(a, vectors, values, status)
+      do round = 1, most_rounds
+         if (status /= 0 .or. all(values <= practically_zero*norm_bound(a%by_column))) return
+         call improve(a, pinned, apart, vectors, values, status)
+      end do
    end subroutine pinned_space
+
+   !> Vectors whose values are not zero are off, since the pins hold them: find the
+   !> lowest in the space of all vectors and of inverse(F) times their residuals.
+   subroutine improve(a, pinned, apart, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      type(basis_t), intent(in) :: apart
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+      real(wp), intent(inout) :: values(:)
+      integer, intent(out) :: status
+      real(wp) :: image(a%by_column%rows, size(values)), residual(size(vectors, 1), size(values))
+      real(wp) :: space(size(vectors, 1), min(2*size(values), size(vectors, 1) - apart%vectors)), none(size(vectors, 1), 0)
+      integer :: k, used, fresh
+
+      call times_transposed(a%by_row, vectors, image)
+      call times_transposed(a%by_column, image, residual)
+      do k = 1, size(values)
+         residual(:, k) = residual(:, k) - values(k)**2*vectors(:, k)
+      end do
+      call apply_inverse(pinned, residual, status)
+      if (status /= 0) return
+      used = size(values)
+      space(:, :used) = vectors
+      call extend(apart, none, residual, space, used, fresh)
+      call take_lowest(a, space(:, :used), vectors, values, status)
+   end subroutine improve
 
    !> Take from each vector what A does not send to zero.
    subroutine correct(a, pinned, vectors, status)
@@ -113,10 +148,10 @@ contains
       end do
    end subroutine triangle_of
 
-   !> The `wanted` smallest values beyond those of `apart` and of `lowest`,
-   !> orthonormal vectors (columns, k), and their vectors (columns, wanted): by the
-   !> block Lanczos process for the inverse of A'A, until the smallest settles, or
-   !> a mere estimate of it from above.
+   !> Up to `wanted` of the smallest values beyond those of `apart` and of `lowest`,
+   !> orthonormal vectors (columns, k), and their vectors, by the block Lanczos
+   !> process for the inverse of A'A: those that have settled when the smallest
+   !> has, or mere estimates from above.
    subroutine next_space(a, pinned, apart, lowest, wanted, careful, vectors, values, status)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
@@ -127,32 +162,47 @@ contains
       real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
       integer, intent(out) :: status
       real(wp), allocatable :: space(:, :), block(:, :)
-      real(wp) :: before
-      integer :: step, used, fresh, rest
+      real(wp) :: before(wanted)
+      integer :: step, used, fresh, rest, width, steps
 
       allocate (vectors(a%by_column%columns, wanted), values(wanted))
       status = 0
       if (wanted == 0) return
       rest = a%by_column%columns - apart%vectors - size(lowest, 2)
-      associate (width => min(rest, max((wanted + 1)/2, narrowest)), steps => merge(most_steps, 2, careful))
-         allocate (space(a%by_column%columns, min(rest, width*steps)), block(a%by_column%columns, width))
-         call fill_at_random(block)
-         used = 0
-         before = huge(before)
-         do step = 1, steps
-            call apply_inverse(pinned, block, status)
-            if (status /= 0) return
-            call extend(apart, lowest, block, space, used, fresh)
-            block = space(:, used - fresh + 1:used)
-            if (.not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
-            if (used < wanted) cycle
-            call take_lowest(a, space(:, :used), vectors, values, status)
-            if (status /= 0 .or. fresh == 0 .or. used == size(space, 2)) exit
-            if (abs(before - values(1)) <= settled*values(1)) exit
-            before = values(1)
-         end do
-      end associate
+      width = min(rest, max((wanted + 1)/2, narrowest))
+      steps = merge(most_steps, 2, careful)
+      allocate (space(a%by_column%columns, min(rest, width*steps)), block(a%by_column%columns, width))
+      call fill_at_random(block)
+      used = 0
+      before = huge(before)
+      do step = 1, steps
+         call apply_inverse(pinned, block, status)
+         if (status /= 0) return
+         call extend(apart, lowest, block, space, used, fresh)
+         block = space(:, used - fresh + 1:used)
+         if (used < wanted .or. .not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
+         call take_lowest(a, space(:, :used), vectors, values, status)
+         if (status /= 0 .or. fresh == 0 .or. used == size(space, 2)) exit
+         if (abs(before(1) - values(1)) <= settled*values(1)) exit
+         before = values
+      end do
+      if (careful .and. used < rest .and. fresh > 0) call keep_settled(before, vectors, values)
    end subroutine next_space
+
+   !> Keep the first values that have settled, the smallest in any case.
+   pure subroutine keep_settled(before, vectors, values)
+      real(wp), intent(in) :: before(:)
+      real(wp), allocatable, intent(inout) :: vectors(:, :), values(:)
+      integer :: kept
+
+      kept = 1
+      do while (kept < size(values))
+         if (abs(before(kept + 1) - values(kept + 1)) > nearly_settled*values(kept + 1)) exit
+         kept = kept + 1
+      end do
+      vectors = vectors(:, :kept)
+      values = values(:kept)
+   end subroutine keep_settled
 
    !> Whether the values are looked at after this step.
    pure logical function is_due(step, steps)

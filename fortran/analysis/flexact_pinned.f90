@@ -46,6 +46,8 @@ module flexact_pinned
       logical :: is_narrow = .false.
       !> Place of each column in the envelope.
       integer, allocatable :: place_of(:)
+      !> Where A stands for A diag(1/scale), its columns made equally long.
+      real(wp), allocatable :: scale(:)
       type(envelope_t) :: envelope
       type(c_ptr) :: handle = c_null_ptr
    end type pinned_t
@@ -212,6 +214,7 @@ contains
 
       status = pinned_fine
       if (size(x) == 0) return
+      if (allocated(pinned%scale)) call divide(pinned%scale, x)
       if (pinned%is_narrow) then
          do i = 1, pinned%n
             y(pinned%place_of(i), :) = x(i, :)
@@ -224,7 +227,18 @@ contains
          if (cholmod_solve(pinned%handle, pinned%n, size(x, 2), x, y) /= 0) status = pinned_no_memory
          x = y
       end if
+      if (allocated(pinned%scale)) call divide(pinned%scale, x)
    end subroutine apply_inverse
+
+   pure subroutine divide(scale, x)
+      real(wp), intent(in) :: scale(:)
+      real(wp), intent(inout) :: x(:, :)
+      integer :: k
+
+      do k = 1, size(x, 2)
+         x(:, k) = x(:, k)/scale
+      end do
+   end subroutine divide
 
    subroutine release(pinned)
       type(pinned_t), intent(inout) :: pinned

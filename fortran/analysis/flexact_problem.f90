@@ -23,8 +23,10 @@ module flexact_problem
 
 contains
 
-   pure subroutine make_problem(model, problem)
+   !> is_plain: all scales are one.
+   pure subroutine make_problem(model, is_plain, problem)
       type(model_t), intent(in) :: model
+      logical, intent(in) :: is_plain
       type(problem_t), intent(out) :: problem
       type(jacobian_t) :: jacobian
       integer, allocatable :: row(:), column(:)
@@ -33,6 +35,10 @@ contains
       call make_partition(model, problem%partition)
       call make_jacobian(model, model%node_value, jacobian)
       call make_scaling(model, problem%partition, jacobian, problem%scaling)
+      if (is_plain) then
+         problem%scaling%row = 1.0_wp
+         problem%scaling%column = 1.0_wp
+      end if
       call move_alloc(jacobian%length, problem%length)
       allocate (row(jacobian%entries), column(jacobian%entries))
       do entry = 1, jacobian%entries

@@ -18,7 +18,8 @@ module flexact_sparse_route
    use flexact_problem, only: problem_t
    use flexact_rank, only: rank_t, decide_rank
    use flexact_sort, only: sort_descending
-   use flexact_sparse, only: part_of, transposed, times_transposed, norm_bound
+   use flexact_sparse, only: sparse_t, part_of, transposed, times_transposed, norm_bound
+   use flexact_vectors, only: length_of
    implicit none
    private
    public :: analyse_sparse
@@ -136,10 +137,11 @@ contains
          if (first_time) call add_unit(part, answer)
          return
       end if
-      call make_pinned(part%matrix%by_column, part%matrix%by_row, part%group, options, pinned, answer%status)
+      call pin_part(part, options, pinned, answer%status)
       if (answer%status == pinned_fine) then
          call find_low_end(part, pinned, problem, options, careful, low, answer)
-         if (answer%status == status_fine .and. first_time) call add_null_spaces(problem, options, part, pinned, low, answer)
+         if (answer%status == status_fine .and. first_time .and. .not. options%only_plain_values) &
+            call add_null_spaces(problem, options, part, pinned, low, answer)
       else
          call translate(pinned, answer)
       end if
@@ -155,6 +157,34 @@ contains
       if (rank > 0) estimate = minval(low%values, low%values > low%decision%tolerance)
       if (careful) call offer_all(part, low, answer)
    end subroutine take_part
+
+   !> Factorise a part. Columns of D(c) itself are of several units: they are made
+   !> equally long first.
+   subroutine pin_part(part, options, pinned, status)
+      type(part_t), intent(in) :: part
+      type(options_t), intent(in) :: options
+      type(pinned_t), intent(out) :: pinned
+      integer, intent(out) :: status
+      type(sparse_t) :: by_column, by_row
+      real(wp), allocatable :: scale(:)
+      integer :: j
+
+      if (.not. options%only_plain_values) then
+         call make_pinned(part%matrix%by_column, part%matrix%by_row, part%group, options, pinned, status)
+         return
+      end if
+      by_column = part%matrix%by_column
+      allocate (scale(by_column%columns))
+      do j = 1, by_column%columns
+         associate (from => by_column%start(j), to => by_column%start(j + 1) - 1)
+            scale(j) = length_of(by_column%value(from:to))
+            by_column%value(from:to) = by_column%value(from:to)/scale(j)
+         end associate
+      end do
+      call transposed(by_column, by_row)
+      call make_pinned(by_column, by_row, part%group, options, pinned, status)
+      call move_alloc(scale, pinned%scale)
+   end subroutine pin_part
 
    pure subroutine translate(pinned, answer)
       type(pinned_t), intent(in) :: pinned
@@ -257,10 +287,10 @@ contains
       do
          call next_space(part%matrix, pinned, low%apart, spanned, wanted, careful, next, beyond, answer%status)
          if (answer%status /= status_fine) return
-         low%decision = decide_rank(problem%scaling, [norm_bound(part%matrix%by_column), beyond(wanted:1:-1), &
+         low%decision = decide_rank(problem%scaling, [norm_bound(part%matrix%by_column), beyond(size(beyond):1:-1), &
                                                       in_pins(size(pin):1:-1)], options%tolerance)
-         if (wanted == rest) exit
-         if (beyond(wanted) > low%decision%tolerance) exit
+         if (size(beyond) == rest) exit
+         if (beyond(size(beyond)) > low%decision%tolerance) exit
          wanted = min(rest, 4*wanted)
          if (wanted > most_values) then
             answer%confirmed = .false.
