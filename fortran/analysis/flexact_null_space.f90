@@ -24,13 +24,17 @@ module flexact_null_space
    end type operator_t
 
    integer, parameter :: most_rounds = 4
+   !> What A' may leave of a unit vector of its null space.
+   real(wp), parameter :: small_residual = 1.0e-14_wp
    !> A value below this part of the norm is as good as zero.
    real(wp), parameter :: practically_zero = 1.0e-13_wp
    !> Steps of the Lanczos process, and the least width of its blocks.
    integer, parameter :: most_steps = 12
    integer, parameter :: narrowest = 3
-   !> Relative change of a value that ends the process.
-   real(wp), parameter :: settled = 1.0e-10_wp
+   !> Relative change of a value that ends the process, for matrices of up to so
+   !> many columns and for larger ones, where each step costs more.
+   real(wp), parameter :: settled = 1.0e-10_wp, settled_large = 1.0e-5_wp
+   integer, parameter :: large = 20000
    !> The same for a value to be given beside the smallest.
    real(wp), parameter :: nearly_settled = 1.0e-8_wp
    !> What is left of a vector that brings nothing new.
@@ -183,7 +187,7 @@ contains
          if (used < wanted .or. .not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
          call take_lowest(a, space(:, :used), vectors, values, status)
          if (status /= 0 .or. fresh == 0 .or. used == size(space, 2)) exit
-         if (abs(before(1) - values(1)) <= settled*values(1)) exit
+         if (abs(before(1) - values(1)) <= merge(settled, settled_large, size(space, 1) <= large)*values(1)) exit
          before = values
       end do
       if (careful .and. used < rest .and. fresh > 0) call keep_settled(before, vectors, values)
@@ -306,12 +310,13 @@ contains
       call fill_at_random(vectors)
       do round = 1, 4
          call times_transposed(a%by_column, vectors, image)
+         if (round > 1 .and. maxval(abs(image)) <= small_residual) exit
          call apply_inverse(pinned, image, status)
          if (status /= 0) return
          call times_transposed(a%by_row, image, step)
          vectors = vectors - step
          call remove(known, vectors)
-         if (round == 2) call orthonormalise(vectors, status)
+         if (round == 1) call orthonormalise(vectors, status)
          if (status /= 0) return
       end do
       call orthonormalise(vectors, status)

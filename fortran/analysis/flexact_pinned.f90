@@ -43,6 +43,8 @@ module flexact_pinned
       real(wp) :: least = 0.0_wp
       !> Bytes that the factor needs, where it was too large.
       real(wp) :: bytes = 0.0_wp
+      !> The column at which the last factorisation failed.
+      integer :: failed = 0
       logical :: is_narrow = .false.
       !> Place of each column in the envelope.
       integer, allocatable :: place_of(:)
@@ -106,8 +108,10 @@ contains
       integer, intent(out) :: status
       type(gram_t) :: gram
       integer, allocatable :: order(:)
+      logical, allocatable :: is_pinned(:)
       real(wp), allocatable :: pivot(:)
       real(wp) :: entries
+      integer :: attempt
 
       status = pinned_no_library
       if (cholmod_is_there() == 0) return
@@ -121,9 +125,18 @@ contains
       pinned%bytes = 8*entries
       if (pinned%bytes > options%memory) return
       call options%tell(stage_factorising, 0, 1)
-      allocate (pivot(pinned%n))
+      allocate (pivot(pinned%n), is_pinned(pinned%n))
+      call pin_groups(by_column, group, small_pivot*largest, is_pinned)
+      call factorise_pinned(gram, is_pinned, pinned, status)
+      if (status /= pinned_not_definite) return
       call find_pivots(gram, pinned, pivot, status)
-      if (status == pinned_fine) call factorise_pinned(gram, pivot, largest, pinned, status)
+      do attempt = 0, most_attempts
+         if (status /= pinned_fine) exit
+         call factorise_pinned(gram, is_pinned .or. pivot < 4.0_wp**attempt*small_pivot*largest, pinned, status)
+         if (status /= pinned_not_definite) exit
+         is_pinned(pinned%failed) = .true.
+         status = pinned_fine
+      end do
    end subroutine factorise_sparse
 
    !> A fill-reducing order of the columns (from 0), found on their groups.
@@ -161,8 +174,10 @@ contains
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(out) :: pivot(:)
       integer, intent(out) :: status
+      real(wp) :: kept(size(pivot))
 
-      gram%value(gram%diagonal) = gram%value(gram%diagonal) + pinned%least**2
+      kept = gram%value(gram%diagonal)
+      gram%value(gram%diagonal) = kept + pinned%least**2
       status = pinned_no_memory
       select case (cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value))
       case (0)
@@ -171,38 +186,94 @@ contains
       case (1:)
          status = pinned_not_definite
       end select
-      gram%value(gram%diagonal) = gram%value(gram%diagonal) - pinned%least**2
+      gram%value(gram%diagonal) = kept
    end subroutine find_pivots
 
-   !> Pin the columns with small pivots and factorise, with more pins where it
-   !> turns out not to be positive definite.
-   subroutine factorise_pinned(gram, pivot, largest, pinned, status)
+   !> Factorise with these pins.
+   subroutine factorise_pinned(gram, is_pinned, pinned, status)
       type(gram_t), intent(inout) :: gram
-      real(wp), intent(in) :: pivot(:), largest
+      logical, intent(in) :: is_pinned(:)
       type(pinned_t), intent(inout) :: pinned
       integer, intent(out) :: status
-      logical :: is_pinned(pinned%n), is_new(pinned%n)
-      real(wp) :: small
-      integer :: attempt, column, i
+      real(wp) :: shift(size(is_pinned)), kept(size(is_pinned))
+      integer :: i
 
-      small = small_pivot*largest
-      is_pinned = pivot < small
-      gram%value(gram%diagonal) = gram%value(gram%diagonal) - pinned%least**2
-      where (is_pinned) gram%value(gram%diagonal) = gram%value(gram%diagonal) + 1.0_wp
-      do attempt = 1, most_attempts
-         column = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
-         status = merge(pinned_fine, pinned_no_memory, column == 0)
-         if (column <= 0) exit
-         status = pinned_not_definite
-         small = 4*small
-         is_new = .not. is_pinned .and. pivot < small
-         if (.not. is_pinned(column)) is_new(column) = .true.
-         where (is_new) gram%value(gram%diagonal) = gram%value(gram%diagonal) + 1.0_wp
-         is_pinned = is_pinned .or. is_new
-      end do
+      shift = merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2
+      kept = gram%value(gram%diagonal)
+      gram%value(gram%diagonal) = gram%value(gram%diagonal) + shift
+      pinned%failed = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
+      gram%value(gram%diagonal) = kept
+      status = pinned_fine
+      if (pinned%failed < 0) status = pinned_no_memory
+      if (pinned%failed > 0) status = pinned_not_definite
       pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
       pinned%pins = size(pinned%pin)
    end subroutine factorise_pinned
+
+   !> Pin what a node (or element) can do by itself: columns that depend on others
+   !> of their group.
+   pure subroutine pin_groups(by_column, group, least, is_pinned)
+      type(sparse_t), intent(in) :: by_column
+      integer, intent(in) :: group(:)
+      real(wp), intent(in) :: least
+      logical, intent(out) :: is_pinned(:)
+      integer :: first, last
+
+      is_pinned = .false.
+      first = 1
+      do while (first <= size(group))
+         last = first
+         do while (last < size(group))
+            if (group(last + 1) /= group(first)) exit
+            last = last + 1
+         end do
+         call pin_group(by_column, first, last, least, is_pinned)
+         first = last + 1
+      end do
+   end subroutine pin_groups
+
+   !> The pivots of the block of A'A of columns first to last, of which there are
+   !> few, decide.
+   pure subroutine pin_group(by_column, first, last, least, is_pinned)
+      type(sparse_t), intent(in) :: by_column
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: least
+      logical, intent(inout) :: is_pinned(:)
+      real(wp) :: l(last - first + 1, last - first + 1), pivot
+      integer :: i, j
+
+      do i = 1, size(l, 1)
+         do j = 1, i - 1
+            l(i, j) = (product_of(by_column, first + i - 1, first + j - 1) - dot_product(l(i, :j - 1), l(j, :j - 1)))/l(j, j)
+         end do
+         pivot = product_of(by_column, first + i - 1, first + i - 1) - sum(l(i, :i - 1)**2)
+         if (pivot < least) then
+            is_pinned(first + i - 1) = .true.
+            pivot = pivot + 1.0_wp
+         end if
+         l(i, i) = sqrt(pivot)
+      end do
+   end subroutine pin_group
+
+   !> The product of two columns.
+   pure real(wp) function product_of(matrix, j, k) result(total)
+      type(sparse_t), intent(in) :: matrix
+      integer, intent(in) :: j, k
+      integer :: a, b
+
+      total = 0.0_wp
+      a = matrix%start(j)
+      b = matrix%start(k)
+      do while (a < matrix%start(j + 1) .and. b < matrix%start(k + 1))
+         if (matrix%place(a) == matrix%place(b)) total = total + matrix%value(a)*matrix%value(b)
+         if (matrix%place(a) <= matrix%place(b)) then
+            a = a + 1
+            if (matrix%place(a - 1) == matrix%place(b)) b = b + 1
+         else
+            b = b + 1
+         end if
+      end do
+   end function product_of
 
    !> x = inverse(F) x, column by column.
    subroutine apply_inverse(pinned, x, status)

@@ -19,6 +19,8 @@ module flexact_sensitivity
    !> Effects are differences: below this part of what is added up in them
    !> nothing is left.
    real(wp), parameter :: negligible = 1.0e-8_wp
+   !> Of several that change as much as can be told, the first is named.
+   real(wp), parameter :: more = 1 + 1.0e-6_wp
 
    !> Of one pair of vectors.
    type :: sensitivity_t
@@ -145,7 +147,7 @@ contains
          found%lift_of_digits = found%lift_of_digits + dot_product(abs(of_vector), half_units_of(vector))
          by_turn = norm2(cross(variation%offset, of_offset) + cross(vector, of_vector))
          if (by_turn <= nothing(1)*norm2(variation%offset) + nothing(2)*norm2(vector)) return
-         if (by_turn > found%by_turn) then
+         if (by_turn > more*found%by_turn) then
             found%by_turn = by_turn
             found%element = k
          end if
@@ -181,7 +183,7 @@ contains
                item%lift_of_bits = item%lift_of_bits + dot_product(abs(change), bits)
                item%lift_of_digits = item%lift_of_digits + dot_product(abs(change), half)
                by_move = norm2(change)
-               if (by_move > max(nothing, item%by_move)) then
+               if (by_move > max(nothing, more*item%by_move)) then
                   item%by_move = by_move
                   item%node = node
                end if

@@ -29,12 +29,15 @@ def log_text(analysis: Analysis, *, most_in_mesh: int | None = None) -> str:
 
 
 def _left_out(analysis: Analysis, most_in_mesh: int | None) -> Iterator[str]:
-    for count, what in (
-        (analysis.under_constrained, "motions"),
-        (analysis.over_constrained, "self-stresses"),
+    if most_in_mesh is None:
+        return
+    for count, modes, what in (
+        (analysis.under_constrained, analysis.motions, "motions"),
+        (analysis.over_constrained, analysis.self_stresses, "self-stresses"),
     ):
-        if most_in_mesh is not None and count > most_in_mesh:
-            yield f"The mesh holds the first {most_in_mesh} of {count} {what}."
+        held = min(len(modes), most_in_mesh)
+        if held < count:
+            yield f"The mesh holds the first {held} of {count} {what}."
 
 
 def _last(values: FloatArray, count: int) -> list[str]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from . import _boundary
-from .exchange import Basis, FloatArray, RawSensitivities
+from .exchange import Basis, FloatArray, IntArray, RawSensitivities
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -99,14 +99,20 @@ def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:
 
 def _named(analysis: Analysis, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
     """Pairs with the numbers of nodes and elements in place of their indices."""
-    nodes, elements = analysis.model.node_numbers, analysis.model.element_numbers
+    arrays = analysis.data.arrays
     return tuple(
         Pair(
-            *numbers,
-            node=int(nodes[node]) if node >= 0 else None,
-            element=int(elements[element]) if element >= 0 else None,
+            float(value[k]),
+            float(found.lift_of_bits[k]),
+            float(found.lift_of_digits[k]),
+            float(found.by_move[k]),
+            float(found.by_turn[k]),
+            _number(arrays.node_number, found.node[k]),
+            _number(arrays.element_number, found.element[k]),
         )
-        for *numbers, node, element in zip(
-            value.tolist(), *(part.tolist() for part in found), strict=True
-        )
+        for k in range(value.size)
     )
+
+
+def _number(numbers: IntArray, index: int) -> int | None:
+    return int(numbers[index]) if index >= 0 else None

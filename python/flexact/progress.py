@@ -37,10 +37,12 @@ def told(work: Callable[[IntArray], Result], progress: Progress) -> Result:
 
     thread = threading.Thread(target=run, name="flexact", daemon=True)
     thread.start()
-    while thread.is_alive():
+    working = True
+    while working:
         number, per_cent = stage.tolist()
         progress(STAGES[min(max(number, 0), len(STAGES) - 1)], min(max(per_cent / 100.0, 0.0), 1.0))
         thread.join(_PAUSE)
+        working = thread.is_alive()
     if errors:
         raise errors[0]
     return results[0]

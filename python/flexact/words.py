@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 MOST_MODES = 12
 _PARTS = 6
 _SUPPORTS = 3
+#: Misalignments below this angle, or this part of the characteristic length, are told.
+_SMALL = 0.1
 #: From so many rows or columns on it is told in how many parts D(c) was decomposed.
 _LARGE = 500
 _NUMBERS = (
@@ -118,7 +120,7 @@ def _decision(analysis: Analysis) -> Iterator[str]:
 
 
 def _certainty(analysis: Analysis) -> Iterator[str]:
-    """Whether the decision is certain, and what would change it; doubts stand among the warnings."""
+    """Whether the decision is certain, and what would change it; warnings hold the doubts."""
     if analysis.nearly is None:
         yield "The decision is certain."
     else:
@@ -129,15 +131,17 @@ def _certainty(analysis: Analysis) -> Iterator[str]:
         )
     margin = analysis.margin
     ways = []
-    if margin.length is not None:
+    if margin.length is not None and margin.length < _SMALL * analysis.characteristic_length:
         ways.append(f"moving node {margin.node} by {margin.length:.2g} m")
-    if margin.angle is not None:
+    if margin.angle is not None and margin.angle < _SMALL:
         ways.append(f"turning element {margin.element} by {margin.angle:.2g} rad")
     if ways:
         yield _wrapped(
             "Smallest misalignment that would change the verdict, to first order: "
             f"{' or '.join(ways)}."
         )
+    else:
+        yield "No small misalignment of one node or element would change the verdict."
 
 
 def _counts_in_words(under: int, over: int) -> str:

@@ -3,7 +3,7 @@
     python tests/benchmarks/run.py [--quick]
 
 writes table.md beside this file and trade.svg to docs/. With --quick, sizes up to 1000 only,
-written to quick.md and quick.svg beside this file.
+written to build/bench.
 """
 
 from __future__ import annotations
@@ -13,16 +13,17 @@ import os
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 # What is timed runs on one thread, in this process too.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import numpy as np
 from commands import analysis_against_svd, command_against_import, reading_against_split
 from picture import draw
 from trade import NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
 
 HERE = Path(__file__).parent
+#: Where a quick run writes.
+QUICK = HERE.parents[1] / "build" / "bench"
 PICTURE = HERE.parents[1] / "docs" / "trade.svg"
 #: Sizes that the table shows of each family; against dgesdd where it ran, else the best peer.
 _SHOWN = (1000, 3000, 100_000, 300_000)
@@ -35,7 +36,7 @@ _QUICK = (100, 300, 1000)
 def main() -> None:
     """Measure, print and store."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--quick", action="store_true", help="small sizes, written to quick.*")
+    parser.add_argument("--quick", action="store_true", help="small sizes, written to build/bench")
     quick = parser.parse_args().quick
     commands = _commands()
     found = outcomes(_QUICK) if quick else outcomes()
@@ -43,8 +44,10 @@ def main() -> None:
     parts = [commands, _speed(found), _accuracy(found, errors), _verdicts(found)]
     text = "\n\n".join("\n".join(part) for part in parts) + "\n"
     print(text)
-    (HERE / ("quick.md" if quick else "table.md")).write_text(text)
-    draw(found, errors, HERE / "quick.svg" if quick else PICTURE)
+    if quick:
+        QUICK.mkdir(parents=True, exist_ok=True)
+    ((QUICK if quick else HERE) / "table.md").write_text(text)
+    draw(found, errors, QUICK / "trade.svg" if quick else PICTURE)
 
 
 def _commands() -> list[str]:

@@ -36,9 +36,10 @@ SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000, 300_000)
 #: Largest size of each family; the lattice costs most, and random removal has more motions
 #: than a bare peer can hold. Bx is there for its verdicts.
 _LARGEST = {"O": 100_000, "Tb": 100_000, "Bx": 30_000}
-#: Largest size at which a dense method runs, and larger ones of single families.
-_DENSE = {"dgesdd": 1000, "svd": 1000, "jacobi": 1000, "qr": 1000}
-_DENSE_OF = {
+#: Largest size at which a method runs, and larger ones of single families. Beyond, `auto` is
+#: `sparse`.
+_UP_TO = {"dgesdd": 1000, "svd": 1000, "jacobi": 1000, "qr": 1000, "sparse": 3000}
+_UP_TO_OF = {
     ("dgesdd", "T"): 3000,
     ("dgesdd", "B"): 3000,
     ("dgesdd", "C"): 3000,
@@ -138,10 +139,10 @@ def _truth(family: str, size: int, case: Case) -> tuple[int, int] | None:
 
 def _flexact_calls(family: str, size: int) -> Iterator[tuple[str, list[str]]]:
     for contestant in ("dgesdd", "svd", "jacobi", "qr", "sparse", "auto"):
-        largest = _DENSE.get(contestant, SIZES[-1])
+        largest = _UP_TO.get(contestant, SIZES[-1])
         if family == "Bx" and size < 1000:
             continue
-        if size <= _DENSE_OF.get((contestant, family), largest):
+        if size <= _UP_TO_OF.get((contestant, family), largest):
             worker = str(HERE / "worker.py")
             yield contestant, [sys.executable, worker, family, str(size), contestant]
 

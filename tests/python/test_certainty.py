@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 import pytest
 from known_models import ring, twelve_trusses
-from smallest_pairs import with_pairs
 
 import flexact
 from flexact import Analysis, Model, analyse
@@ -60,7 +59,7 @@ def assert_right_or_nearly(analysis: Analysis, truth: tuple[int, int]) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_deck_is_certain(name: str) -> None:
-    analysis = with_pairs(analyse(flexact.read_text(text_of(name))))
+    analysis = analyse(flexact.read_text(text_of(name)))
     assert (analysis.certainty.value, analysis.nearly) == ("certain", None)
 
 
@@ -73,7 +72,7 @@ def test_lengths_and_places_leave_the_counts(name: str) -> None:
     changed = [transform.scaled(text, factor) for factor in (1e-9, 1e-3, 1e3, 1e9)]
     changed += [transform.moved(text, far * length * direction) for far in (1.0, 1e4, 1e6, 1e8)]
     for other in changed:
-        analysis = with_pairs(analyse(flexact.read_text(other)))
+        analysis = analyse(flexact.read_text(other))
         assert counts(analysis) == truth
         assert analysis.nearly in (None, truth)
 
@@ -104,20 +103,22 @@ def random_turns(number: int) -> list[FloatArray]:
 def test_rounded_trusses_of_the_paper_are_nearly_both(digits: int, kind: str) -> None:
     form = f".{digits - 1}e" if kind == "e" else f".{digits}f"
     for turn in random_turns(40):
-        analysis = with_pairs(analyse(rounded(twelve_trusses(), turn, form)))
+        analysis = analyse(rounded(twelve_trusses(), turn, form))
         assert analysis.certainty is flexact.Certainty.NEARLY
         assert analysis.nearly == (1, 1)
         assert analysis.nearly.under_constrained == 1
 
 
 def test_digits_explain_in_words() -> None:
-    analysis = with_pairs(analyse(rounded(twelve_trusses(), TURN, ".3e")))
+    analysis = analyse(rounded(twelve_trusses(), TURN, ".3e"))
     assert counts(analysis) == (0, 0)
     (doubt,) = analysis.doubts
     assert doubt.startswith("full rank, but a rounding of the deck's own digits explains it")
     assert [item.message for item in analysis.warnings] == [doubt]
     text = analysis.describe().replace("\n", " ")
-    assert "if every singular value in doubt is zero, the mechanism is under-constrained by 1" in text
+    assert (
+        "if every singular value in doubt is zero, the mechanism is under-constrained by 1" in text
+    )
     data = json.loads(analysis.to_json())
     assert data["certainty"] == "nearly"
     assert data["nearly"] == {"under_constrained": 1, "over_constrained": 1}
@@ -128,7 +129,7 @@ def test_digits_explain_in_words() -> None:
 def test_rounded_rings_of_odd_number_stay_certain(n: int, digits: int) -> None:
     """Tarnai 1980: they are rigid, by far more than any rounding."""
     for turn in random_turns(10):
-        analysis = with_pairs(analyse(rounded(ring(n), turn, f".{digits - 1}e")))
+        analysis = analyse(rounded(ring(n), turn, f".{digits - 1}e"))
         assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
 
 
@@ -136,13 +137,13 @@ def test_rounded_rings_of_odd_number_stay_certain(n: int, digits: int) -> None:
 @pytest.mark.parametrize("n", [4, 6])
 def test_rounded_rings_of_even_number_are_right_or_nearly(n: int, digits: int) -> None:
     for turn in random_turns(10):
-        analysis = with_pairs(analyse(rounded(ring(n), turn, f".{digits - 1}e")))
+        analysis = analyse(rounded(ring(n), turn, f".{digits - 1}e"))
         assert_right_or_nearly(analysis, (1, 1))
         assert (1, 1) in (counts(analysis), analysis.nearly)
 
 
 def test_zeros_that_count_because_of_digits_are_nearly() -> None:
-    analysis = with_pairs(analyse(rounded(twelve_trusses(), TURN, ".10e")))
+    analysis = analyse(rounded(twelve_trusses(), TURN, ".10e"))
     assert counts(analysis) == (1, 1)
     assert analysis.nearly == (1, 1)
     assert [item.code for item in analysis.warnings] == ["rounded-coordinates"]
@@ -163,7 +164,7 @@ def test_joints_of_a_lattice_are_meant() -> None:
                 model.truss(low[i], high[i + 1])
         model.fix(low[0])
         model.fix(high[0])
-        analysis = with_pairs(analyse(model))
+        analysis = analyse(model)
         assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
 
 
@@ -182,7 +183,7 @@ def two_wires(angle: float, shift: float = 0.0) -> Model:
 
 @pytest.mark.parametrize("power", range(1, 16))
 def test_two_wires_at_an_angle_are_right_or_nearly(power: int) -> None:
-    analysis = with_pairs(analyse(two_wires(10.0**-power)))
+    analysis = analyse(two_wires(10.0**-power))
     assert_right_or_nearly(analysis, (0, 0))
     if power <= 13:
         assert counts(analysis) == (0, 0)
@@ -195,7 +196,7 @@ def test_two_wires_at_an_angle_are_right_or_nearly(power: int) -> None:
 def test_two_wires_far_from_the_origin_are_right_or_nearly(power: int, shift: float) -> None:
     """Down to an angle that the stored coordinates still hold to a few bits."""
     if 10.0**-power > 2e-16 * 8 * shift:
-        analysis = with_pairs(analyse(two_wires(10.0**-power, shift)))
+        analysis = analyse(two_wires(10.0**-power, shift))
         assert_right_or_nearly(analysis, (0, 0))
 
 
@@ -216,7 +217,7 @@ def guide(beams: int, size: float) -> Model:
 @pytest.mark.parametrize("beams", [1, 16, 64])
 def test_guide_of_many_beams_in_any_unit(beams: int, size: float) -> None:
     """Each further beam of a sheet adds three internal motions (paper, section 4.2)."""
-    analysis = with_pairs(analyse(guide(beams, size)))
+    analysis = analyse(guide(beams, size))
     assert counts(analysis) == (1 + 6 * (beams - 1), 1)
     assert analysis.certainty is flexact.Certainty.CERTAIN
 
@@ -226,7 +227,7 @@ def test_guide_of_many_beams_in_any_unit(beams: int, size: float) -> None:
 
 def test_a_tolerance_that_was_given_is_honest() -> None:
     model = two_wires(1e-4)
-    analysis = with_pairs(analyse(model, tolerance=1e-3))
+    analysis = analyse(model, tolerance=1e-3)
     assert counts(analysis) == (1, 1)
     assert analysis.nearly == (1, 1)
     assert "the tolerance that was given says so" in analysis.doubts[0]
@@ -236,7 +237,7 @@ def test_a_tolerance_that_was_given_is_honest() -> None:
 
 def test_noise_that_counts_because_of_a_tolerance_is_nearly() -> None:
     exact = ring(6)
-    analysis = with_pairs(analyse(exact, tolerance=0.0))
+    analysis = analyse(exact, tolerance=0.0)
     assert_right_or_nearly(analysis, (1, 1))
 
 

@@ -259,3 +259,14 @@ def test_formats_go_by_suffix_or_name(name: str) -> None:
 def test_the_analysis_gives_its_mesh(analyse: Read) -> None:
     analysis = analyse(COLLINEAR)
     np.testing.assert_array_equal(analysis.to_meshio().points, to_meshio(analysis).points)
+
+
+def test_hinges_without_any_position_are_vertices_at_the_origin() -> None:
+    model = flexact.Model()
+    point = model.node(0, 0, 0)
+    for axis in ((0, 0, 1), (0, 1, 0), (1, 0, 0)):
+        point = model.hinge(point, axis)
+    mesh = flexact.analyse(model).to_meshio()
+    assert [(block.type, len(block.data)) for block in mesh.cells] == [("vertex", 3)]
+    assert mesh.point_data["node"].tolist() == [0, 0, 0]
+    assert not mesh.points.any()
