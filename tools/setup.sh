@@ -67,7 +67,7 @@ still=$(missing_packages | tr '\n' ' ')
     "Headers and venv must belong to $python ($("$python" -V 2>&1))."
 
 [ -x .venv/bin/python ] || "$python" -m venv .venv
-requirements="pip>=23.1 meson-python>=0.17 meson ninja numpy meshio"
+requirements="pip>=23.1 meson-python>=0.17 meson ninja numpy meshio tqdm"
 [ "$purpose" = run ] || requirements="$requirements pytest hypothesis mpmath ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086

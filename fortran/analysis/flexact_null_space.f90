@@ -35,6 +35,8 @@ module flexact_null_space
    !> many columns and for larger ones, where each step costs more.
    real(wp), parameter :: settled = 1.0e-10_wp, settled_large = 1.0e-5_wp
    integer, parameter :: large = 20000
+   !> A status: fewer vectors than there must be.
+   integer, parameter :: not_found = 1
    !> The same for a value to be given beside the smallest.
    real(wp), parameter :: nearly_settled = 1.0e-8_wp
    !> What is left of a vector that brings nothing new.
@@ -176,13 +178,18 @@ contains
       width = min(rest, max((wanted + 1)/2, narrowest))
       steps = merge(most_steps, 2, careful)
       allocate (space(a%by_column%columns, min(rest, width*steps)), block(a%by_column%columns, width))
-      call fill_at_random(block)
+      call fill_at_random(1, block)
       used = 0
       before = huge(before)
       do step = 1, steps
          call apply_inverse(pinned, block, status)
          if (status /= 0) return
          call extend(apart, lowest, block, space, used, fresh)
+         if (fresh == 0 .and. used < wanted) then
+            ! The inverse has drowned the rest in what is there already.
+            call fill_at_random(step + 1, block)
+            call extend(apart, lowest, block, space, used, fresh)
+         end if
          block = space(:, used - fresh + 1:used)
          if (used < wanted .or. .not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
          call take_lowest(a, space(:, :used), vectors, values, status)
@@ -190,6 +197,7 @@ contains
          if (abs(before(1) - values(1)) <= merge(settled, settled_large, size(space, 1) <= large)*values(1)) exit
          before = values
       end do
+      if (used < wanted) status = not_found
       if (careful .and. used < rest .and. fresh > 0) call keep_settled(before, vectors, values)
    end subroutine next_space
 
@@ -275,13 +283,14 @@ contains
    end subroutine remove
 
    !> The same numbers between -1 and 1 every time (Park and Miller's generator).
-   pure subroutine fill_at_random(x)
+   pure subroutine fill_at_random(run, x)
+      integer, intent(in) :: run
       real(wp), intent(out) :: x(:, :)
       integer(int64), parameter :: modulus = 2147483647_int64
       integer(int64) :: seed
       integer :: i, k
 
-      seed = 20111_int64
+      seed = 20111_int64*run
       do k = 1, size(x, 2)
          do i = 1, size(x, 1)
             seed = mod(16807_int64*seed, modulus)
@@ -307,7 +316,7 @@ contains
       status = 0
       if (wanted == 0) return
       allocate (image(a%by_column%columns, wanted), step(a%by_column%rows, wanted))
-      call fill_at_random(vectors)
+      call fill_at_random(1, vectors)
       do round = 1, 4
          call times_transposed(a%by_column, vectors, image)
          if (round > 1 .and. maxval(abs(image)) <= small_residual) exit

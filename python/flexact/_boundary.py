@@ -175,12 +175,14 @@ def analyse_model(
         *motions,
         *stresses,
     )
-    *at_rows, plain, scaled, row_scale, column_scale, value, motion, stress = found[:10]
-    numbers, facts, status = found[10:]
+    row_label, column_label, length, plain, scaled, row_scale, column_scale = found[:7]
+    value, motion, stress, numbers, facts, status = found[7:]
     rank, used, confirmed, plains, scaleds, pairs, moving, stressed, parts = facts[:9].tolist()
     plain, scaled = np.abs(plain[:plains]), np.abs(scaled[:scaleds])  # LAPACK has zeros of -0
     return RawAnalysis(
-        *at_rows,
+        row_label,
+        column_label,
+        length,
         singular_values=plain,
         scaled_values=scaled,
         row_scale=row_scale,

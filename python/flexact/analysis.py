@@ -108,13 +108,25 @@ class Analysis(Frozen):
             return Verdict.BOTH if self.over_constrained else Verdict.UNDER
         return Verdict.OVER if self.over_constrained else Verdict.EXACT
 
-    @property
+    @cached_property
     def singular_values(self) -> FloatArray:
         """Singular values of D(c) in the model's units, descending, eq. (16).
 
-        All min(m, n) of them, or, of a large model, the smallest; see `singular_values_given`.
+        All min(m, n) of them; after the method sparse the smallest, which are computed when
+        they are first asked for; see `singular_values_given`.
         """
-        return self.raw.singular_values
+        if self.method != "sparse":
+            return self.raw.singular_values
+        values = _boundary.analyse_model(
+            self.data.arrays,
+            self.rows,
+            self.columns,
+            "sparse",
+            memory=memory.allowance(),
+            only_plain_values=True,
+        ).scaled_values
+        values.flags.writeable = False
+        return values
 
     @property
     def scaled_singular_values(self) -> FloatArray:

@@ -32,7 +32,9 @@ def main() -> None:
         errors = {}
         for method in sys.argv[2:]:
             values = flexact.analyse(case.model, method=method).singular_values
-            errors[method] = float(abs(mp.mpf(float(values[-1])) / true - 1))
+            # A sparse decomposition may give those of the scaled matrix alone.
+            if values.size:
+                errors[method] = float(abs(mp.mpf(float(values[-1])) / true - 1))
     print(json.dumps({"columns": case.columns, "ratio": float(true) / largest, "errors": errors}))
 
 

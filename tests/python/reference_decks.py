@@ -1,0 +1,30 @@
+"""The decks of input_decks that are sound, and what is known of them."""
+
+import importlib
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = ROOT / "tests" / "reference"
+if str(REFERENCE) not in sys.path:
+    sys.path.append(str(REFERENCE))
+#: Turns, moves and scales the text of a deck; shares nothing with the package.
+transform: Any = importlib.import_module("transform")
+
+NAMES = [
+    path.relative_to(ROOT / "input_decks").with_suffix("").as_posix()
+    for path in sorted((ROOT / "input_decks").rglob("*.dat"))
+    if path.relative_to(ROOT / "input_decks").parts[0] != "broken"
+]
+
+
+def text_of(name: str) -> str:
+    return (ROOT / "input_decks" / f"{name}.dat").read_text(encoding="utf-8")
+
+
+def truth_of(name: str) -> tuple[int, int]:
+    """Under-constraint and over-constraint by the oracle, which names the source."""
+    content = json.loads((REFERENCE / f"{name}.json").read_text(encoding="utf-8"))
+    return content["under_constrained"], content["over_constrained"]
