@@ -7,7 +7,7 @@
 module flexact_null_space
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_kinds, only: wp
-   use flexact_basis, only: basis_t
+   use flexact_basis, only: basis_t, new_basis
    use flexact_sparse, only: sparse_t, times_transposed, norm_bound
    use flexact_decomposition, only: decompose, orthonormalise
    use flexact_lapack, only: dgeqrf
@@ -15,7 +15,7 @@ module flexact_null_space
    use flexact_pinned, only: pinned_t, apply_inverse
    implicit none
    private
-   public :: operator_t, correct, pinned_space, next_space, left_null_space
+   public :: operator_t, correct, pinned_space, next_space, hidden_range, left_null_space
 
    !> A by columns and by rows, so that both products gather.
    type :: operator_t
@@ -23,11 +23,14 @@ module flexact_null_space
       type(sparse_t) :: by_row
    end type operator_t
 
-   integer, parameter :: most_rounds = 4
+   integer, parameter :: most_rounds = 8
+   integer, parameter :: most_projections = 40
    !> What A' may leave of a unit vector of its null space.
-   real(wp), parameter :: small_residual = 1.0e-14_wp
+   real(wp), parameter :: small_residual = 1.0e-14_wp, large_residual = 1.0e-9_wp
+   !> An image below this part of its vector is mostly rounding.
+   real(wp), parameter :: drowned = 1.0e-12_wp
    !> A value below this part of the norm is as good as zero.
-   real(wp), parameter :: practically_zero = 1.0e-13_wp
+   real(wp), parameter :: practically_zero = 2*epsilon(1.0_wp)
    !> Steps of the Lanczos process, and the least width of its blocks.
    integer, parameter :: most_steps = 12
    integer, parameter :: narrowest = 3
@@ -53,6 +56,7 @@ contains
       type(basis_t), intent(in) :: apart
       real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
       integer, intent(out) :: status
+      real(wp), allocatable :: before(:)
       integer :: k, round
 
       allocate (vectors(a%by_column%columns, size(pin)), source=0.0_wp)
@@ -63,22 +67,22 @@ contains
          vectors(pin(k), k) = 1.0_wp
       end do
       call apply_inverse(pinned, vectors, status)
-      do round = 1, 3
-         if (status /= 0) return
-         call correct(a, pinned, vectors, status)
+      do round = 1, 2
+         call apart%remove(vectors)
+         if (status == 0) call orthonormalise(vectors, status)
       end do
-      call apart%remove(vectors)
-      if (status == 0) call orthonormalise(vectors, status)
-      call apart%remove(vectors)
       if (status == 0) call settle(a, vectors, values, status)
       do round = 1, most_rounds
          if (status /= 0 .or. all(values <= practically_zero*norm_bound(a%by_column))) return
+         before = values
          call improve(a, pinned, apart, vectors, values, status)
+         if (all(abs(before - values) <= settled*values)) return
       end do
    end subroutine pinned_space
 
-   !> Vectors whose values are not zero are off, since the pins hold them: find the
-   !> lowest in the space of all vectors and of inverse(F) times their residuals.
+   !> The lowest in the space of all vectors and of inverse(F) times their residuals:
+   !> the vectors are off by rounding, and, where their values are not zero, because
+   !> the pins hold them.
    subroutine improve(a, pinned, apart, vectors, values, status)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
@@ -99,7 +103,7 @@ contains
       if (status /= 0) return
       used = size(values)
       space(:, :used) = vectors
-      call extend(apart, none, residual, space, used, fresh)
+      call extend(apart, none, residual, new, space, used, fresh)
       call take_lowest(a, space(:, :used), vectors, values, status)
    end subroutine improve
 
@@ -184,11 +188,11 @@ contains
       do step = 1, steps
          call apply_inverse(pinned, block, status)
          if (status /= 0) return
-         call extend(apart, lowest, block, space, used, fresh)
+         call extend(apart, lowest, block, new, space, used, fresh)
          if (fresh == 0 .and. used < wanted) then
             ! The inverse has drowned the rest in what is there already.
             call fill_at_random(step + 1, block)
-            call extend(apart, lowest, block, space, used, fresh)
+            call extend(apart, lowest, block, new, space, used, fresh)
          end if
          block = space(:, used - fresh + 1:used)
          if (used < wanted .or. .not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
@@ -223,10 +227,10 @@ contains
    end function is_due
 
    !> Append what is new in a block (n, k) to an orthonormal space, of which the
-   !> first `used` columns are there.
-   pure subroutine extend(apart, lowest, block, space, used, fresh)
+   !> first `used` columns are there; less than the part `least` of a vector is not.
+   pure subroutine extend(apart, lowest, block, least, space, used, fresh)
       type(basis_t), intent(in) :: apart
-      real(wp), intent(in) :: lowest(:, :), block(:, :)
+      real(wp), intent(in) :: lowest(:, :), block(:, :), least
       real(wp), intent(inout) :: space(:, :)
       integer, intent(inout) :: used
       integer, intent(out) :: fresh
@@ -244,11 +248,11 @@ contains
             call remove(lowest, vector)
             call remove(space(:, :used), vector)
             left = length_of(vector(:, 1))
-            if (left <= new*length) exit
+            if (left <= least*length) exit
             vector = vector/left
             length = 1.0_wp
          end do
-         if (left <= new*length) cycle
+         if (left <= least*length) cycle
          used = used + 1
          fresh = fresh + 1
          space(:, used) = vector(:, 1)
@@ -299,6 +303,56 @@ contains
       end do
    end subroutine fill_at_random
 
+   !> Orthonormal directions in the range of A that A inverse(F) A' does not keep,
+   !> because columns are pinned that depend on no others: for y = A x it leaves
+   !> A inverse(F) E E'x. `images`: directions of A v for the vectors v of small
+   !> values that are not zero, which stand for those that rounding would drown.
+   subroutine hidden_range(a, pinned, images, hidden, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(in) :: images(:, :)
+      real(wp), allocatable, intent(out) :: hidden(:, :)
+      integer, intent(out) :: status
+      type(basis_t) :: nothing
+      real(wp), allocatable :: left(:, :), none(:, :)
+      integer :: used, fresh
+
+      status = 0
+      allocate (hidden(a%by_column%rows, 0))
+      if (size(images, 2) == 0) return
+      call new_basis(nothing)
+      call images_of_pins(a, pinned, left, status)
+      if (status /= 0) return
+      allocate (none(a%by_column%rows, 0))
+      deallocate (hidden)
+      allocate (hidden(a%by_column%rows, size(left, 2) + size(images, 2)))
+      used = 0
+      call extend(nothing, none, images, drowned, hidden, used, fresh)
+      call extend(nothing, none, left, drowned, hidden, used, fresh)
+      hidden = hidden(:, :used)
+   end subroutine hidden_range
+
+   !> A inverse(F) E, without the columns that are rounding.
+   subroutine images_of_pins(a, pinned, left, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      real(wp), allocatable, intent(out) :: left(:, :)
+      integer, intent(out) :: status
+      real(wp), allocatable :: vectors(:, :)
+      integer :: k
+
+      allocate (vectors(a%by_column%columns, pinned%pins), source=0.0_wp)
+      allocate (left(a%by_column%rows, pinned%pins))
+      do k = 1, pinned%pins
+         vectors(pinned%pin(k), k) = 1.0_wp
+      end do
+      call apply_inverse(pinned, vectors, status)
+      if (status /= 0) return
+      call times_transposed(a%by_row, vectors, left)
+      left = left(:, pack([(k, k=1, pinned%pins)], [(length_of(left(:, k)) > drowned*length_of(vectors(:, k)), &
+                                                     k=1, pinned%pins)]))
+   end subroutine images_of_pins
+
    !> Orthonormal vectors (rows, wanted) that A' sends to zero: random ones less
    !> their projections on the range of A, A inverse(F) A'. `known` (rows, k):
    !> orthonormal directions in the range that the pins hide.
@@ -310,6 +364,7 @@ contains
       real(wp), allocatable, intent(out) :: vectors(:, :)
       integer, intent(out) :: status
       real(wp), allocatable :: image(:, :), step(:, :)
+      real(wp) :: left, before
       integer :: round
 
       allocate (vectors(a%by_column%rows, wanted))
@@ -317,9 +372,12 @@ contains
       if (wanted == 0) return
       allocate (image(a%by_column%columns, wanted), step(a%by_column%rows, wanted))
       call fill_at_random(1, vectors)
-      do round = 1, 4
+      do round = 1, most_projections
          call times_transposed(a%by_column, vectors, image)
-         if (round > 1 .and. maxval(abs(image)) <= small_residual) exit
+         ! The first projections turn random vectors; then each brings less.
+         left = maxval(abs(image))
+         if (round > 2 .and. (left <= small_residual .or. left > 0.5_wp*before)) exit
+         before = left
          call apply_inverse(pinned, image, status)
          if (status /= 0) return
          call times_transposed(a%by_row, image, step)
@@ -329,5 +387,8 @@ contains
          if (status /= 0) return
       end do
       call orthonormalise(vectors, status)
+      if (status /= 0) return
+      call times_transposed(a%by_column, vectors, image)
+      if (maxval(abs(image)) > large_residual*norm_bound(a%by_column)) status = not_found
    end subroutine left_null_space
 end module flexact_null_space

@@ -30,7 +30,7 @@ module flexact_pinned
    real(wp), parameter :: least_square = 1.0e-13_wp
    !> Pivots below this part of the largest diagonal entry are pinned. To pin one
    !> too many does no harm.
-   real(wp), parameter :: small_pivot = 1.0e-9_wp
+   real(wp), parameter :: small_pivot = 1.0e-12_wp
    !> So wide an envelope a column is as quick as any sparse factorisation.
    real(wp), parameter :: narrow = 40.0_wp
    integer, parameter :: most_attempts = 12

@@ -12,7 +12,7 @@ module flexact_sparse_route
    use flexact_local, only: find_local_vectors
    use flexact_many, only: find_many
    use flexact_modes, only: untangle, add_modes, add_sparse_modes
-   use flexact_null_space, only: operator_t, pinned_space, next_space, left_null_space
+   use flexact_null_space, only: operator_t, pinned_space, next_space, hidden_range, left_null_space
    use flexact_pairs, only: offer_pair
    use flexact_pinned, only: pinned_t, make_pinned, release, pinned_fine, pinned_no_memory, pinned_no_library
    use flexact_problem, only: problem_t
@@ -369,9 +369,21 @@ contains
       real(wp), intent(in) :: scale(:)
       type(basis_t), intent(inout) :: basis
       integer, intent(inout) :: status
+      type(basis_t) :: both
+      integer :: i, k
 
-      if (status == status_fine) call add_sparse_modes(sparse, place, scale, basis, status)
-      if (status == status_fine) call add_modes(dense, place, scale, basis, status)
+      if (status /= status_fine) return
+      if (sparse%vectors == 0) then
+         call add_modes(dense, place, scale, basis, status)
+         return
+      end if
+      both = sparse
+      do k = 1, size(dense, 2)
+         associate (there => abs(dense(:, k)) > 0)
+            call both%add(pack([(i, i=1, size(place))], there), pack(dense(:, k), there))
+         end associate
+      end do
+      call add_sparse_modes(both, place, scale, basis, status)
    end subroutine add_both
 
    !> The left null space: as few dense vectors, or as many sparse ones, or the
@@ -386,7 +398,7 @@ contains
       real(wp), allocatable, intent(out) :: left(:, :)
       type(basis_t), intent(inout) :: many
       integer, intent(out) :: status
-      real(wp), allocatable :: projected(:, :)
+      real(wp), allocatable :: projected(:, :), range(:, :)
       integer, allocatable :: hidden(:), lifted(:)
       integer :: k, wanted
 
@@ -398,7 +410,9 @@ contains
          call find_many_left(problem, part, options, many, status)
          return
       end if
-      call left_null_space(part%matrix, pinned, low%images(:, hidden), merge(first_left, wanted, wanted > most_left), &
+      call hidden_range(part%matrix, pinned, low%images(:, hidden), range, status)
+      if (status /= status_fine) return
+      call left_null_space(part%matrix, pinned, range, merge(first_left, wanted, wanted > most_left), &
                            projected, status)
       if (status /= status_fine) return
       allocate (left(size(part%row), size(projected, 2) + size(lifted)))

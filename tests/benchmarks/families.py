@@ -9,12 +9,14 @@ count, self-stresses = motions - columns + rows, gives one of the two from the o
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from assembly import Assembly, Floats, Indices
 
 from flexact import Model
+from flexact.elements import NodeKind
 
 
 class Case(NamedTuple):
@@ -107,6 +109,20 @@ def stage_array(columns: int, seed: int = 1) -> Case:
     but for two (a motion each), and at the wrong end for two (a motion and a self-stress each).
     """
     return _stages(columns, seed, planted=True, alternate=True, name="stage array")
+
+
+def small_stages(columns: int, seed: int = 1, pitch: float = 1e-9) -> Case:
+    """The array of stages without defects, `pitch` metres from one stage to the next.
+
+    Translations and rotations then differ by the inverse of that, and so do the singular
+    values: D(c) is graded, though what it stands for is as well conditioned as ever.
+    """
+    case = _stages(columns, seed, planted=False, alternate=True, name="small stages")
+    data = case.model.data
+    value = data.arrays.node_value.copy()
+    value[:3, data.arrays.node_kind == NodeKind.POSITION] *= pitch / _PITCH
+    arrays = data.arrays._replace(node_value=value)
+    return case._replace(model=Model.from_data(replace(data, arrays=arrays)))
 
 
 def ill_conditioned(columns: int, seed: int = 1, arm: float = 1.6) -> Case:

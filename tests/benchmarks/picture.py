@@ -59,7 +59,7 @@ def draw(found: list[Outcome], errors: list[dict[str, Any]], path: Path) -> None
         axes.set(xlim=limits[0], ylim=limits[1])
     for axes in panels[:, 0]:
         axes.set_ylabel("time [s]")
-    _errors(panels.flat[5], errors)
+    _errors(panels.flat[5], [one for one in errors if one["kind"] == "small"])
     shown = [axes.get_legend_handles_labels() for axes in panels.flat]
     entries = {
         name: line for lines, names in shown for line, name in zip(lines, names, strict=True)
@@ -90,7 +90,7 @@ def _errors(axes: Axes, errors: list[dict[str, Any]]) -> None:
             if name in one["errors"]
         ]
         _line(axes, points, name, style)
-    _log(axes, "error of the smallest singular value")
+    _log(axes, "smallest singular value of stages 1 nm apart")
     axes.set(ylabel="relative error", xlim=_decades([one["columns"] for one in errors]))
 
 

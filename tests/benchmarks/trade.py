@@ -223,19 +223,17 @@ def _outcome(
     )
 
 
-def errors_of_smallest(sizes: tuple[int, ...]) -> list[dict[str, Any]]:
+def errors_of_smallest(cases: tuple[tuple[str, int], ...]) -> list[dict[str, Any]]:
     """Relative errors of the smallest singular value by method (smallest_value.py)."""
     methods = ["svd", "jacobi", "qr", "sparse", "auto"]
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
     made = []
-    for size in sizes:
+    for kind, size in cases:
         script = str(HERE / "smallest_value.py")
-        answer = _answer([sys.executable, script, str(size), *methods], environment)
-        if isinstance(answer, str):
-            print(f"smallest value at {size}: {answer}", flush=True)
-        else:
+        answer = _answer([sys.executable, script, kind, str(size), *methods], environment)
+        print(f"smallest value, {kind} {size}: {answer}", flush=True)
+        if not isinstance(answer, str):
             made.append(answer)
-            print(f"smallest value at {size}: {answer['errors']}", flush=True)
     return made
 
 
