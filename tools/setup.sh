@@ -23,6 +23,12 @@ has_lapack() {
     return 1
 }
 
+# Optional in the build, for the method sparse; here it is always wanted.
+has_cholmod() {
+    printf '#include <cholmod.h>\nint main(void) { cholmod_common c; return !cholmod_start(&c); }\n' |
+        cc -x c - -I/usr/include/suitesparse -o /dev/null -lcholmod >/dev/null 2>&1
+}
+
 has_python_headers() {
     "$python" - <<'PYTHON'
 import os, sys, sysconfig
@@ -35,6 +41,7 @@ missing_packages() {
     has_command gfortran || echo gfortran libc6-dev
     has_command cc || echo gcc libc6-dev
     { has_command gfortran && has_lapack; } || echo libopenblas-dev
+    { has_command cc && has_cholmod; } || echo libsuitesparse-dev
     "$python" -c 'import venv, ensurepip' >/dev/null 2>&1 || echo python3-venv
     has_python_headers || echo python3-dev
 }

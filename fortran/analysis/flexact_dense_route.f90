@@ -49,6 +49,8 @@ contains
          if (answer%status /= status_fine) return
       end do
       if (answer%method == method_qr) call improve_values(answer)
+      ! Pivoted QR may take for larger what it does not look at again.
+      answer%confirmed = answer%method /= method_qr
    end subroutine analyse_dense
 
    !> Bytes for U, V and the matrices of all parts, and for the work on the

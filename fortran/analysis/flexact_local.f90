@@ -10,7 +10,7 @@ module flexact_local
    public :: find_local_vectors
 
    !> Neighbourhoods are tried up to these numbers of columns.
-   integer, parameter :: reach(4) = [10, 30, 90, 240]
+   integer, parameter :: reach(3) = [10, 30, 100]
    !> Entries below this part of the largest one are rounding.
    real(wp), parameter :: nothing = 1.0e-11_wp
    !> What A may leave of a vector, relative to its largest entry.

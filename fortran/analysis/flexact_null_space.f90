@@ -12,10 +12,10 @@ module flexact_null_space
    use flexact_decomposition, only: decompose, orthonormalise
    use flexact_lapack, only: dgeqrf
    use flexact_vectors, only: length_of
-   use flexact_pinned, only: pinned_t, apply_inverse
+   use flexact_pinned, only: pinned_t, lift, pin, apply_inverse, pinned_not_definite
    implicit none
    private
-   public :: operator_t, correct, pinned_space, next_space, hidden_range, left_null_space
+   public :: operator_t, correct, seek_pins, repin, pinned_space, next_space, left_null_space
 
    !> A by columns and by rows, so that both products gather.
    type :: operator_t
@@ -27,10 +27,14 @@ module flexact_null_space
    integer, parameter :: most_projections = 40
    !> What A' may leave of a unit vector of its null space.
    real(wp), parameter :: small_residual = 1.0e-14_wp, large_residual = 1.0e-9_wp
-   !> An image below this part of its vector is mostly rounding.
-   real(wp), parameter :: drowned = 1.0e-12_wp
    !> A value below this part of the norm is as good as zero.
    real(wp), parameter :: practically_zero = 2*epsilon(1.0_wp)
+   !> Width of the search for pins, how many vectors more than are low it takes, and
+   !> entries that it may have.
+   integer, parameter :: least_wide = 32, wider_by = 8
+   real(wp), parameter :: most_entries = 1.0e8_wp
+   !> Values up to this multiple of t are low.
+   real(wp), parameter, public :: low_end = 3.0_wp
    !> Steps of the Lanczos process, and the least width of its blocks.
    integer, parameter :: most_steps = 12
    integer, parameter :: narrowest = 3
@@ -39,13 +43,101 @@ module flexact_null_space
    real(wp), parameter :: settled = 1.0e-10_wp, settled_large = 1.0e-5_wp
    integer, parameter :: large = 20000
    !> A status: fewer vectors than there must be.
-   integer, parameter :: not_found = 1
+   integer, parameter, public :: not_found = 1
    !> The same for a value to be given beside the smallest.
    real(wp), parameter :: nearly_settled = 1.0e-8_wp
    !> What is left of a vector that brings nothing new.
    real(wp), parameter :: new = 1.0e-7_wp
 
 contains
+
+   !> Pin columns that hold what inverse iteration finds to be low, where pivots do
+   !> not tell them: the largest entries, one for each vector.
+   subroutine seek_pins(a, pinned, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      real(wp), allocatable :: vectors(:, :), values(:)
+      integer :: width, low
+
+      call lift(pinned, status)
+      if (status /= 0) return
+      width = min(least_wide, pinned%n)
+      do
+         call inverse_iteration(a, pinned, width, vectors, values, status)
+         if (status /= 0) return
+         low = count(values <= low_end*pinned%least)
+         if (low + wider_by <= width .or. width == pinned%n) exit
+         width = min(2*width, pinned%n)
+         status = not_found
+         if (real(width, wp)*pinned%n > most_entries) return
+      end do
+      call repin(a, vectors(:, :low), [integer ::], pinned, status)
+   end subroutine seek_pins
+
+   !> Pin one large entry of each of these vectors (columns, k), beside `others`,
+   !> and columns at which the factorisation fails even so.
+   subroutine repin(a, vectors, others, pinned, status)
+      type(operator_t), intent(in) :: a
+      real(wp), intent(in) :: vectors(:, :)
+      integer, intent(in) :: others(:)
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      real(wp) :: left(size(vectors, 1), size(vectors, 2))
+      logical :: is_pinned(size(vectors, 1))
+      integer :: attempt
+
+      left = vectors
+      left(others, :) = 0.0_wp
+      is_pinned = .false.
+      is_pinned(others) = .true.
+      call mark_largest(left, is_pinned)
+      do attempt = 1, most_rounds
+         call pin(a%by_row, is_pinned, pinned, status)
+         if (status /= pinned_not_definite) return
+         is_pinned(pinned%failed) = .true.
+      end do
+   end subroutine repin
+
+   subroutine inverse_iteration(a, pinned, width, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      integer, intent(in) :: width
+      real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
+      integer, intent(out) :: status
+      integer :: round
+
+      allocate (vectors(pinned%n, width), values(width))
+      call fill_at_random(1, vectors)
+      do round = 1, 3
+         call apply_inverse(pinned, vectors, status)
+         if (status /= 0) return
+         call orthonormalise(vectors, status)
+         if (status /= 0) return
+      end do
+      call settle(a, vectors, values, status)
+   end subroutine inverse_iteration
+
+   !> Mark the place of the largest entry of all, turn the vectors so that only one
+   !> has an entry there, and go on with the others. The vectors are destroyed.
+   pure subroutine mark_largest(vectors, is_marked)
+      real(wp), intent(inout) :: vectors(:, :)
+      logical, intent(inout) :: is_marked(:)
+      real(wp) :: weight(size(vectors, 1))
+      integer :: place(2), step, j
+
+      do step = 1, size(vectors, 2)
+         place = maxloc(abs(vectors(:, step:)))
+         j = step + place(2) - 1
+         if (.not. abs(vectors(place(1), j)) > 0) return
+         is_marked(place(1)) = .true.
+         weight = vectors(:, j)/vectors(place(1), j)
+         vectors(:, j) = vectors(:, step)
+         do j = step + 1, size(vectors, 2)
+            vectors(:, j) = vectors(:, j) - vectors(place(1), j)*weight
+         end do
+      end do
+   end subroutine mark_largest
 
    !> Orthonormal vectors (columns, k) whose span, with that of `apart`, holds the
    !> null space, for k of the pins, and their values, ascending.
@@ -302,56 +394,6 @@ contains
          end do
       end do
    end subroutine fill_at_random
-
-   !> Orthonormal directions in the range of A that A inverse(F) A' does not keep,
-   !> because columns are pinned that depend on no others: for y = A x it leaves
-   !> A inverse(F) E E'x. `images`: directions of A v for the vectors v of small
-   !> values that are not zero, which stand for those that rounding would drown.
-   subroutine hidden_range(a, pinned, images, hidden, status)
-      type(operator_t), intent(in) :: a
-      type(pinned_t), intent(in) :: pinned
-      real(wp), intent(in) :: images(:, :)
-      real(wp), allocatable, intent(out) :: hidden(:, :)
-      integer, intent(out) :: status
-      type(basis_t) :: nothing
-      real(wp), allocatable :: left(:, :), none(:, :)
-      integer :: used, fresh
-
-      status = 0
-      allocate (hidden(a%by_column%rows, 0))
-      if (size(images, 2) == 0) return
-      call new_basis(nothing)
-      call images_of_pins(a, pinned, left, status)
-      if (status /= 0) return
-      allocate (none(a%by_column%rows, 0))
-      deallocate (hidden)
-      allocate (hidden(a%by_column%rows, size(left, 2) + size(images, 2)))
-      used = 0
-      call extend(nothing, none, images, drowned, hidden, used, fresh)
-      call extend(nothing, none, left, drowned, hidden, used, fresh)
-      hidden = hidden(:, :used)
-   end subroutine hidden_range
-
-   !> A inverse(F) E, without the columns that are rounding.
-   subroutine images_of_pins(a, pinned, left, status)
-      type(operator_t), intent(in) :: a
-      type(pinned_t), intent(in) :: pinned
-      real(wp), allocatable, intent(out) :: left(:, :)
-      integer, intent(out) :: status
-      real(wp), allocatable :: vectors(:, :)
-      integer :: k
-
-      allocate (vectors(a%by_column%columns, pinned%pins), source=0.0_wp)
-      allocate (left(a%by_column%rows, pinned%pins))
-      do k = 1, pinned%pins
-         vectors(pinned%pin(k), k) = 1.0_wp
-      end do
-      call apply_inverse(pinned, vectors, status)
-      if (status /= 0) return
-      call times_transposed(a%by_row, vectors, left)
-      left = left(:, pack([(k, k=1, pinned%pins)], [(length_of(left(:, k)) > drowned*length_of(vectors(:, k)), &
-                                                     k=1, pinned%pins)]))
-   end subroutine images_of_pins
 
    !> Orthonormal vectors (rows, wanted) that A' sends to zero: random ones less
    !> their projections on the range of A, A inverse(F) A'. `known` (rows, k):

@@ -17,7 +17,7 @@ module flexact_pinned
                               cholmod_solve, cholmod_free
    implicit none
    private
-   public :: pinned_t, make_pinned, apply_inverse, release
+   public :: pinned_t, make_pinned, lift, pin, apply_inverse, release
    public :: pinned_fine, pinned_no_memory, pinned_not_definite, pinned_no_library
 
    integer, parameter :: pinned_fine = 0
@@ -33,7 +33,7 @@ module flexact_pinned
    real(wp), parameter :: small_pivot = 1.0e-12_wp
    !> So wide an envelope a column is as quick as any sparse factorisation.
    real(wp), parameter :: narrow = 40.0_wp
-   integer, parameter :: most_attempts = 12
+   integer, parameter :: most_attempts = 2
 
    type :: pinned_t
       integer :: n = 0
@@ -51,6 +51,7 @@ module flexact_pinned
       !> Where A stands for A diag(1/scale), its columns made equally long.
       real(wp), allocatable :: scale(:)
       type(envelope_t) :: envelope
+      type(gram_t) :: gram
       type(c_ptr) :: handle = c_null_ptr
    end type pinned_t
 
@@ -106,7 +107,6 @@ contains
       type(options_t), intent(in) :: options
       type(pinned_t), intent(inout) :: pinned
       integer, intent(out) :: status
-      type(gram_t) :: gram
       integer, allocatable :: order(:)
       logical, allocatable :: is_pinned(:)
       real(wp), allocatable :: pivot(:)
@@ -118,24 +118,25 @@ contains
       call options%tell(stage_ordering, 0, 1)
       call nested_order(by_column, by_row, group, order, status)
       if (status /= pinned_fine) return
-      call make_gram(by_column, by_row, gram)
+      call make_gram(by_column, by_row, pinned%gram)
       status = pinned_no_memory
-      pinned%handle = cholmod_analyse(pinned%n, gram%start, gram%place, order, entries)
+      pinned%handle = cholmod_analyse(pinned%n, pinned%gram%start, pinned%gram%place, order, entries)
       if (.not. c_associated(pinned%handle)) return
       pinned%bytes = 8*entries
       if (pinned%bytes > options%memory) return
       call options%tell(stage_factorising, 0, 1)
       allocate (pivot(pinned%n), is_pinned(pinned%n))
       call pin_groups(by_column, group, small_pivot*largest, is_pinned)
-      call factorise_pinned(gram, is_pinned, pinned, status)
+      call pin(by_row, is_pinned, pinned, status)
       if (status /= pinned_not_definite) return
-      call find_pivots(gram, pinned, pivot, status)
+      call lift(pinned, status)
+      if (status == pinned_fine) call cholmod_pivots(pinned%handle, pivot)
       do attempt = 0, most_attempts
          if (status /= pinned_fine) exit
-         call factorise_pinned(gram, is_pinned .or. pivot < 4.0_wp**attempt*small_pivot*largest, pinned, status)
+         call pin(by_row, is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*largest, pinned, status)
          if (status /= pinned_not_definite) exit
          is_pinned(pinned%failed) = .true.
-         status = pinned_fine
+         if (attempt < most_attempts) status = pinned_fine
       end do
    end subroutine factorise_sparse
 
@@ -167,48 +168,71 @@ contains
       end do
    end subroutine nested_order
 
-   !> The pivots of A'A, lifted a little so that its factorisation runs to its
-   !> end. They vanish at columns that depend on those before them.
-   subroutine find_pivots(gram, pinned, pivot, status)
-      type(gram_t), intent(inout) :: gram
-      type(pinned_t), intent(in) :: pinned
-      real(wp), intent(out) :: pivot(:)
+   !> Factorise A'A + t**2 I, which runs to its end whatever A is: its inverse
+   !> brings forth the null space, and pivots vanish at columns that depend on
+   !> those before them.
+   subroutine lift(pinned, status)
+      type(pinned_t), intent(inout) :: pinned
       integer, intent(out) :: status
-      real(wp) :: kept(size(pivot))
+      real(wp) :: shift(pinned%n)
 
-      kept = gram%value(gram%diagonal)
-      gram%value(gram%diagonal) = kept + pinned%least**2
-      status = pinned_no_memory
-      select case (cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value))
-      case (0)
-         call cholmod_pivots(pinned%handle, pivot)
-         status = pinned_fine
-      case (1:)
-         status = pinned_not_definite
-      end select
-      gram%value(gram%diagonal) = kept
-   end subroutine find_pivots
+      shift = pinned%least**2
+      call factorise_shifted(shift, pinned, status)
+   end subroutine lift
 
    !> Factorise with these pins.
-   subroutine factorise_pinned(gram, is_pinned, pinned, status)
-      type(gram_t), intent(inout) :: gram
+   subroutine pin(by_row, is_pinned, pinned, status)
+      type(sparse_t), intent(in) :: by_row
       logical, intent(in) :: is_pinned(:)
       type(pinned_t), intent(inout) :: pinned
       integer, intent(out) :: status
-      real(wp) :: shift(size(is_pinned)), kept(size(is_pinned))
       integer :: i
 
-      shift = merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2
-      kept = gram%value(gram%diagonal)
-      gram%value(gram%diagonal) = gram%value(gram%diagonal) + shift
-      pinned%failed = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
-      gram%value(gram%diagonal) = kept
+      if (pinned%is_narrow) then
+         call pin_narrow(by_row, is_pinned, pinned, status)
+      else
+         call factorise_shifted(merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2, pinned, status)
+      end if
+      pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
+      pinned%pins = size(pinned%pin)
+   end subroutine pin
+
+   subroutine pin_narrow(by_row, is_pinned, pinned, status)
+      type(sparse_t), intent(in) :: by_row
+      logical, intent(in) :: is_pinned(:)
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      integer :: failed(pinned%n), first(pinned%n), fails, i, place
+
+      first = pinned%envelope%first
+      call fill_envelope(by_row, pinned%place_of, first, pinned%least**2, pinned%envelope)
+      do i = 1, pinned%n
+         place = pinned%place_of(i)
+         associate (diagonal => pinned%envelope%value(pinned%envelope%base(place) + place))
+            if (is_pinned(i)) diagonal = diagonal + 1.0_wp
+         end associate
+      end do
+      call factorise(pinned%envelope, tiny(1.0_wp), failed, fails)
+      status = merge(pinned_fine, pinned_not_definite, fails == 0)
+      if (fails > 0) pinned%failed = findloc(pinned%place_of, failed(1), 1)
+   end subroutine pin_narrow
+
+   subroutine factorise_shifted(shift, pinned, status)
+      real(wp), intent(in) :: shift(:)
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      real(wp) :: kept(size(shift))
+
+      associate (gram => pinned%gram)
+         kept = gram%value(gram%diagonal)
+         gram%value(gram%diagonal) = kept + shift
+         pinned%failed = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
+         gram%value(gram%diagonal) = kept
+      end associate
       status = pinned_fine
       if (pinned%failed < 0) status = pinned_no_memory
       if (pinned%failed > 0) status = pinned_not_definite
-      pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
-      pinned%pins = size(pinned%pin)
-   end subroutine factorise_pinned
+   end subroutine factorise_shifted
 
    !> Pin what a node (or element) can do by itself: columns that depend on others
    !> of their group.

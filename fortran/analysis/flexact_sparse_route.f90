@@ -7,14 +7,16 @@ module flexact_sparse_route
    use flexact_kinds, only: wp
    use flexact_answer, only: options_t, answer_t, most_pairs, status_no_library, &
                              stage_motions, stage_stresses, stage_values
-   use flexact_decomposition, only: status_fine, status_no_convergence, status_no_memory
+   use flexact_decomposition, only: singular_values, status_fine, status_no_convergence, status_no_memory
    use flexact_basis, only: basis_t, new_basis
    use flexact_local, only: find_local_vectors
    use flexact_many, only: find_many
    use flexact_modes, only: untangle, add_modes, add_sparse_modes
-   use flexact_null_space, only: operator_t, pinned_space, next_space, hidden_range, left_null_space
+   use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, &
+                                 left_null_space, not_found
    use flexact_pairs, only: offer_pair
-   use flexact_pinned, only: pinned_t, make_pinned, release, pinned_fine, pinned_no_memory, pinned_no_library
+   use flexact_pinned, only: pinned_t, make_pinned, release, pinned_fine, pinned_no_memory, pinned_no_library, &
+                             pinned_not_definite
    use flexact_problem, only: problem_t
    use flexact_rank, only: rank_t, decide_rank
    use flexact_sort, only: sort_descending
@@ -49,10 +51,12 @@ module flexact_sparse_route
    integer, parameter :: most_values = 256
    !> So many pins are dealt with together; more where they live.
    integer, parameter :: few = 16
-   integer, parameter :: most_dense = 400
+   integer, parameter :: most_dense = 800
    !> Of more than so many vectors of the longer side the first are given.
    integer, parameter :: most_left = 64
    integer, parameter :: first_left = 12
+   !> Less of a unit vector at the pins is little.
+   real(wp), parameter :: weak = 0.05_wp
 
 contains
 
@@ -171,6 +175,7 @@ contains
 
       if (.not. options%only_plain_values) then
          call make_pinned(part%matrix%by_column, part%matrix%by_row, part%group, options, pinned, status)
+         if (status == pinned_not_definite) call seek_pins(part%matrix, pinned, status)
          return
       end if
       by_column = part%matrix%by_column
@@ -266,7 +271,7 @@ contains
    !> The smallest singular values, as many as the decision needs.
    subroutine find_low_end(part, pinned, problem, options, careful, low, answer)
       type(part_t), intent(in) :: part
-      type(pinned_t), intent(in) :: pinned
+      type(pinned_t), intent(inout) :: pinned
       type(problem_t), intent(in) :: problem
       type(options_t), intent(in) :: options
       logical, intent(in) :: careful
@@ -281,8 +286,12 @@ contains
       if (answer%status /= status_fine) return
       call pinned_space(part%matrix, pinned, pin, low%apart, spanned, in_pins, answer%status)
       if (answer%status /= status_fine) return
+      if (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :))) then
+         call unpin(part, in_pins, spanned, pin, pinned, answer)
+         if (answer%status /= status_fine) return
+      end if
       if (size(part%column) >= large) call options%tell(stage_values, 0, 1)
-      rest = size(part%column) - pinned%pins
+      rest = size(part%column) - low%local%vectors - size(pin)
       wanted = min(rest, merge(most_pairs, 1, careful))
       do
          call next_space(part%matrix, pinned, low%apart, spanned, wanted, careful, next, beyond, answer%status)
@@ -308,6 +317,34 @@ contains
          if (low%values(k) > 0) low%images(:, k) = low%images(:, k)/low%values(k)
       end do
    end subroutine find_low_end
+
+   !> Whether pins hold some combination of their vectors (pins, pins) by little.
+   logical function is_weak(at_pins)
+      real(wp), intent(in) :: at_pins(:, :)
+      real(wp) :: part(size(at_pins, 1), size(at_pins, 2)), values(size(at_pins, 1))
+      integer :: status
+
+      part = at_pins
+      call singular_values(part, values, status)
+      is_weak = any(values < weak)
+   end function is_weak
+
+   !> Let go of pins that hold more than vectors of tiny values, since they would hide
+   !> the others, and pin where the vectors are largest.
+   subroutine unpin(part, values, vectors, pin, pinned, answer)
+      type(part_t), intent(in) :: part
+      real(wp), intent(in) :: values(:), vectors(:, :)
+      integer, intent(in) :: pin(:)
+      type(pinned_t), intent(inout) :: pinned
+      type(answer_t), intent(inout) :: answer
+      logical :: is_other(size(pinned%pin))
+      integer :: k, low
+
+      is_other = [(all(pin /= pinned%pin(k)), k=1, size(pinned%pin))]
+      low = count(values <= low_end*pinned%least)
+      call repin(part%matrix, vectors(:, :low), pack(pinned%pin, is_other), pinned, answer%status)
+      if (answer%status /= pinned_fine) call translate(pinned, answer)
+   end subroutine unpin
 
    !> Find the vectors of many pins where they live; `pin` lists the other pins.
    subroutine split_pins(part, pinned, low, pin, answer)
@@ -348,6 +385,10 @@ contains
       if (size(part%column) >= large) call options%tell(stage_stresses, 0, 1)
       call new_basis(many)
       call find_left(problem, options, part, pinned, low, is_zero, left, many, answer%status)
+      if (answer%status == not_found) then
+         answer%confirmed = .false.
+         answer%status = status_fine
+      end if
       if (answer%status /= status_fine) return
       call untangle(right)
       call untangle(left)
@@ -398,26 +439,27 @@ contains
       real(wp), allocatable, intent(out) :: left(:, :)
       type(basis_t), intent(inout) :: many
       integer, intent(out) :: status
-      real(wp), allocatable :: projected(:, :), range(:, :)
-      integer, allocatable :: hidden(:), lifted(:)
+      real(wp), allocatable :: projected(:, :)
+      logical :: is_held(size(is_zero))
+      integer, allocatable :: known(:), images(:)
       integer :: k, wanted
 
-      hidden = pack([(k, k=1, low%pins)],.not. is_zero(:low%pins))
-      lifted = pack([(k, k=low%pins + 1, size(is_zero))], is_zero(low%pins + 1:))
-      wanted = size(part%row) - size(part%column) + pinned%pins - size(hidden)
-      if (wanted > most_left .and. options%every_vector .and. size(lifted) == 0) then
+      is_held = [(k <= low%pins .and. low%values(k) <= low_end*pinned%least, k=1, size(is_zero))]
+      known = pack([(k, k=1, size(is_zero))], is_held .and. .not. is_zero)
+      ! Of what counts as zero though no pin holds it, the images are the left vectors.
+      images = pack([(k, k=1, size(is_zero))], is_zero .and. .not. is_held)
+      wanted = size(part%row) - size(part%column) + pinned%pins - size(known)
+      if (wanted > most_left .and. options%every_vector .and. size(images) == 0) then
          allocate (left(size(part%row), 0))
          call find_many_left(problem, part, options, many, status)
          return
       end if
-      call hidden_range(part%matrix, pinned, low%images(:, hidden), range, status)
-      if (status /= status_fine) return
-      call left_null_space(part%matrix, pinned, range, merge(first_left, wanted, wanted > most_left), &
+      call left_null_space(part%matrix, pinned, low%images(:, known), merge(first_left, wanted, wanted > most_left), &
                            projected, status)
-      if (status /= status_fine) return
-      allocate (left(size(part%row), size(projected, 2) + size(lifted)))
+      if (status /= status_fine .and. status /= not_found) return
+      allocate (left(size(part%row), size(projected, 2) + size(images)))
       left(:, :size(projected, 2)) = projected
-      left(:, size(projected, 2) + 1:) = low%images(:, lifted)
+      left(:, size(projected, 2) + 1:) = low%images(:, images)
    end subroutine find_left
 
    subroutine find_many_left(problem, part, options, many, status)

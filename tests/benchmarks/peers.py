@@ -19,7 +19,7 @@ def compiled(folder: Path) -> Path | None:
     if compiler is None or not include:
         return None
     program = folder / "peers"
-    start = [compiler, "-O2", "-std=c11", "-D_GNU_SOURCE", *include[0], str(SOURCE)]
+    start = [compiler, "-O2", "-std=c11", "-D_GNU_SOURCE", include[0], str(SOURCE)]
     for libraries in _LIBRARIES:
         call = [*start, "-o", str(program), "-lspqr", "-lcholmod", *libraries, "-lm"]
         if subprocess.run(call, capture_output=True).returncode == 0:

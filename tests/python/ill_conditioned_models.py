@@ -76,7 +76,7 @@ def levers(number: int, ratio: float) -> Model:
         # The path stands at an angle to the bar whose cosine is 1/ratio; to either side by turns.
         sine = math.sqrt(1.0 - 1.0 / ratio**2) * (-1) ** k
         path = np.array([bar[0] / ratio - sine * bar[1], sine * bar[0] + bar[1] / ratio])
-        end = model.node(*(place + [-path[1], path[0]]))
+        end = model.node(place[0] - path[1], place[1] + path[0])
         model.truss(end, joint)
         model.fix(end)
         before = joint

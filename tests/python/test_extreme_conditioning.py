@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from ill_conditioned_models import levers, spokes, two_fold_lines, two_wire_flexures, two_wires
@@ -142,11 +142,17 @@ def test_levers_that_amplify_are_right_or_nearly(ratio: float, power: int) -> No
 
 
 @pytest.mark.parametrize("arm", [1.6, 1.1, 1.01])
-def test_amplifying_stages_are_right_or_nearly(arm: float) -> None:
-    for side in (2, 3, 4, 5):
-        case = families.ill_conditioned(42 * side**2, arm=arm)
-        for method in (*DENSE, "sparse") if side < 5 else ("sparse", "auto"):
-            never_wrong(case.model, (0, 0), method)
+@pytest.mark.parametrize("side", [2, 3, 4])
+def test_amplifying_stages_are_right_or_nearly(arm: float, side: int) -> None:
+    case = families.ill_conditioned(42 * side**2, arm=arm)
+    for method in METHODS:
+        never_wrong(case.model, (0, 0), method)
+
+
+@pytest.mark.parametrize(("arm", "side"), [(1.6, 10), (1.6, 16), (1.1, 20), (1.01, 14)])
+def test_very_many_amplifying_stages_are_right_or_nearly(arm: float, side: int) -> None:
+    """Down to singular values that vanish beside the rounding: still no motion in truth."""
+    never_wrong(families.ill_conditioned(42 * side**2, arm=arm).model, (0, 0), "sparse")
 
 
 @pytest.mark.parametrize("beams", [100, 300, 1000])
@@ -196,8 +202,8 @@ def test_graded_rows_of_rank_two() -> None:
 def residuals(analysis: Analysis) -> tuple[float, float]:
     """Largest |D v| of the motions and |D' v| of the self-stresses, all of unit length."""
     matrix = analysis.dense_jacobian()
-    right = (np.linalg.norm(matrix @ motion.vector) for motion in analysis.motions)
-    left = (np.linalg.norm(stress.vector @ matrix) for stress in analysis.self_stresses)
+    right = (float(np.linalg.norm(matrix @ motion.vector)) for motion in analysis.motions)
+    left = (float(np.linalg.norm(stress.vector @ matrix)) for stress in analysis.self_stresses)
     return max(right, default=0.0), max(left, default=0.0)
 
 
@@ -232,8 +238,7 @@ def test_families_are_right_with_small_residuals(letter: str, columns: int) -> N
 def test_the_smallest_values_fall_as_they_should() -> None:
     """Each lever takes its ratio off the smallest singular value."""
     smallest = [
-        analyse(levers(number, 4.0), method="jacobi").singular_values[-1]
-        for number in range(4, 18)
+        analyse(levers(number, 4.0), method="jacobi").singular_values[-1] for number in range(4, 18)
     ]
     for before, after in itertools.pairwise(smallest):
         assert after == pytest.approx(before / 4, rel=0.05)

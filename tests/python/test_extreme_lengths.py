@@ -8,7 +8,6 @@ from verdicts import (
     assert_all_right,
     assert_all_right_or_nearly,
     assert_right,
-    assert_right_or_nearly,
 )
 
 from flexact import Model, Node, analyse, read_text

