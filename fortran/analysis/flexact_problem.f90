@@ -30,32 +30,40 @@ contains
       type(problem_t), intent(out) :: problem
       type(jacobian_t) :: jacobian
       integer, allocatable :: row(:), column(:)
-      integer :: entry, j
+      integer :: entry
 
       call make_partition(model, problem%partition)
       call make_jacobian(model, model%node_value, jacobian)
-      call make_scaling(model, problem%partition, jacobian, problem%scaling)
-      if (is_plain) then
-         problem%scaling%row = 1.0_wp
-         problem%scaling%column = 1.0_wp
-      end if
-      call move_alloc(jacobian%length, problem%length)
       allocate (row(jacobian%entries), column(jacobian%entries))
       do entry = 1, jacobian%entries
          row(entry) = problem%partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
          column(entry) = problem%partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
       end do
-      associate (count => problem%partition%count, scaling => problem%scaling)
+      associate (count => problem%partition%count)
          call compress(count%rows, count%columns, row, column, jacobian%value(:jacobian%entries), problem%jacobian)
-         problem%by_column = problem%jacobian
-         do j = 1, count%columns
-            do entry = problem%jacobian%start(j), problem%jacobian%start(j + 1) - 1
-               problem%by_column%value(entry) = problem%jacobian%value(entry)*scaling%column(j) &
-                                                *scaling%row(problem%jacobian%place(entry))
-            end do
-         end do
       end associate
-      call transposed(problem%by_column, problem%by_row)
+      problem%by_column = problem%jacobian
+      call transposed(problem%jacobian, problem%by_row)
       call find_parts(problem%by_column, problem%by_row, problem%parts)
+      call make_scaling(model, problem%partition, jacobian, problem%parts, problem%scaling)
+      call move_alloc(jacobian%length, problem%length)
+      if (is_plain) then
+         problem%scaling%row = 1.0_wp
+         problem%scaling%column = 1.0_wp
+      end if
+      call apply_scales(problem%scaling%row, problem%scaling%column, problem%by_column)
+      call apply_scales(problem%scaling%column, problem%scaling%row, problem%by_row)
    end subroutine make_problem
+
+   pure subroutine apply_scales(of_row, of_column, matrix)
+      real(wp), intent(in) :: of_row(:), of_column(:)
+      type(sparse_t), intent(inout) :: matrix
+      integer :: j, entry
+
+      do j = 1, matrix%columns
+         do entry = matrix%start(j), matrix%start(j + 1) - 1
+            matrix%value(entry) = matrix%value(entry)*(of_row(matrix%place(entry))*of_column(j))
+         end do
+      end do
+   end subroutine apply_scales
 end module flexact_problem

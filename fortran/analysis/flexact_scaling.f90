@@ -4,12 +4,16 @@ module flexact_scaling
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, is_position
    use flexact_partition, only: partition_t, axes
+   use flexact_parts, only: parts_t
    use flexact_jacobian, only: jacobian_t
    use flexact_rounding, only: decimal, difference, last_bits, last_digit
    use flexact_vectors, only: length_of
    implicit none
    private
    public :: scaling_t, make_scaling, extent_of
+
+   !> A part so many times larger or smaller than the whole has its own length.
+   real(wp), parameter :: another_size = 100.0_wp
 
    !> The scaled matrix is diag(row) D(c) diag(column).
    type :: scaling_t
@@ -31,20 +35,34 @@ contains
    !> columns are divided by it; a row is divided by its norm over all
    !> coordinates, fixed ones too. The norm of what is left of it in D(c) would
    !> blow up the rounding of an element with fixed ends.
-   pure subroutine make_scaling(model, partition, jacobian, scaling)
+   !>
+   !> A connected part of quite another size than the whole has a length of its
+   !> own: no scale of a part changes the rank of another.
+   pure subroutine make_scaling(model, partition, jacobian, parts, scaling)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
       type(jacobian_t), intent(in) :: jacobian
+      type(parts_t), intent(in) :: parts
       type(scaling_t), intent(out) :: scaling
-      integer :: j
+      real(wp) :: row_length(partition%count%rows), length
+      integer :: i, j
 
       scaling%characteristic_length = geometric_mean(jacobian%length)
       allocate (scaling%column(partition%count%columns), source=1.0_wp)
-      do j = 1, partition%count%columns
-         if (is_rotation(model, partition%column_label(1, j))) &
-            scaling%column(j) = 1/scaling%characteristic_length
+      do i = 1, parts%count
+         associate (row => parts%row(parts%row_start(i):parts%row_start(i + 1) - 1))
+            length = geometric_mean(jacobian%length(partition%row_label(1, row)))
+            if (.not. any(jacobian%length(partition%row_label(1, row)) > 0) .or. &
+                abs(log(length/scaling%characteristic_length)) < log(another_size)) length = scaling%characteristic_length
+            row_length(row) = length
+         end associate
+         do j = parts%column_start(i), parts%column_start(i + 1) - 1
+            associate (column => parts%column(j))
+               if (is_rotation(model, partition%column_label(1, column))) scaling%column(column) = 1/length
+            end associate
+         end do
       end do
-      call scale_rows(model, partition, jacobian, scaling)
+      call scale_rows(model, partition, jacobian, row_length, scaling)
       call bound_errors(model, partition, jacobian, scaling)
    end subroutine make_scaling
 
@@ -65,10 +83,11 @@ contains
       mean = min(max(mean, tiny(mean)), 1/tiny(mean))
    end function geometric_mean
 
-   pure subroutine scale_rows(model, partition, jacobian, scaling)
+   pure subroutine scale_rows(model, partition, jacobian, row_length, scaling)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
       type(jacobian_t), intent(in) :: jacobian
+      real(wp), intent(in) :: row_length(:)
       type(scaling_t), intent(inout) :: scaling
       real(wp) :: value
       integer :: entry, i
@@ -78,7 +97,7 @@ contains
          i = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
          if (i == 0) cycle
          value = jacobian%value(entry)
-         if (is_rotation(model, jacobian%column(1, entry))) value = value/scaling%characteristic_length
+         if (is_rotation(model, jacobian%column(1, entry))) value = value/row_length(i)
          ! Unlike a sum of squares, this neither overflows nor vanishes.
          scaling%row(i) = hypot(scaling%row(i), value)
       end do
