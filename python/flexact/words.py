@@ -129,19 +129,30 @@ def _certainty(analysis: Analysis) -> Iterator[str]:
             "The decision is nearly certain only: if every singular value in doubt is zero, the "
             f"mechanism is {counts}."
         )
+    yield _margin(analysis)
+
+
+def _margin(analysis: Analysis) -> str:
+    """How far the next verdict is, in the words of a workshop."""
     margin = analysis.margin
+    if margin.singular_value is not None and margin.singular_value <= analysis.tolerance:
+        lengths = [f"{margin.length:.2g} m"] if margin.length is not None else []
+        angles = [f"{margin.angle:.2g} rad"] if margin.angle is not None else []
+        return _wrapped(
+            "A zero hangs on the exact geometry: a misalignment of one node or element by as "
+            f"little as {' or '.join(lengths + angles)} would lift it."
+        )
     ways = []
     if margin.length is not None and margin.length < _SMALL * analysis.characteristic_length:
         ways.append(f"moving node {margin.node} by {margin.length:.2g} m")
     if margin.angle is not None and margin.angle < _SMALL:
         ways.append(f"turning element {margin.element} by {margin.angle:.2g} rad")
-    if ways:
-        yield _wrapped(
-            "Smallest misalignment that would change the verdict, to first order: "
-            f"{' or '.join(ways)}."
-        )
-    else:
-        yield "No small misalignment of one node or element would change the verdict."
+    if not ways:
+        return "No small misalignment of one node or element would change the verdict."
+    return _wrapped(
+        "Smallest misalignment that would change the verdict, to first order: "
+        f"{' or '.join(ways)}."
+    )
 
 
 def _counts_in_words(under: int, over: int) -> str:
