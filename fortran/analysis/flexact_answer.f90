@@ -29,9 +29,6 @@ module flexact_answer
       real(wp), allocatable :: tolerance
       !> Bytes of memory that may be used.
       real(wp) :: memory = huge(1.0_wp)
-      !> Whether vectors are wanted even where there are very many, which takes
-      !> longer than all the rest; else the first of them.
-      logical :: every_vector = .false.
       !> Whether, in place of all else, the smallest singular values of D(c) itself
       !> are wanted, which come as scaled values then.
       logical :: only_plain_values = .false.

@@ -15,7 +15,7 @@ module flexact_null_space
    use flexact_pinned, only: pinned_t, lift, pin, apply_inverse, pinned_not_definite
    implicit none
    private
-   public :: operator_t, correct, seek_pins, repin, pinned_space, next_space, left_null_space
+   public :: operator_t, seek_pins, repin, pinned_space, next_space, left_null_space
 
    !> A by columns and by rows, so that both products gather.
    type :: operator_t
@@ -198,20 +198,6 @@ contains
       call extend(apart, none, residual, new, space, used, fresh)
       call take_lowest(a, space(:, :used), vectors, values, status)
    end subroutine improve
-
-   !> Take from each vector what A does not send to zero.
-   subroutine correct(a, pinned, vectors, status)
-      type(operator_t), intent(in) :: a
-      type(pinned_t), intent(in) :: pinned
-      real(wp), intent(inout), contiguous :: vectors(:, :)
-      integer, intent(out) :: status
-      real(wp) :: image(a%by_column%rows, size(vectors, 2)), step(size(vectors, 1), size(vectors, 2))
-
-      call times_transposed(a%by_row, vectors, image)
-      call times_transposed(a%by_column, image, step)
-      call apply_inverse(pinned, step, status)
-      vectors = vectors - step
-   end subroutine correct
 
    !> Turn orthonormal vectors among themselves so that their images under A are
    !> orthogonal; the lengths of these ascend.

@@ -9,8 +9,7 @@ module flexact_sparse_route
                              stage_motions, stage_stresses, stage_values
    use flexact_decomposition, only: singular_values, status_fine, status_no_convergence, status_no_memory
    use flexact_basis, only: basis_t, new_basis
-   use flexact_local, only: find_local_vectors
-   use flexact_many, only: find_many
+   use flexact_local, only: find_local_vectors, find_scattered_vectors
    use flexact_modes, only: untangle, add_modes, add_sparse_modes
    use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, &
                                  left_null_space, not_found
@@ -54,7 +53,7 @@ module flexact_sparse_route
    integer, parameter :: most_dense = 800
    !> Of more than so many vectors of the longer side the first are given.
    integer, parameter :: most_left = 64
-   integer, parameter :: first_left = 12
+   integer, parameter :: first_left = 6
    !> Less of a unit vector at the pins is little.
    real(wp), parameter :: weak = 0.05_wp
 
@@ -384,7 +383,7 @@ contains
       right = low%vectors(:, pack([(k, k=1, size(is_zero))], is_zero))
       if (size(part%column) >= large) call options%tell(stage_stresses, 0, 1)
       call new_basis(many)
-      call find_left(problem, options, part, pinned, low, is_zero, left, many, answer%status)
+      call find_left(part, pinned, low, is_zero, left, many, answer%status)
       if (answer%status == not_found) then
          answer%confirmed = .false.
          answer%status = status_fine
@@ -427,11 +426,8 @@ contains
       call add_sparse_modes(both, place, scale, basis, status)
    end subroutine add_both
 
-   !> The left null space: as few dense vectors, or as many sparse ones, or the
-   !> first of very many.
-   subroutine find_left(problem, options, part, pinned, low, is_zero, left, many, status)
-      type(problem_t), intent(in) :: problem
-      type(options_t), intent(in) :: options
+   !> The left null space: a few vectors, or of very many some that are local.
+   subroutine find_left(part, pinned, low, is_zero, left, many, status)
       type(part_t), intent(in) :: part
       type(pinned_t), intent(in) :: pinned
       type(low_end_t), intent(in) :: low
@@ -444,15 +440,18 @@ contains
       integer, allocatable :: known(:), images(:)
       integer :: k, wanted
 
+      status = status_fine
       is_held = [(k <= low%pins .and. low%values(k) <= low_end*pinned%least, k=1, size(is_zero))]
       known = pack([(k, k=1, size(is_zero))], is_held .and. .not. is_zero)
       ! Of what counts as zero though no pin holds it, the images are the left vectors.
       images = pack([(k, k=1, size(is_zero))], is_zero .and. .not. is_held)
       wanted = size(part%row) - size(part%column) + pinned%pins - size(known)
-      if (wanted > most_left .and. options%every_vector .and. size(images) == 0) then
-         allocate (left(size(part%row), 0))
-         call find_many_left(problem, part, options, many, status)
-         return
+      if (wanted > most_left .and. size(images) == 0) then
+         call find_scattered_vectors(operator_t(part%matrix%by_row, part%matrix%by_column), first_left, many)
+         if (many%vectors > 0) then
+            allocate (left(size(part%row), 0))
+            return
+         end if
       end if
       call left_null_space(part%matrix, pinned, low%images(:, known), merge(first_left, wanted, wanted > most_left), &
                            projected, status)
@@ -461,24 +460,6 @@ contains
       left(:, :size(projected, 2)) = projected
       left(:, size(projected, 2) + 1:) = low%images(:, images)
    end subroutine find_left
-
-   subroutine find_many_left(problem, part, options, many, status)
-      type(problem_t), intent(in) :: problem
-      type(part_t), intent(in) :: part
-      type(options_t), intent(in) :: options
-      type(basis_t), intent(out) :: many
-      integer, intent(out) :: status
-      type(operator_t) :: turned
-      integer :: group(size(part%row))
-
-      turned = operator_t(part%matrix%by_row, part%matrix%by_column)
-      if (part%is_turned) then
-         call number_groups(problem%partition%column_label(1, part%row), group)
-      else
-         call number_groups(problem%partition%row_label(1, part%row), group)
-      end if
-      call find_many(turned, group, options, many, status)
-   end subroutine find_many_left
 
    pure subroutine offer_all(part, low, answer)
       type(part_t), intent(in) :: part

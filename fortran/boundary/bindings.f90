@@ -238,7 +238,7 @@ end subroutine assemble
 
 ! Rank, motions and self-stresses in the reference configuration. wishes:
 ! tolerance (negative: from the data), bytes of memory that may be used, 1 if
-! every vector is wanted, 1 if only the smallest values of D(c) itself are.
+! only the smallest singular values of D(c) itself are wanted.
 ! Indices count from 0. A basis that does not fit its room is given in part.
 ! numbers: tolerance, characteristic length, noise, bytes needed. facts: rank,
 ! method, 1 if confirmed, singular values of D(c) and scaled values given, pairs,
@@ -269,7 +269,7 @@ subroutine analyse_model(rows, columns, least, pairs, motion_room, stress_room, 
    integer(c_int), intent(in) :: nn
    integer(c_int), intent(in) :: ne
    integer(c_int), intent(in) :: method
-   real(c_double), intent(in) :: wishes(4)
+   real(c_double), intent(in) :: wishes(3)
    integer(c_int), intent(in) :: node_number(nn)
    integer(c_int), intent(in) :: node_kind(nn)
    real(c_double), intent(in) :: node_value(4, nn)
@@ -316,8 +316,7 @@ subroutine analyse_model(rows, columns, least, pairs, motion_room, stress_room, 
    options%method = method
    if (wishes(1) >= 0) options%tolerance = wishes(1)
    options%memory = wishes(2)
-   options%every_vector = wishes(3) > 0
-   options%only_plain_values = wishes(4) > 0
+   options%only_plain_values = wishes(3) > 0
    options%stage => stage
    call analyse(model, options, problem, answer)
    status = answer%status

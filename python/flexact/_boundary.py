@@ -139,7 +139,6 @@ def analyse_model(
     tolerance: float | None = None,
     stage: IntArray | None = None,
     memory: float = math.inf,
-    every_vector: bool = False,
     only_plain_values: bool = False,
 ) -> RawAnalysis:
     """Decompose D(c) of `rows` x `columns`, as counted by `count_model`.
@@ -152,7 +151,6 @@ def analyse_model(
         tolerance: scaled singular values up to here count as zero; None: from the data.
         stage: (2,) kept up to date while the call runs: stage (an index of `STAGES`), per cent.
         memory: bytes that may be used.
-        every_vector: whether vectors are wanted even where there are very many.
         only_plain_values: whether, in place of all else, the smallest singular values of
             D(c) itself are wanted, as `scaled_values`; for the method sparse.
     """
@@ -166,7 +164,6 @@ def analyse_model(
             [
                 -1.0 if tolerance is None else tolerance,
                 min(memory, sys.float_info.max),
-                float(every_vector),
                 float(only_plain_values),
             ]
         ),
