@@ -17,6 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import flexact
+from flexact.exchange import model_arrays
+from flexact.model_data import ModelData
 
 DECK = Path(__file__).parents[2] / "input_decks" / "paper" / "five_folded_sheets.dat"
 COMMAND = (sys.executable, "-m", "flexact")
@@ -80,3 +82,47 @@ def reading_against_split() -> tuple[str, float, float]:
         elements = flexact.read(path).element_numbers.size
         times = in_turn(lambda: flexact.read(path), text.split, 15)
     return (f"`read` of {elements:,} elements against `str.split` of the text", *times)
+
+
+def parts_against_one() -> tuple[str, float, float]:
+    """Many mechanisms in one model against as many times one alone."""
+    many, one = 20, flexact.read(DECK)
+    together = _side_by_side(one, many)
+    times = in_turn(
+        lambda: flexact.analyse(together), lambda: [flexact.analyse(one) for _ in range(many)], 50
+    )
+    return (f"`analyse` of {many} such mechanisms in one model against {many} alone", *times)
+
+
+def carried_against_bare() -> tuple[str, float, float]:
+    """A body that carries nodes which nothing else joins, against numpy's SVD of its D(c)."""
+    model = flexact.Model()
+    bases = [model.node(0.0, y, 0.0) for y in (0.0, 0.05)]
+    stage = [model.node(0.1, y, 0.0) for y in (0.0, 0.05)]
+    for base, end in zip(bases, stage, strict=True):
+        model.fix(base)
+        model.sheet(base, end, width=(0, 0, 1))
+    for k in range(1, 100):
+        model.rigid(stage[0], stage[1] if k == 1 else model.node(0.1, 0.05, 0.01 * k))
+    matrix = flexact.analyse(model).dense_jacobian()
+    times = in_turn(lambda: flexact.analyse(model), lambda: np.linalg.svd(matrix), 5)
+    rows, columns = matrix.shape
+    what = f"`analyse(model)` of a stage that carries 98 points, {rows} x {columns}"
+    return (f"{what}, against `numpy.linalg.svd` of D(c)", *times)
+
+
+def _side_by_side(model: flexact.Model, many: int) -> flexact.Model:
+    """So many copies of a model."""
+    arrays, data = model.data.arrays, model.data
+    nodes, elements = arrays.node_number.size, arrays.element_number.size
+    copies = {
+        name: np.concatenate([array] * many, axis=-1) for name, array in arrays._asdict().items()
+    }
+    copies["node_number"] = np.arange(many * nodes) + 1
+    copies["element_number"] = np.arange(many * elements) + 1
+    shift = np.repeat(np.arange(many) * nodes, elements)
+    copies["element_node"] = np.where(copies["element_node"] > 0, copies["element_node"] + shift, 0)
+    names = list(data.element_names) * many
+    return flexact.Model.from_data(
+        ModelData(model_arrays(**copies), data.planar, f"{many} times", names)
+    )

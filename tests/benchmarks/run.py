@@ -17,7 +17,13 @@ from typing import Any
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from commands import analysis_against_svd, command_against_import, reading_against_split
+from commands import (
+    analysis_against_svd,
+    carried_against_bare,
+    command_against_import,
+    parts_against_one,
+    reading_against_split,
+)
 from picture import draw
 from trade import NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
 
@@ -52,7 +58,13 @@ def main() -> None:
 
 def _commands() -> list[str]:
     lines = ["| what | Flexact | other | ratio |", "|---|---|---|---|"]
-    for measure in (analysis_against_svd, command_against_import, reading_against_split):
+    for measure in (
+        analysis_against_svd,
+        command_against_import,
+        reading_against_split,
+        parts_against_one,
+        carried_against_bare,
+    ):
         what, ours, other = measure()
         times = f"{ours * 1e3:.3g} ms | {other * 1e3:.3g} ms"
         lines.append(f"| {what} | {times} | {ours / other:.2f} |")
