@@ -2,12 +2,14 @@
 !> Veselic, SIAM J. Matrix Anal. Appl. 29, 2008, pp. 1322-1362). Rows and
 !> columns may be graded: the small singular values of diag(d1) B diag(d2) are
 !> as exact relative to themselves as the condition of B permits, where other
-!> methods are exact relative to the largest one.
+!> methods are exact relative to the largest one. Where B is ill-conditioned too,
+!> they are refined (see `flexact_refinement`).
 module flexact_jacobi
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgejsv
    use flexact_dense, only: status_fine, status_no_convergence, status_no_memory, fits_integer, &
                             bring_to_one, set_identity, transpose_in_place
+   use flexact_refinement, only: is_refinable, refine
    implicit none
    private
    public :: decompose_by_jacobi, values_by_jacobi
@@ -28,10 +30,10 @@ contains
          call set_identity(vt)
          status = status_fine
       else if (size(a, 1) >= size(a, 2)) then
-         call run_dgejsv('F', 'V', a, values, u, vt, status)
+         call decompose_tall(a, values, u, vt, status)
       else
          call turn(a, turned, status)
-         if (status == status_fine) call run_dgejsv('F', 'V', turned, values, vt, u, status)
+         if (status == status_fine) call decompose_tall(turned, values, vt, u, status)
       end if
       if (status == status_fine) call transpose_in_place(vt)
    end subroutine decompose_by_jacobi
@@ -42,17 +44,47 @@ contains
       real(wp), intent(out), contiguous :: values(:)
       integer, intent(out) :: status
       real(wp), allocatable :: turned(:, :)
-      real(wp) :: unused(1, 1)
 
       status = status_fine
       if (any(shape(a) == 0)) return
       if (size(a, 1) >= size(a, 2)) then
-         call run_dgejsv('N', 'N', a, values, unused, unused, status)
+         call values_of_tall(a, values, status)
       else
          call turn(a, turned, status)
-         if (status == status_fine) call run_dgejsv('N', 'N', turned, values, unused, unused, status)
+         if (status == status_fine) call values_of_tall(turned, values, status)
       end if
    end subroutine values_by_jacobi
+
+   !> A = U diag(values) V' for m >= n, with V (n, n), not its transpose.
+   pure subroutine decompose_tall(a, values, u, v, status)
+      real(wp), intent(inout), contiguous :: a(:, :)
+      real(wp), intent(out), contiguous :: values(:)
+      real(wp), intent(inout), contiguous :: u(:, :), v(:, :)
+      integer, intent(out) :: status
+      real(wp), allocatable :: copy(:, :)
+
+      if (is_refinable(size(a, 1), size(a, 2))) copy = a
+      call run_dgejsv('F', 'V', a, values, u, v, status)
+      if (status == status_fine .and. allocated(copy)) call refine(copy, values, v, u)
+   end subroutine decompose_tall
+
+   !> The vectors are wanted for the refinement.
+   pure subroutine values_of_tall(a, values, status)
+      real(wp), intent(inout), contiguous :: a(:, :)
+      real(wp), intent(out), contiguous :: values(:)
+      integer, intent(out) :: status
+      real(wp), allocatable :: copy(:, :), v(:, :)
+      real(wp) :: unused(1, 1)
+
+      if (is_refinable(size(a, 1), size(a, 2))) then
+         copy = a
+         allocate (v(size(a, 2), size(a, 2)))
+         call run_dgejsv('N', 'V', a, values, unused, v, status)
+         if (status == status_fine) call refine(copy, values, v)
+      else
+         call run_dgejsv('N', 'N', a, values, unused, unused, status)
+      end if
+   end subroutine values_of_tall
 
    !> dgejsv takes no matrix of more columns than rows.
    pure subroutine turn(a, turned, status)

@@ -40,12 +40,12 @@ module flexact_null_space
    integer, parameter :: narrowest = 3
    !> Relative change of a value that ends the process, for matrices of up to so
    !> many columns and for larger ones, where each step costs more.
-   real(wp), parameter :: settled = 1.0e-10_wp, settled_large = 1.0e-5_wp
+   real(wp), parameter :: settled = 1.0e-8_wp, settled_large = 1.0e-5_wp
    integer, parameter :: large = 20000
    !> A status: fewer vectors than there must be.
    integer, parameter, public :: not_found = 1
    !> The same for a value to be given beside the smallest.
-   real(wp), parameter :: nearly_settled = 1.0e-8_wp
+   real(wp), parameter :: nearly_settled = 1.0e-7_wp
    !> What is left of a vector that brings nothing new.
    real(wp), parameter :: new = 1.0e-7_wp
 
@@ -328,6 +328,8 @@ contains
             left = length_of(vector(:, 1))
             if (left <= least*length) exit
             vector = vector/left
+            ! Twice where much was taken away, and rounding with it.
+            if (left > 0.5_wp*length) exit
             length = 1.0_wp
          end do
          if (left <= least*length) cycle

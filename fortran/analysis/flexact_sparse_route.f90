@@ -25,7 +25,8 @@ module flexact_sparse_route
    private
    public :: analyse_sparse
 
-   !> A part, or its transpose, so that there are no fewer rows than columns.
+   !> A part, or its transpose, so that there are no fewer rows than columns, or
+   !> only a few in a large one.
    type :: part_t
       logical :: is_turned = .false.
       type(operator_t) :: matrix
@@ -46,7 +47,7 @@ module flexact_sparse_route
    end type low_end_t
 
    !> From this size on a part is gone through once, with all care.
-   integer, parameter :: large = 1000
+   integer, parameter :: large = 500
    integer, parameter :: most_values = 256
    !> So many pins are dealt with together; more where they live.
    integer, parameter :: few = 16
@@ -132,6 +133,7 @@ contains
       type(part_t) :: part
       type(pinned_t) :: pinned
       type(low_end_t) :: low
+      real(wp), allocatable :: found(:)
       integer :: rank, k
 
       estimate = huge(estimate)
@@ -152,7 +154,9 @@ contains
       if (answer%status /= status_fine) return
       rank = count(low%values > low%decision%tolerance)
       if (first_time) then
-         zeros = [zeros, pack(low%values, low%values <= low%decision%tolerance), [(0.0_wp, k=1, low%local%vectors)]]
+         found = [[(0.0_wp, k=1, low%local%vectors)], pack(low%values, low%values <= low%decision%tolerance)]
+         ! Columns beyond the number of rows have no singular values.
+         zeros = [zeros, found(max(0, size(part%column) - size(part%row)) + 1:)]
          answer%decision%rank = answer%decision%rank + size(part%column) - (size(low%values) - rank) - low%local%vectors
          answer%decision%noise = max(answer%decision%noise, low%decision%noise)
          answer%decision%tolerance = max(answer%decision%tolerance, low%decision%tolerance)
@@ -218,6 +222,7 @@ contains
          part%column = p%column(p%column_start(i):p%column_start(i + 1) - 1)
       end associate
       part%is_turned = size(part%row) < size(part%column)
+      if (size(part%row) >= large .and. size(part%column) - size(part%row) <= few) part%is_turned = .false.
       if (part%is_turned) call swap(part%row, part%column)
       new_row(part%row) = [(j, j=1, size(part%row))]
       allocate (part%group(size(part%column)))
