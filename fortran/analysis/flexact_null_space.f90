@@ -206,19 +206,34 @@ contains
       real(wp), intent(inout), contiguous :: vectors(:, :)
       real(wp), intent(out), contiguous :: values(:)
       integer, intent(out) :: status
-      real(wp), allocatable :: image(:, :)
-      real(wp), dimension(size(values), size(values)) :: r, u, vt
-      integer :: k
+      real(wp), allocatable :: before(:, :)
 
-      k = size(values)
-      allocate (image(a%by_column%rows, k))
-      call times_transposed(a%by_row, vectors, image)
-      call triangle_of(image, r, status)
-      if (status == 0) call decompose(r, values, u, vt, status)
-      if (status /= 0) return
-      values = values(k:1:-1)
-      vectors = matmul(vectors, transpose(vt(k:1:-1, :)))
+      before = vectors
+      call take_lowest(a, before, vectors, values, status)
    end subroutine settle
+
+   !> Of an orthonormal space (columns, k) the vectors with the shortest images, and
+   !> the lengths of these, ascending.
+   subroutine take_lowest(a, space, vectors, values, status)
+      type(operator_t), intent(in) :: a
+      real(wp), intent(in), contiguous :: space(:, :)
+      real(wp), intent(out) :: vectors(:, :), values(:)
+      integer, intent(out) :: status
+      real(wp), allocatable :: image(:, :)
+      real(wp), dimension(size(space, 2), size(space, 2)) :: r, u, vt
+      real(wp) :: lengths(size(space, 2))
+      integer :: k, wanted
+
+      k = size(space, 2)
+      wanted = size(values)
+      allocate (image(a%by_column%rows, k))
+      call times_transposed(a%by_row, space, image)
+      call triangle_of(image, r, status)
+      if (status == 0) call decompose(r, lengths, u, vt, status)
+      if (status /= 0) return
+      values = lengths(k:k - wanted + 1:-1)
+      vectors = matmul(space, transpose(vt(k:k - wanted + 1:-1, :)))
+   end subroutine take_lowest
 
    !> The triangle R of the QR factorisation of a matrix with no fewer rows than
    !> columns, which is destroyed.
@@ -338,20 +353,6 @@ contains
          space(:, used) = vector(:, 1)
       end do
    end subroutine extend
-
-   !> The vectors of a space with the shortest images, and the lengths of these.
-   subroutine take_lowest(a, space, vectors, values, status)
-      type(operator_t), intent(in) :: a
-      real(wp), intent(in), contiguous :: space(:, :)
-      real(wp), intent(out) :: vectors(:, :), values(:)
-      integer, intent(out) :: status
-      real(wp) :: turned(size(space, 1), size(space, 2)), lengths(size(space, 2))
-
-      turned = space
-      call settle(a, turned, lengths, status)
-      vectors = turned(:, :size(values))
-      values = lengths(:size(values))
-   end subroutine take_lowest
 
    !> Make vectors orthogonal to orthonormal ones.
    pure subroutine remove(orthonormal, vectors)

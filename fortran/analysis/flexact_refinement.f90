@@ -7,8 +7,10 @@
 !> angles are seen to be right in working precision, and few pairs are turned
 !> (Demmel and Veselic, SIAM J. Matrix Anal. Appl. 13, 1992, pp. 1204-1245).
 !>
-!> Nothing is done where the compiler has no such precision, and for matrices
-!> of more than `most_flops`, which is a limit on time.
+!> Nothing is done where the compiler has no such precision, nor for matrices
+!> above `largest_size`, nor where more than `most_flops` turned out to be
+!> needed: such as dense ones of more than some 150 x 150. These are limits on
+!> time; they count operations, so that results do not depend on the machine.
 module flexact_refinement
    use flexact_kinds, only: wp
    use flexact_dense, only: status_fine, bring_to_one
@@ -19,11 +21,16 @@ module flexact_refinement
    integer, parameter :: wanted = selected_real_kind(30)
    integer, parameter :: qp = merge(wanted, wp, wanted > 0)
 
-   !> At some 50 ns each, about 2 s; 12 operations for each row of a pair.
-   real(wp), parameter :: most_flops = 4.0e7_wp
+   !> At some 60 ns each, about 1 s; 12 operations for each row of a pair.
+   real(wp), parameter :: most_flops = 1.6e7_wp
+   !> m n**2, in which the products are counted that form B. Square matrices may
+   !> be 250 x 250.
+   real(wp), parameter :: largest_size = 1.6e7_wp
    integer, parameter :: most_sweeps = 12
-   !> Cosines up to here are right angles.
-   real(wp), parameter :: right_angle = 2.0e-15_wp
+   !> Cosines up to here are right angles. Larger ones need no turn either where
+   !> it would change neither value by more than the second of these, as a part
+   !> of itself, nor right vectors by more than the third.
+   real(wp), parameter :: right_angle = 2.0e-15_wp, same_value = 1.0e-17_wp, same_vector = 4.0e-15_wp
    !> A value is exact if it is so many times what rounding made of it, and zero
    !> if it is not even that.
    real(qp), parameter :: exact = 1.0e15_qp, zero = 16.0_qp
@@ -43,7 +50,7 @@ contains
    pure logical function is_refinable(m, n)
       integer, intent(in) :: m, n
 
-      is_refinable = precision(1.0_qp) > precision(1.0_wp) .and. real(m, wp)*n*n <= most_flops
+      is_refinable = precision(1.0_qp) > precision(1.0_wp) .and. real(m, wp)*n*n <= largest_size
    end function is_refinable
 
    !> Improve the singular values (n), descending, of A (m, n), m >= n, and the
@@ -77,7 +84,7 @@ contains
          do j = 1, size(values)
             if (improved(j)) left(:, j) = columns%direction(:, j)
          end do
-         call make_rest_orthogonal(left, improved)
+         call straighten(left, improved)
       end if
       call sort(values, right, left)
    end subroutine refine
@@ -119,11 +126,11 @@ contains
       real(qp) :: largest
 
       associate (b => columns%b(:, j), length => columns%length(j))
-         largest = maxval(abs(b))
+         largest = maxval(abs(real(b, wp)))
          length = 0.0_qp
          if (largest > tiny(1.0_wp)) length = largest*root(dot_product(b, b)/largest**2)
          columns%direction(:, j) = 0.0_wp
-         if (length > zero*columns%noise(j)) columns%direction(:, j) = real(b*(1/length), wp)
+         if (length > zero*columns%noise(j)) columns%direction(:, j) = real(b, wp)/real(length, wp)
       end associate
    end subroutine measure
 
@@ -139,7 +146,7 @@ contains
          done = .true.
          do j = 2, size(v, 2)
             do i = 1, j - 1
-               if (abs(dot_product(columns%direction(:, i), columns%direction(:, j))) <= right_angle) cycle
+               if (is_right(columns, i, j)) cycle
                done = .false.
                call turn(columns, i, j, v)
                if (columns%flops > most_flops) return
@@ -148,6 +155,22 @@ contains
          if (done) return
       end do
    end subroutine make_orthogonal
+
+   !> Whether two columns need no turn.
+   pure logical function is_right(columns, i, j)
+      type(columns_t), intent(in) :: columns
+      integer, intent(in) :: i, j
+      real(wp) :: cosine, ratio, gap
+
+      cosine = abs(dot_product(columns%direction(:, i), columns%direction(:, j)))
+      is_right = cosine <= right_angle
+      if (is_right) return
+      associate (length => columns%length([i, j]))
+         ratio = real(minval(length)/maxval(length), wp)
+      end associate
+      gap = 1 - ratio**2
+      is_right = cosine**2 <= same_value*gap .and. cosine*ratio <= same_vector*gap
+   end function is_right
 
    !> Turn two columns in their plane so that they become orthogonal.
    pure subroutine turn(columns, i, j, v)
@@ -198,31 +221,45 @@ contains
       end do
    end function root
 
-   !> Make the columns that are not fixed orthogonal to those that are, to which
-   !> they nearly are, and to one another.
-   pure subroutine make_rest_orthogonal(left, is_fixed)
+   !> Make columns that nearly are so orthogonal: first those that are improved,
+   !> in their order, then the others.
+   pure subroutine straighten(left, improved)
       real(wp), intent(inout) :: left(:, :)
-      logical, intent(in) :: is_fixed(:)
-      logical :: stands(size(left, 2))
-      real(wp) :: cosine
-      integer :: i, j, pass
+      logical, intent(in) :: improved(:)
+      logical :: stands(size(left, 2)), first(size(left, 2))
+      integer :: j
 
       stands = .false.
-      stands(:size(is_fixed)) = is_fixed
+      first = .false.
+      first(:size(improved)) = improved
       do j = 1, size(left, 2)
-         if (stands(j)) cycle
-         do pass = 1, 2
-            do i = 1, size(left, 2)
-               if (.not. stands(i)) cycle
-               cosine = dot_product(left(:, i), left(:, j))
-               if (abs(cosine) > 4*epsilon(cosine)) left(:, j) = left(:, j) - cosine*left(:, i)
-            end do
-            cosine = norm2(left(:, j))
-            if (abs(cosine - 1) > 4*epsilon(cosine)) left(:, j) = left(:, j)/cosine
-         end do
-         stands(j) = .true.
+         if (first(j)) call straighten_column(left, j, stands)
       end do
-   end subroutine make_rest_orthogonal
+      do j = 1, size(left, 2)
+         if (.not. first(j)) call straighten_column(left, j, stands)
+      end do
+   end subroutine straighten
+
+   !> Make a column orthogonal to those that stand, twice for the sake of rounding.
+   pure subroutine straighten_column(left, j, stands)
+      real(wp), intent(inout) :: left(:, :)
+      integer, intent(in) :: j
+      logical, intent(inout) :: stands(:)
+      real(wp), parameter :: rounding = 4*epsilon(1.0_wp)
+      real(wp) :: cosine, length
+      integer :: i, pass
+
+      do pass = 1, 2
+         do i = 1, size(left, 2)
+            if (.not. stands(i)) cycle
+            cosine = dot_product(left(:, i), left(:, j))
+            if (abs(cosine) > rounding) left(:, j) = left(:, j) - cosine*left(:, i)
+         end do
+         length = norm2(left(:, j))
+         if (abs(length - 1) > rounding) left(:, j) = left(:, j)/length
+      end do
+      stands(j) = .true.
+   end subroutine straighten_column
 
    !> Values descend; the vectors go with them.
    pure subroutine sort(values, right, left)
