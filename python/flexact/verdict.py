@@ -41,6 +41,13 @@ class Gap(NamedTuple):
     smallest_nonzero: float | None
     largest_zero: float | None
 
+    @property
+    def ratio(self) -> float | None:
+        """The zero over the other; None without one of them."""
+        if self.smallest_nonzero is None or self.largest_zero is None:
+            return None
+        return self.largest_zero / self.smallest_nonzero
+
 
 class Certainty(str, Enum):
     """Whether the geometry could be meant with another rank than was decided."""

@@ -112,6 +112,8 @@ def _decision(analysis: Analysis) -> Iterator[str]:
         if small is not None:
             above = f"smallest non-zero singular value {small:.4g}"
         below = "no zeros" if zero is None else f"largest zero {zero:.2g}"
+        if (ratio := analysis.gap.ratio) is not None:
+            below += f" (ratio {ratio:.1g})"
         limit = f"limit {analysis.tolerance:.2g}"
         yield _wrapped(f"Rank decision (free of units): {above}, {below}, {limit}.")
     yield from _certainty(analysis)
