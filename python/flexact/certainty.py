@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from . import fading
 from .verdict import Certainty, Nearly
 
 if TYPE_CHECKING:
     from .analysis import Analysis
+    from .pairs import Pair
 
 #: Values up to this multiple of the noise are in doubt. The noise is what a rounding or two of
 #: each number can do; a geometry that was itself computed (a loop closed by iteration, a scene
 #: moved away and back) has lost some dozens of times that, and does not say so.
 _CLOSE = 100.0
 _EPSILON = float(np.finfo(np.float64).eps)
-#: What of a lift by the last bits is the storing of a number far from the origin: one unit of 4.
-_STORED = 0.25
+#: Where motions and self-stresses of sound mechanisms both fade it is by 4 powers of ten at most;
+#: where a tiny value counts as zero, by 10 and more.
+_FADED = 7.0
 #: Values up to this multiple of what half a unit of the last digits makes are in doubt: digits
 #: may have been cut off, zeros at the end leave no trace, and the change is of first order.
 _CUT_OFF = 2.0
@@ -50,7 +54,8 @@ def assess(analysis: Analysis) -> Assessment:
 
     It is in doubt where a value that counts as non-zero is close to the noise, or within
     reach of the digits that the geometry was typed with; where one that counts as zero is
-    above the noise; and where the method has not confirmed the rank.
+    above the noise, or may be tiny (`flexact.fading`); and where the method has not confirmed
+    the rank.
     """
     found = tuple(_doubts(analysis))
     if not found:
@@ -138,17 +143,7 @@ def _zeros_below_noise(analysis: Analysis) -> Iterator[Doubt]:
     pairs = [pair for group in analysis.zero_pairs for pair in group]
     if zero is None or not zero <= analysis.raw.noise or not pairs:
         return
-    zeros = len(analysis.zero_pairs)
-    largest = max(analysis.scaled_singular_values[:1].max(initial=0.0), 1.0)
-    computed = _EPSILON * max(analysis.rows, analysis.columns) * largest
-    if zero > computed + _STORED * zeros * max(pair.lift_of_bits for pair in pairs):
-        yield Doubt(
-            "close-decision",
-            f"singular values up to {zero:.1e} count as zero, which is more than the rounding of "
-            "the geometry's last bits would make of a zero",
-            "look at the geometry; far from the origin, move it there",
-            0,
-        )
+    yield from itertools.islice(_perhaps_tiny(analysis, zero, pairs), 1)
     reach = _CUT_OFF * max(pair.lift_of_digits for pair in pairs)
     if reach > analysis.raw.noise:
         yield Doubt(
@@ -158,6 +153,37 @@ def _zeros_below_noise(analysis: Analysis) -> Iterator[Doubt]:
             "give the geometry with all its digits",
             0,
         )
+
+
+def _perhaps_tiny(analysis: Analysis, zero: float, pairs: list[Pair]) -> Iterator[Doubt]:
+    """Reasons to take a zero for a tiny value, the plainest first."""
+    zeros = len(analysis.zero_pairs)
+    largest = max(analysis.scaled_singular_values[:1].max(initial=0.0), 1.0)
+    computed = _EPSILON * max(analysis.rows, analysis.columns) * largest
+    if zero > computed + fading.STORED * zeros * max(pair.lift_of_bits for pair in pairs):
+        yield _close_zero(
+            f"singular values up to {zero:.1e} count as zero, which is more than the rounding of "
+            "the geometry's last bits would make of a zero"
+        )
+    left = fading.largest_remainder(analysis)
+    if left and left.value > left.explained:
+        yield _close_zero(
+            f"of a motion and a self-stress {left.value:.1e} is left in the scaled D(c), of which "
+            f"rounding in the last bits explains {left.explained:.1e}: their singular value counts "
+            "as zero, but may be tiny instead"
+        )
+    powers = fading.powers_faded(analysis)
+    if powers >= _FADED:
+        yield _close_zero(
+            f"a motion fades along the mechanism by {powers:.0f} powers of ten, and so does a "
+            "self-stress: whether its singular value is zero or only tiny is beyond the digits "
+            "of the arithmetic"
+        )
+
+
+def _close_zero(sentence: str) -> Doubt:
+    where = "look at the geometry; far from the origin, move it there"
+    return Doubt("close-decision", sentence, where, 0)
 
 
 def _nonzeros_up_to(analysis: Analysis, limit: float) -> int:

@@ -8,6 +8,7 @@ import dataclasses
 import importlib
 import json
 import math
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,8 @@ REFERENCE = ROOT / "tests" / "reference"
 if str(REFERENCE) not in sys.path:
     sys.path.append(str(REFERENCE))
 transform: Any = importlib.import_module("transform")
+sys.path.append(str(ROOT / "tests" / "benchmarks"))
+families: Any = importlib.import_module("families")
 
 NAMES = [
     path.relative_to(ROOT / "input_decks").with_suffix("").as_posix()
@@ -64,17 +67,48 @@ def test_every_deck_is_certain(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_lengths_and_places_leave_the_counts(name: str) -> None:
+def test_lengths_places_and_turns_leave_the_counts(name: str) -> None:
+    """The digits printed may be a reason for doubt, but no zero is taken for a tiny value."""
     text, truth = text_of(name), truth_of(name)
     planar = flexact.read_text(text).planar
     length = analyse(flexact.read_text(text)).characteristic_length
     direction = np.array([0.7310585786300049, -0.5963, 0.0 if planar else 0.4123105625617661])
     changed = [transform.scaled(text, factor) for factor in (1e-9, 1e-3, 1e3, 1e9)]
     changed += [transform.moved(text, far * length * direction) for far in (1.0, 1e4, 1e6, 1e8)]
-    for other in changed:
-        analysis = analyse(flexact.read_text(other))
-        assert counts(analysis) == truth
-        assert analysis.nearly in (None, truth)
+    changed += [transform.turned(text, turn) for turn in (TURN, *random_turns(6))]
+    for other in filter(None, changed):
+        for method in ("svd", "sparse"):
+            analysis = analyse(flexact.read_text(other), method=method)
+            assert counts(analysis) == truth
+            assert analysis.nearly in (None, truth)
+            assert {doubt.code for doubt in analysis.assessment.doubts} <= {"rounded-geometry"}
+
+
+@pytest.mark.parametrize("letter", ["T", "O", "B", "C"])
+@pytest.mark.parametrize("seed", [1, 4, 7])
+def test_families_are_certain(letter: str, seed: int) -> None:
+    """Self-stresses of T, O and B fade as a sound structure lets them."""
+    for columns in (300, 3000):
+        case = families.FAMILIES[letter](columns, seed)
+        analysis = analyse(case.model)
+        assert (counts(analysis), analysis.doubts) == ((case.motions, case.stresses), ())
+
+
+# Values so small that they count as zero
+
+
+@pytest.mark.parametrize("power", [15, 16, 17, 18])
+def test_an_angle_below_the_rounding_is_nearly_zero(power: int) -> None:
+    """The bars' directions differ by it, and it is typed: nothing was rounded."""
+    analysis = analyse(two_wires(10.0**-power))
+    assert analysis.nearly == counts(analysis) == (1, 1)
+    (doubt,) = analysis.doubts
+    assert re.search(f"5.0e-{power + 1:02d} is left|more than the rounding", doubt)
+
+
+def test_no_angle_at_all_is_certain() -> None:
+    analysis = analyse(two_wires(0.0))
+    assert (counts(analysis), analysis.doubts) == ((1, 1), ())
 
 
 # Digits

@@ -37,7 +37,7 @@ def never_wrong(model: Model, truth: tuple[int, int], method: str) -> Analysis:
 # Two constraints at an angle
 
 
-@pytest.mark.parametrize("power", range(1, 17))
+@pytest.mark.parametrize("power", range(1, 19))
 @pytest.mark.parametrize(
     ("make", "truth"), [(two_wires, (0, 0)), (two_wire_flexures, (4, 0))], ids=["bars", "wires"]
 )
@@ -141,6 +141,20 @@ def test_levers_that_amplify_are_right_or_nearly(ratio: float, power: int) -> No
             assert_right(analysis, (0, 0))
 
 
+@pytest.mark.parametrize(
+    ("number", "ratio"), [(100, 2.0), (60, 4.0), (20, 10.0), (40, 10.0), (30, 300.0), (12, 1e4)]
+)
+def test_levers_that_amplify_beyond_the_doubles_are_nearly(number: int, ratio: float) -> None:
+    """Their determinant is not zero, though their smallest singular value is below 1e-19."""
+    model = levers(number, ratio)
+    assert exact_rank.rank_of_bars(model) == 2 * number
+    for method in METHODS:
+        analysis = never_wrong(model, (0, 0), method)
+        assert analysis.nearly == counts(analysis) == (1, 1)
+        if method != "qr":
+            assert "beyond the digits of the arithmetic" in analysis.doubts[0]
+
+
 @pytest.mark.parametrize("arm", [1.6, 1.1, 1.01])
 @pytest.mark.parametrize("side", [2, 3, 4])
 def test_amplifying_stages_are_right_or_nearly(arm: float, side: int) -> None:
@@ -175,7 +189,7 @@ def test_long_strips_are_right(beams: int) -> None:
 # Matrices with a name
 
 
-@pytest.mark.parametrize("power", range(1, 17))
+@pytest.mark.parametrize("power", range(1, 19))
 def test_laeuchli_as_spokes(power: int) -> None:
     """Rows that agree but for mu, in one joint: three constraints, any more are over."""
     mu = 10.0**-power
