@@ -32,7 +32,7 @@ module flexact_null_space
    !> Width of the search for pins, how many vectors more than are low it takes, and
    !> entries that it may have.
    integer, parameter :: least_wide = 32, wider_by = 8
-   real(wp), parameter :: most_entries = 1.0e8_wp
+   real(wp), parameter :: most_entries = 2.0e7_wp
    !> Values up to this multiple of t are low.
    real(wp), parameter, public :: low_end = 3.0_wp
    !> Steps of the Lanczos process, and the least width of its blocks.
@@ -42,8 +42,8 @@ module flexact_null_space
    !> many columns and for larger ones, where each step costs more.
    real(wp), parameter :: settled = 1.0e-8_wp, settled_large = 1.0e-5_wp
    integer, parameter :: large = 20000
-   !> A status: fewer vectors than there must be.
-   integer, parameter, public :: not_found = 1
+   !> A status beside those of `flexact_pinned`: fewer vectors than there must be.
+   integer, parameter, public :: not_found = 4
    !> The same for a value to be given beside the smallest.
    real(wp), parameter :: nearly_settled = 1.0e-7_wp
    !> What is left of a vector that brings nothing new.

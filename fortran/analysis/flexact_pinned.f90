@@ -17,7 +17,7 @@ module flexact_pinned
                               cholmod_solve, cholmod_free
    implicit none
    private
-   public :: pinned_t, make_pinned, lift, pin, apply_inverse, release
+   public :: pinned_t, make_pinned, lift, lift_and_mark, pin, apply_inverse, release
    public :: pinned_fine, pinned_no_memory, pinned_not_definite, pinned_no_library
 
    integer, parameter :: pinned_fine = 0
@@ -31,6 +31,7 @@ module flexact_pinned
    !> Pivots below this part of the largest diagonal entry are pinned. To pin one
    !> too many does no harm.
    real(wp), parameter :: small_pivot = 1.0e-12_wp
+   real(wp), parameter :: doubtful_pivot = 1.0e-9_wp
    !> So wide an envelope a column is as quick as any sparse factorisation.
    real(wp), parameter :: narrow = 40.0_wp
    integer, parameter :: most_attempts = 2
@@ -178,7 +179,23 @@ contains
 
       shift = pinned%least**2
       call factorise_shifted(shift, pinned, status)
+      pinned%pin = [integer ::]
+      pinned%pins = 0
    end subroutine lift
+
+   !> The same, and mark the columns with small pivots as if they were pinned.
+   subroutine lift_and_mark(pinned, status)
+      type(pinned_t), intent(inout) :: pinned
+      integer, intent(out) :: status
+      real(wp) :: pivot(pinned%n)
+      integer :: i
+
+      call lift(pinned, status)
+      if (status /= pinned_fine) return
+      call cholmod_pivots(pinned%handle, pivot)
+      pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot)
+      pinned%pins = size(pinned%pin)
+   end subroutine lift_and_mark
 
    !> Factorise with these pins.
    subroutine pin(by_row, is_pinned, pinned, status)

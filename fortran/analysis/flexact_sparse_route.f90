@@ -14,7 +14,7 @@ module flexact_sparse_route
    use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, &
                                  left_null_space, not_found
    use flexact_pairs, only: offer_pair
-   use flexact_pinned, only: pinned_t, make_pinned, release, pinned_fine, pinned_no_memory, pinned_no_library, &
+   use flexact_pinned, only: pinned_t, make_pinned, lift_and_mark, release, pinned_fine, pinned_no_memory, pinned_no_library, &
                              pinned_not_definite
    use flexact_problem, only: problem_t
    use flexact_rank, only: rank_t, decide_rank
@@ -52,6 +52,7 @@ module flexact_sparse_route
    !> So many pins are dealt with together; more where they live.
    integer, parameter :: few = 16
    integer, parameter :: most_dense = 800
+   real(wp), parameter :: most_entries = 5.0e7_wp
    !> Of more than so many vectors of the longer side the first are given.
    integer, parameter :: most_left = 64
    integer, parameter :: first_left = 6
@@ -142,7 +143,7 @@ contains
          if (first_time) call add_unit(part, answer)
          return
       end if
-      call pin_part(part, options, pinned, answer%status)
+      call pin_part(part, options, pinned, answer)
       if (answer%status == pinned_fine) then
          call find_low_end(part, pinned, problem, options, careful, low, answer)
          if (answer%status == status_fine .and. first_time .and. .not. options%only_plain_values) &
@@ -151,6 +152,7 @@ contains
          call translate(pinned, answer)
       end if
       call release(pinned)
+      if (answer%status == not_found) answer%status = status_no_convergence
       if (answer%status /= status_fine) return
       rank = count(low%values > low%decision%tolerance)
       if (first_time) then
@@ -167,18 +169,22 @@ contains
 
    !> Factorise a part. Columns of D(c) itself are of several units: they are made
    !> equally long first.
-   subroutine pin_part(part, options, pinned, status)
+   subroutine pin_part(part, options, pinned, answer)
       type(part_t), intent(in) :: part
       type(options_t), intent(in) :: options
       type(pinned_t), intent(out) :: pinned
-      integer, intent(out) :: status
+      type(answer_t), intent(inout) :: answer
       type(sparse_t) :: by_column, by_row
       real(wp), allocatable :: scale(:)
       integer :: j
 
       if (.not. options%only_plain_values) then
-         call make_pinned(part%matrix%by_column, part%matrix%by_row, part%group, options, pinned, status)
-         if (status == pinned_not_definite) call seek_pins(part%matrix, pinned, status)
+         call make_pinned(part%matrix%by_column, part%matrix%by_row, part%group, options, pinned, answer%status)
+         if (answer%status == pinned_not_definite) call seek_pins(part%matrix, pinned, answer%status)
+         if (answer%status /= not_found .and. answer%status /= pinned_not_definite) return
+         ! What the low end is then is not shown by two routes.
+         answer%confirmed = .false.
+         call lift_and_mark(pinned, answer%status)
          return
       end if
       by_column = part%matrix%by_column
@@ -190,7 +196,7 @@ contains
          end associate
       end do
       call transposed(by_column, by_row)
-      call make_pinned(by_column, by_row, part%group, options, pinned, status)
+      call make_pinned(by_column, by_row, part%group, options, pinned, answer%status)
       call move_alloc(scale, pinned%scale)
    end subroutine pin_part
 
@@ -290,7 +296,7 @@ contains
       if (answer%status /= status_fine) return
       call pinned_space(part%matrix, pinned, pin, low%apart, spanned, in_pins, answer%status)
       if (answer%status /= status_fine) return
-      if (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :))) then
+      if (answer%confirmed .and. (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :)))) then
          call unpin(part, in_pins, spanned, pin, pinned, answer)
          if (answer%status /= status_fine) return
       end if
@@ -357,7 +363,7 @@ contains
       type(low_end_t), intent(inout) :: low
       integer, allocatable, intent(out) :: pin(:)
       type(answer_t), intent(inout) :: answer
-      integer :: i
+      integer :: i, most
 
       call new_basis(low%local)
       call new_basis(low%apart)
@@ -366,9 +372,10 @@ contains
       call find_local_vectors(part%matrix, pinned%pin, low%local, pin)
       call add_sparse_modes(low%local, [(i, i=1, size(part%column))], [(1.0_wp, i=1, size(part%column))], low%apart, &
                             answer%status)
-      if (size(pin) <= most_dense) return
+      most = min(most_dense, max(few, int(most_entries/size(part%column))))
+      if (size(pin) <= most) return
       answer%confirmed = .false.
-      pin = pin(:most_dense)
+      pin = pin(:most)
    end subroutine split_pins
 
    !> Add the vectors of both null spaces to the answer.
@@ -450,7 +457,7 @@ contains
       known = pack([(k, k=1, size(is_zero))], is_held .and. .not. is_zero)
       ! Of what counts as zero though no pin holds it, the images are the left vectors.
       images = pack([(k, k=1, size(is_zero))], is_zero .and. .not. is_held)
-      wanted = size(part%row) - size(part%column) + pinned%pins - size(known)
+      wanted = size(part%row) - size(part%column) + low%local%vectors + count(is_held .and. is_zero)
       if (wanted > most_left .and. size(images) == 0) then
          call find_scattered_vectors(operator_t(part%matrix%by_row, part%matrix%by_column), first_left, many)
          if (many%vectors > 0) then
