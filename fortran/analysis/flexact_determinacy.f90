@@ -4,6 +4,7 @@ module flexact_determinacy
    use flexact_answer, only: options_t, answer_t, method_auto, method_svd, method_sparse, stage_assembling
    use flexact_basis, only: new_basis
    use flexact_cholmod, only: cholmod_is_there
+   use flexact_kinds, only: wp
    use flexact_decomposition, only: status_fine, status_no_convergence
    use flexact_dense_route, only: analyse_dense
    use flexact_model, only: model_t
@@ -17,9 +18,9 @@ module flexact_determinacy
    !> if there are not too many of them.
    integer, parameter :: small_part = 200
    integer, parameter :: small_whole = 600
-   !> Parts up to this size are decomposed completely where the sparse route leaves
-   !> doubt; it may take half a minute.
-   integer, parameter :: still_feasible = 3000
+   !> Up to this cost, some half a minute, parts are decomposed completely where the
+   !> sparse route leaves doubt.
+   real(wp), parameter :: feasible = 3.0e10_wp
 
 contains
 
@@ -29,6 +30,7 @@ contains
       type(options_t), intent(in) :: options
       type(problem_t), intent(out) :: problem
       type(answer_t), intent(out) :: answer
+      type(answer_t) :: complete
 
       call options%tell(stage_assembling, 0, 1)
       call make_problem(model, options%only_plain_values, problem)
@@ -37,13 +39,31 @@ contains
       call prepare(problem, answer)
       if (answer%method == method_sparse) then
          call analyse_sparse(problem, options, answer)
-         if (is_in_doubt(answer) .and. largest_part(problem) <= still_feasible) then
-            answer%method = method_svd
-            call prepare(problem, answer)
-         end if
+         if (.not. is_in_doubt(answer) .or. cost(problem) > feasible .or. options%only_plain_values) return
+         complete%method = method_svd
+         call prepare(problem, complete)
+         call analyse_dense(problem, options, complete)
+         if (complete%status == status_fine) answer = complete
+      else
+         call analyse_dense(problem, options, answer)
       end if
-      if (answer%method /= method_sparse) call analyse_dense(problem, options, answer)
    end subroutine analyse
+
+   !> Operations of a complete decomposition, but for a factor.
+   pure real(wp) function cost(problem)
+      type(problem_t), intent(in) :: problem
+      real(wp) :: shorter, longer
+      integer :: i
+
+      cost = 0.0_wp
+      associate (parts => problem%parts)
+         do i = 1, parts%count
+            shorter = parts%row_start(i + 1) - parts%row_start(i)
+            longer = parts%column_start(i + 1) - parts%column_start(i)
+            cost = cost + shorter*longer*max(shorter, longer)
+         end do
+      end associate
+   end function cost
 
    !> Whether the sparse route gave no count, or one that is not confirmed.
    pure logical function is_in_doubt(answer)

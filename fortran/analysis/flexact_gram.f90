@@ -120,24 +120,29 @@ contains
       end do
    end subroutine fill_envelope
 
-   !> The lower triangle of A'A.
-   pure subroutine make_gram(by_column, by_row, gram)
+   !> The lower triangle of A'A, unless it needs more bytes than there are, or has
+   !> more entries than default integers count: then nothing is allocated.
+   pure subroutine make_gram(by_column, by_row, memory, gram, bytes)
       type(sparse_t), intent(in) :: by_column, by_row
+      real(wp), intent(in) :: memory
       type(gram_t), intent(out) :: gram
+      real(wp), intent(out) :: bytes
       integer :: mark(by_column%columns), list(by_column%columns)
-      real(wp) :: total(by_column%columns)
-      integer :: j, entries, found
+      real(wp) :: total(by_column%columns), entries
+      integer :: j, found, info
 
       mark = 0
-      allocate (gram%start(by_column%columns + 1), gram%diagonal(by_column%columns))
-      entries = 0
+      entries = 0.0_wp
+      allocate (gram%start(by_column%columns + 1), gram%diagonal(by_column%columns), source=0)
       do j = 1, by_column%columns
-         gram%start(j) = entries
          call multiply_column(by_column, by_row, j, mark, list, found)
          entries = entries + found
+         if (entries < huge(1)/2) gram%start(j + 1) = int(entries)
       end do
-      gram%start(by_column%columns + 1) = entries
-      allocate (gram%place(entries), gram%value(entries))
+      bytes = 12*entries
+      if (bytes > memory .or. entries >= huge(1)/2) return
+      allocate (gram%place(int(entries)), gram%value(int(entries)), stat=info)
+      if (info /= 0) return
       mark = 0
       do j = 1, by_column%columns
          call multiply_column(by_column, by_row, j, mark, list, found, total)

@@ -76,15 +76,18 @@ contains
    end subroutine add_modes
 
    !> The same for sparse vectors of a part, each with places from 1 on.
-   subroutine add_sparse_modes(vectors, place, scale, basis, status)
+   subroutine add_sparse_modes(vectors, place, scale, basis, status, is_orthonormal)
       type(basis_t), intent(in) :: vectors
       integer, intent(in) :: place(:)
       real(wp), intent(in) :: scale(:)
       type(basis_t), intent(inout) :: basis
       integer, intent(out) :: status
+      logical, intent(out), optional :: is_orthonormal
+      logical :: is_group_orthonormal
       integer :: group(vectors%vectors), owner(size(place)), first(vectors%vectors), next(vectors%vectors), k
 
       status = status_fine
+      if (present(is_orthonormal)) is_orthonormal = .true.
       call group_sparse(vectors, owner, group)
       first = 0
       do k = vectors%vectors, 1, -1
@@ -93,7 +96,8 @@ contains
       end do
       do k = 1, vectors%vectors
          if (first(k) == 0) cycle
-         call add_group(vectors, members_from(first(k), next), place, scale, basis, status)
+         call add_group(vectors, members_from(first(k), next), place, scale, basis, is_group_orthonormal, status)
+         if (present(is_orthonormal)) is_orthonormal = is_orthonormal .and. is_group_orthonormal
          if (status /= status_fine) return
       end do
    end subroutine add_sparse_modes
@@ -120,11 +124,12 @@ contains
    end function members_from
 
    !> Add sparse vectors that share places: orthonormal, unless that is too much work.
-   subroutine add_group(vectors, members, place, scale, basis, status)
+   subroutine add_group(vectors, members, place, scale, basis, is_orthonormal, status)
       type(basis_t), intent(in) :: vectors
       integer, intent(in) :: members(:), place(:)
       real(wp), intent(in) :: scale(:)
       type(basis_t), intent(inout) :: basis
+      logical, intent(out) :: is_orthonormal
       integer, intent(out) :: status
       real(wp), allocatable :: dense(:, :)
       integer, allocatable :: used(:)
@@ -132,6 +137,7 @@ contains
       integer :: new_place(size(place)), i, j
 
       status = status_fine
+      is_orthonormal = .true.
       if (size(members) == 1) then
          call add_single(vectors, members(1), place, scale, basis)
          return
@@ -142,6 +148,7 @@ contains
       end do
       used = pack([(i, i=1, size(place))], is_used)
       if (real(size(used), wp)*size(members)**2 > most_orthogonal) then
+         is_orthonormal = .false.
          do j = 1, size(members)
             call add_single(vectors, members(j), place, scale, basis)
          end do

@@ -36,7 +36,7 @@ module flexact_null_space
    !> Values up to this multiple of t are low.
    real(wp), parameter, public :: low_end = 3.0_wp
    !> Steps of the Lanczos process, and the least width of its blocks.
-   integer, parameter :: most_steps = 12
+   integer, parameter :: most_steps = 24, most_steps_large = 12
    integer, parameter :: narrowest = 3
    !> Relative change of a value that ends the process, for matrices of up to so
    !> many columns and for larger ones, where each step costs more.
@@ -235,8 +235,8 @@ contains
       vectors = matmul(space, transpose(vt(k:k - wanted + 1:-1, :)))
    end subroutine take_lowest
 
-   !> The triangle R of the QR factorisation of a matrix with no fewer rows than
-   !> columns, which is destroyed.
+   !> The triangle R of the QR factorisation of a matrix, which is destroyed; with
+   !> zeros below where it has fewer rows than columns.
    subroutine triangle_of(matrix, r, status)
       real(wp), intent(inout), contiguous :: matrix(:, :)
       real(wp), intent(out) :: r(:, :)
@@ -247,7 +247,7 @@ contains
       call dgeqrf(size(matrix, 1), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), status)
       r = 0.0_wp
       do j = 1, size(matrix, 2)
-         r(:j, j) = matrix(:j, j)
+         r(:min(j, size(matrix, 1)), j) = matrix(:min(j, size(matrix, 1)), j)
       end do
    end subroutine triangle_of
 
@@ -266,14 +266,16 @@ contains
       integer, intent(out) :: status
       real(wp), allocatable :: space(:, :), block(:, :)
       real(wp) :: before(wanted)
-      integer :: step, used, fresh, rest, width, steps
+      integer :: step, used, fresh, rest, width, steps, kept
 
       allocate (vectors(a%by_column%columns, wanted), values(wanted))
       status = 0
       if (wanted == 0) return
       rest = a%by_column%columns - apart%vectors - size(lowest, 2)
       width = min(rest, max((wanted + 1)/2, narrowest))
-      steps = merge(most_steps, 2, careful)
+      steps = 2
+      if (careful) steps = merge(most_steps, most_steps_large, a%by_column%columns <= large)
+      kept = 1
       allocate (space(a%by_column%columns, min(rest, width*steps)), block(a%by_column%columns, width))
       call fill_at_random(1, block)
       used = 0
@@ -290,28 +292,26 @@ contains
          block = space(:, used - fresh + 1:used)
          if (used < wanted .or. .not. (is_due(step, steps) .or. fresh == 0 .or. used == size(space, 2))) cycle
          call take_lowest(a, space(:, :used), vectors, values, status)
-         if (status /= 0 .or. fresh == 0 .or. used == size(space, 2)) exit
+         if (status /= 0 .or. fresh == 0 .or. used == rest) exit
+         kept = max(1, settled_first(before, values))
          if (abs(before(1) - values(1)) <= merge(settled, settled_large, size(space, 1) <= large)*values(1)) exit
          before = values
       end do
       if (used < wanted) status = not_found
-      if (careful .and. used < rest .and. fresh > 0) call keep_settled(before, vectors, values)
-   end subroutine next_space
-
-   !> Keep the first values that have settled, the smallest in any case.
-   pure subroutine keep_settled(before, vectors, values)
-      real(wp), intent(in) :: before(:)
-      real(wp), allocatable, intent(inout) :: vectors(:, :), values(:)
-      integer :: kept
-
-      kept = 1
-      do while (kept < size(values))
-         if (abs(before(kept + 1) - values(kept + 1)) > nearly_settled*values(kept + 1)) exit
-         kept = kept + 1
-      end do
+      if (.not. careful .or. used == rest .or. fresh == 0) return
       vectors = vectors(:, :kept)
       values = values(:kept)
-   end subroutine keep_settled
+   end subroutine next_space
+
+   !> How many of the first values have settled.
+   pure integer function settled_first(before, values) result(kept)
+      real(wp), intent(in) :: before(:), values(:)
+
+      do kept = 0, size(values) - 1
+         if (abs(before(kept + 1) - values(kept + 1)) > nearly_settled*values(kept + 1)) return
+      end do
+      kept = size(values)
+   end function settled_first
 
    !> Whether the values are looked at after this step.
    pure logical function is_due(step, steps)

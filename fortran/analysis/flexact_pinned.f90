@@ -9,7 +9,8 @@
 module flexact_pinned
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
    use flexact_kinds, only: wp
-   use flexact_answer, only: options_t, stage_ordering, stage_factorising
+   use flexact_answer, only: options_t, status_no_library, stage_ordering, stage_factorising
+   use flexact_decomposition, only: status_fine, status_no_memory
    use flexact_sparse, only: sparse_t
    use flexact_envelope, only: envelope_t, factorise, solve
    use flexact_gram, only: gram_t, breadth_first_order, envelope_size, fill_envelope, make_gram, group_graph
@@ -20,10 +21,11 @@ module flexact_pinned
    public :: pinned_t, make_pinned, lift, lift_and_mark, pin, apply_inverse, release
    public :: pinned_fine, pinned_no_memory, pinned_not_definite, pinned_no_library
 
-   integer, parameter :: pinned_fine = 0
-   integer, parameter :: pinned_no_memory = 1
-   integer, parameter :: pinned_not_definite = 2
-   integer, parameter :: pinned_no_library = 3
+   !> Statuses, beside and like those of an answer.
+   integer, parameter :: pinned_fine = status_fine
+   integer, parameter :: pinned_no_memory = status_no_memory
+   integer, parameter :: pinned_no_library = status_no_library
+   integer, parameter :: pinned_not_definite = 6
 
    !> t**2 over the largest diagonal entry of A'A: well above the rounding of the
    !> factorisation.
@@ -34,6 +36,7 @@ module flexact_pinned
    real(wp), parameter :: doubtful_pivot = 1.0e-9_wp
    !> So wide an envelope a column is as quick as any sparse factorisation.
    real(wp), parameter :: narrow = 40.0_wp
+   !> Thresholds that are tried after the first.
    integer, parameter :: most_attempts = 2
 
    type :: pinned_t
@@ -47,6 +50,8 @@ module flexact_pinned
       !> The column at which the last factorisation failed.
       integer :: failed = 0
       logical :: is_narrow = .false.
+      !> Whether A'A was lifted, and no columns are pinned.
+      logical :: is_lifted = .false.
       !> Place of each column in the envelope.
       integer, allocatable :: place_of(:)
       !> Where A stands for A diag(1/scale), its columns made equally long.
@@ -117,9 +122,11 @@ contains
       status = pinned_no_library
       if (cholmod_is_there() == 0) return
       call options%tell(stage_ordering, 0, 1)
+      call make_gram(by_column, by_row, options%memory, pinned%gram, pinned%bytes)
+      status = pinned_no_memory
+      if (.not. allocated(pinned%gram%value)) return
       call nested_order(by_column, by_row, group, order, status)
       if (status /= pinned_fine) return
-      call make_gram(by_column, by_row, pinned%gram)
       status = pinned_no_memory
       pinned%handle = cholmod_analyse(pinned%n, pinned%gram%start, pinned%gram%place, order, entries)
       if (.not. c_associated(pinned%handle)) return
@@ -181,6 +188,7 @@ contains
       call factorise_shifted(shift, pinned, status)
       pinned%pin = [integer ::]
       pinned%pins = 0
+      pinned%is_lifted = .true.
    end subroutine lift
 
    !> The same, and mark the columns with small pivots as if they were pinned.
@@ -193,7 +201,7 @@ contains
       call lift(pinned, status)
       if (status /= pinned_fine) return
       call cholmod_pivots(pinned%handle, pivot)
-      pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot)
+      pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot*pinned%least**2/least_square)
       pinned%pins = size(pinned%pin)
    end subroutine lift_and_mark
 
@@ -205,6 +213,7 @@ contains
       integer, intent(out) :: status
       integer :: i
 
+      pinned%is_lifted = .false.
       if (pinned%is_narrow) then
          call pin_narrow(by_row, is_pinned, pinned, status)
       else

@@ -5,17 +5,16 @@
 !> runs to its end shows that there are no more (`flexact_pinned`).
 module flexact_sparse_route
    use flexact_kinds, only: wp
-   use flexact_answer, only: options_t, answer_t, most_pairs, status_no_library, &
+   use flexact_answer, only: options_t, answer_t, most_pairs, &
                              stage_motions, stage_stresses, stage_values
-   use flexact_decomposition, only: singular_values, status_fine, status_no_convergence, status_no_memory
+   use flexact_decomposition, only: singular_values, status_fine, status_no_convergence
    use flexact_basis, only: basis_t, new_basis
    use flexact_local, only: find_local_vectors, find_scattered_vectors
    use flexact_modes, only: untangle, add_modes, add_sparse_modes
    use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, &
                                  left_null_space, not_found
    use flexact_pairs, only: offer_pair
-   use flexact_pinned, only: pinned_t, make_pinned, lift_and_mark, release, pinned_fine, pinned_no_memory, pinned_no_library, &
-                             pinned_not_definite
+   use flexact_pinned, only: pinned_t, make_pinned, lift_and_mark, release, pinned_fine, pinned_not_definite
    use flexact_problem, only: problem_t
    use flexact_rank, only: rank_t, decide_rank
    use flexact_sort, only: sort_descending
@@ -148,11 +147,12 @@ contains
          call find_low_end(part, pinned, problem, options, careful, low, answer)
          if (answer%status == status_fine .and. first_time .and. .not. options%only_plain_values) &
             call add_null_spaces(problem, options, part, pinned, low, answer)
-      else
-         call translate(pinned, answer)
+         ! Above t the count is not proven from both sides.
+         if (low%decision%tolerance > pinned%least) answer%confirmed = .false.
       end if
+      answer%bytes = pinned%bytes
       call release(pinned)
-      if (answer%status == not_found) answer%status = status_no_convergence
+      if (answer%status == not_found .or. answer%status == pinned_not_definite) answer%status = status_no_convergence
       if (answer%status /= status_fine) return
       rank = count(low%values > low%decision%tolerance)
       if (first_time) then
@@ -199,21 +199,6 @@ contains
       call make_pinned(by_column, by_row, part%group, options, pinned, answer%status)
       call move_alloc(scale, pinned%scale)
    end subroutine pin_part
-
-   pure subroutine translate(pinned, answer)
-      type(pinned_t), intent(in) :: pinned
-      type(answer_t), intent(inout) :: answer
-
-      answer%bytes = pinned%bytes
-      select case (answer%status)
-      case (pinned_no_memory)
-         answer%status = status_no_memory
-      case (pinned_no_library)
-         answer%status = status_no_library
-      case default
-         answer%status = status_no_convergence
-      end select
-   end subroutine translate
 
    !> Cut part i out of the scaled matrix.
    pure subroutine make_part(problem, i, new_row, part)
@@ -296,7 +281,8 @@ contains
       if (answer%status /= status_fine) return
       call pinned_space(part%matrix, pinned, pin, low%apart, spanned, in_pins, answer%status)
       if (answer%status /= status_fine) return
-      if (answer%confirmed .and. (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :)))) then
+      if (.not. (pinned%is_lifted .or. options%only_plain_values) .and. &
+          (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :)))) then
          call unpin(part, in_pins, spanned, pin, pinned, answer)
          if (answer%status /= status_fine) return
       end if
@@ -353,7 +339,6 @@ contains
       is_other = [(all(pin /= pinned%pin(k)), k=1, size(pinned%pin))]
       low = count(values <= low_end*pinned%least)
       call repin(part%matrix, vectors(:, :low), pack(pinned%pin, is_other), pinned, answer%status)
-      if (answer%status /= pinned_fine) call translate(pinned, answer)
    end subroutine unpin
 
    !> Find the vectors of many pins where they live; `pin` lists the other pins.
@@ -363,6 +348,7 @@ contains
       type(low_end_t), intent(inout) :: low
       integer, allocatable, intent(out) :: pin(:)
       type(answer_t), intent(inout) :: answer
+      logical :: is_orthonormal
       integer :: i, most
 
       call new_basis(low%local)
@@ -371,7 +357,9 @@ contains
       if (pinned%pins <= few) return
       call find_local_vectors(part%matrix, pinned%pin, low%local, pin)
       call add_sparse_modes(low%local, [(i, i=1, size(part%column))], [(1.0_wp, i=1, size(part%column))], low%apart, &
-                            answer%status)
+                            answer%status, is_orthonormal)
+      ! What follows takes the vectors for orthonormal.
+      if (.not. is_orthonormal) answer%confirmed = .false.
       most = min(most_dense, max(few, int(most_entries/size(part%column))))
       if (size(pin) <= most) return
       answer%confirmed = .false.
@@ -468,6 +456,7 @@ contains
       call left_null_space(part%matrix, pinned, low%images(:, known), merge(first_left, wanted, wanted > most_left), &
                            projected, status)
       if (status /= status_fine .and. status /= not_found) return
+      if (status == not_found) projected = projected(:, :0)
       allocate (left(size(part%row), size(projected, 2) + size(images)))
       left(:, :size(projected, 2)) = projected
       left(:, size(projected, 2) + 1:) = low%images(:, images)

@@ -109,11 +109,12 @@ contains
       integer, parameter :: m = 25, n = 18
       real(wp) :: dense(m, n), expected(n, n), found(n, n)
       type(gram_t) :: gram
+      real(wp) :: bytes
       integer :: i, j, entry
 
       dense = random_sparse(m, n, 0.1_wp)
       dense(:, 5) = 0.0_wp
-      call make_gram(sparse_of(dense), sparse_of(transpose(dense)), gram)
+      call make_gram(sparse_of(dense), sparse_of(transpose(dense)), huge(1.0_wp), gram, bytes)
       found = 0.0_wp
       do j = 1, n
          do entry = gram%start(j) + 1, gram%start(j + 1)
