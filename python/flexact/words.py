@@ -152,8 +152,7 @@ def _margin(analysis: Analysis) -> str:
     if not ways:
         return "No small misalignment of one node or element would change the verdict."
     return _wrapped(
-        "Smallest misalignment that would change the verdict, to first order: "
-        f"{' or '.join(ways)}."
+        f"Smallest misalignment that would change the verdict, to first order: {' or '.join(ways)}."
     )
 
 
