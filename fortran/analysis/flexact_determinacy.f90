@@ -1,7 +1,8 @@
 !> Kinematic and static determinacy, section 3 of the paper: the rank of D(c),
 !> the motions that it leaves free and the self-stresses that it admits.
 module flexact_determinacy
-   use flexact_answer, only: options_t, answer_t, method_auto, method_svd, method_sparse, stage_assembling
+   use flexact_answer, only: options_t, answer_t, method_auto, method_svd, method_sparse, status_no_library, &
+                             stage_assembling
    use flexact_basis, only: new_basis
    use flexact_cholmod, only: cholmod_is_there
    use flexact_kinds, only: wp
@@ -37,7 +38,9 @@ contains
       answer%method = options%method
       if (options%method == method_auto) answer%method = choice(problem)
       call prepare(problem, answer)
-      if (answer%method == method_sparse) then
+      if (answer%method == method_sparse .and. cholmod_is_there() == 0) then
+         answer%status = status_no_library
+      else if (answer%method == method_sparse) then
          call analyse_sparse(problem, options, answer)
          if (.not. is_in_doubt(answer) .or. cost(problem) > feasible .or. options%only_plain_values) return
          complete%method = method_svd

@@ -6,6 +6,7 @@ module flexact_rounding
    implicit none
    private
    public :: decimal_t, decimal, difference, digits_of
+   public :: coarsest_digit
    public :: last_bits, last_digit, looks_rounded, half_units
 
    !> What arithmetic before us may have cost: where the scene was made, and, of
@@ -118,6 +119,14 @@ contains
       last_digit = 0.0_wp
       if (number%short .and. digits_of(number) >= printed_digits) last_digit = units*10.0_wp**number%place
    end function last_digit
+
+   !> A bound of how much a number may be wrong that was rounded to a few digits,
+   !> in its own unit; zero for one with more digits or a single one.
+   pure elemental real(wp) function coarsest_digit(number)
+      type(decimal_t), intent(in) :: number
+      coarsest_digit = 0.0_wp
+      if (number%short .and. digits_of(number) > 1) coarsest_digit = 10*10.0_wp**number%place
+   end function coarsest_digit
 
    !> Whether a number has the digits of one that was rounded (0.866, 0.70711),
    !> and not of one that is meant as it stands (0.5, 12, 0.375).

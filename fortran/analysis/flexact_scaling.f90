@@ -6,7 +6,7 @@ module flexact_scaling
    use flexact_partition, only: partition_t, axes
    use flexact_parts, only: parts_t
    use flexact_jacobian, only: jacobian_t
-   use flexact_rounding, only: decimal, difference, last_bits, last_digit
+   use flexact_rounding, only: decimal, difference, last_bits, last_digit, coarsest_digit
    use flexact_vectors, only: length_of
    implicit none
    private
@@ -27,6 +27,8 @@ module flexact_scaling
       !> because of the digits with which coordinates were typed.
       real(wp) :: error_of_bits = 0.0_wp
       real(wp) :: error_of_digits = 0.0_wp
+      !> No more than that can any digits that were left out explain.
+      real(wp) :: reach_of_digits = 0.0_wp
    end type scaling_t
 
 contains
@@ -136,12 +138,12 @@ contains
       real(wp) :: extent
       integer :: k, entry, row, column
 
-      allocate (error(2, model%elements))
+      allocate (error(3, model%elements))
       extent = extent_of(model)
       do k = 1, model%elements
          error(:, k) = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length, extent)
       end do
-      allocate (squares(2, partition%count%columns), source=0.0_wp)
+      allocate (squares(3, partition%count%columns), source=0.0_wp)
       do entry = 1, jacobian%entries
          row = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
          column = partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
@@ -150,15 +152,16 @@ contains
       if (size(squares) == 0) return
       scaling%error_of_bits = sqrt(maxval(squares(1, :)))
       scaling%error_of_digits = sqrt(maxval(squares(2, :)))
+      scaling%reach_of_digits = sqrt(maxval(squares(3, :)))
    end subroutine bound_errors
 
    !> How far the directions of element k may be turned, by rounding in the last
-   !> bits and by the digits typed; no more than makes them unknown.
+   !> bits, by many digits typed, and by any; no more than makes them unknown.
    pure function errors_of_direction(model, k, length, characteristic_length, extent) result(error)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
       real(wp), intent(in) :: length, characteristic_length, extent
-      real(wp) :: error(2)
+      real(wp) :: error(3)
 
       error = 0.0_wp
       associate (p => model%element_node(1, k), q => model%element_node(3, k), vector => model%element_vector(:, k))
@@ -174,7 +177,10 @@ contains
    !> points stand; digits count from the one to the other.
    pure function errors_of_offset(p, q, extent) result(error)
       real(wp), intent(in) :: p(:), q(:), extent
-      real(wp) :: error(2)
-      error = [maxval(last_bits([p, q], extent)), maxval(last_digit(difference(decimal(p), decimal(q))))]
+      real(wp) :: error(3)
+
+      associate (offset => difference(decimal(p), decimal(q)))
+         error = [maxval(last_bits([p, q], extent)), maxval(last_digit(offset)), maxval(coarsest_digit(offset))]
+      end associate
    end function errors_of_offset
 end module flexact_scaling

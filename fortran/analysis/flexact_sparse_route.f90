@@ -52,8 +52,10 @@ module flexact_sparse_route
    integer, parameter :: few = 16
    integer, parameter :: most_dense = 800
    real(wp), parameter :: most_entries = 5.0e7_wp
-   !> Of more than so many vectors of the longer side the first are given.
+   !> Of more vectors of the longer side than these, and than that much work turns
+   !> into a basis, the first are given.
    integer, parameter :: most_left = 64
+   real(wp), parameter :: most_work = 5.0e7_wp
    integer, parameter :: first_left = 6
    !> Less of a unit vector at the pins is little.
    real(wp), parameter :: weak = 0.05_wp
@@ -303,6 +305,9 @@ contains
          end if
       end do
       low%pins = size(pin)
+      if (.not. options%only_plain_values .and. &
+          any(in_pins > low%decision%tolerance .and. in_pins <= low_end*pinned%least)) &
+         call prove_values(part, in_pins, spanned, low%decision%tolerance, answer)
       low%values = [in_pins, beyond]
       allocate (low%vectors(size(part%column), size(low%values)))
       low%vectors(:, :low%pins) = spanned
@@ -313,6 +318,25 @@ contains
          if (low%values(k) > 0) low%images(:, k) = low%images(:, k)/low%values(k)
       end do
    end subroutine find_low_end
+
+   !> The count of zeros among what pins hold hangs on the other values there: of
+   !> each of them the residual must be well below it.
+   subroutine prove_values(part, values, vectors, tolerance, answer)
+      type(part_t), intent(in) :: part
+      real(wp), intent(in) :: values(:), tolerance
+      real(wp), intent(in), contiguous :: vectors(:, :)
+      type(answer_t), intent(inout) :: answer
+      real(wp) :: image(size(part%row), 1), back(size(part%column), 1)
+      integer :: k
+
+      do k = 1, size(values)
+         if (values(k) <= tolerance) cycle
+         call times_transposed(part%matrix%by_row, vectors(:, k:k), image)
+         image = image/length_of(image(:, 1))
+         call times_transposed(part%matrix%by_column, image, back)
+         if (length_of(back(:, 1) - values(k)*vectors(:, k)) > values(k)/2) answer%confirmed = .false.
+      end do
+   end subroutine prove_values
 
    !> Whether pins hold some combination of their vectors (pins, pins) by little.
    logical function is_weak(at_pins)
@@ -438,6 +462,7 @@ contains
       real(wp), allocatable :: projected(:, :)
       logical :: is_held(size(is_zero))
       integer, allocatable :: known(:), images(:)
+      logical :: is_few
       integer :: k, wanted
 
       status = status_fine
@@ -446,14 +471,15 @@ contains
       ! Of what counts as zero though no pin holds it, the images are the left vectors.
       images = pack([(k, k=1, size(is_zero))], is_zero .and. .not. is_held)
       wanted = size(part%row) - size(part%column) + low%local%vectors + count(is_held .and. is_zero)
-      if (wanted > most_left .and. size(images) == 0) then
+      is_few = wanted <= most_left .or. real(size(part%row), wp)*wanted**2 <= most_work
+      if (.not. is_few .and. size(images) == 0) then
          call find_scattered_vectors(operator_t(part%matrix%by_row, part%matrix%by_column), first_left, many)
          if (many%vectors > 0) then
             allocate (left(size(part%row), 0))
             return
          end if
       end if
-      call left_null_space(part%matrix, pinned, low%images(:, known), merge(first_left, wanted, wanted > most_left), &
+      call left_null_space(part%matrix, pinned, low%images(:, known), merge(wanted, first_left, is_few), &
                            projected, status)
       if (status /= status_fine .and. status /= not_found) return
       if (status == not_found) projected = projected(:, :0)

@@ -240,7 +240,7 @@ end subroutine assemble
 ! tolerance (negative: from the data), bytes of memory that may be used, 1 if
 ! only the smallest singular values of D(c) itself are wanted.
 ! Indices count from 0. A basis that does not fit its room is given in part.
-! numbers: tolerance, characteristic length, noise, bytes needed. facts: rank,
+! numbers: tolerance, characteristic length, noise, bytes needed, reach of digits. facts: rank,
 ! method, 1 if confirmed, singular values of D(c) and scaled values given, pairs,
 ! motions, self-stresses, parts, rows and columns of the largest. stage: what is
 ! at work and per cent, kept up to date. status: as in flexact_answer, or 3 for
@@ -296,7 +296,7 @@ subroutine analyse_model(rows, columns, least, pairs, motion_room, stress_room, 
    real(c_double), intent(out) :: pair_value(pairs)
    real(c_double), intent(out) :: pair_motion(columns, pairs)
    real(c_double), intent(out) :: pair_stress(rows, pairs)
-   real(c_double), intent(out) :: numbers(4)
+   real(c_double), intent(out) :: numbers(5)
    integer(c_int), intent(out) :: facts(12)
    integer(c_int), intent(out) :: status
    type(model_t) :: model
@@ -344,6 +344,7 @@ subroutine analyse_model(rows, columns, least, pairs, motion_room, stress_room, 
    facts(9) = problem%parts%count
    facts(10:11) = largest_part(problem%parts)
    numbers(:3) = [answer%decision%tolerance, problem%scaling%characteristic_length, answer%decision%noise]
+   numbers(5) = problem%scaling%reach_of_digits
 end subroutine analyse_model
 
 ! What small changes of the geometry make of the singular values of pairs of

@@ -36,7 +36,7 @@ STAGES = ("assembling", "ordering", "factorising", "motions", "self-stresses", "
 _MOST_PAIRS = 6
 
 #: Entries of a basis beyond which vectors are left out.
-_MOST_ENTRIES = 100_000_000
+_MOST_ENTRIES = 20_000_000
 
 #: Bytes of the shortest statement of an element, with its line's end.
 _SHORTEST_ELEMENT = len("BEAM 1 1 2")
@@ -191,6 +191,7 @@ def analyse_model(
         characteristic_length=float(numbers[1]),
         noise=float(numbers[2]),
         bytes_needed=float(numbers[3]),
+        reach_of_digits=float(numbers[4]),
         rank=rank,
         method=METHODS[used],
         confirmed=confirmed == 1,

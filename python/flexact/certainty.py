@@ -13,7 +13,6 @@ from .verdict import Certainty, Nearly
 
 if TYPE_CHECKING:
     from .analysis import Analysis
-    from .pairs import Pair
 
 #: Values up to this multiple of the noise are in doubt. The noise is what a rounding or two of
 #: each number can do; a geometry that was itself computed (a loop closed by iteration, a scene
@@ -96,7 +95,8 @@ def _close_to_noise(analysis: Analysis) -> Iterator[Doubt]:
 
 
 def _explained_by_digits(analysis: Analysis) -> Iterator[Doubt]:
-    if not any(analysis.raw.pair_value <= _REACH_OF_DIGITS):
+    reach = min(_REACH_OF_DIGITS, _CUT_OFF * analysis.raw.reach_of_digits)
+    if not any(analysis.raw.pair_value <= reach):
         return
     every = analysis.pairs
     lifted = [pair for pair in every if pair.value <= _CUT_OFF * pair.lift_of_digits]
@@ -140,11 +140,15 @@ def _zeros_below_noise(analysis: Analysis) -> Iterator[Doubt]:
     they are meant to be.
     """
     zero = analysis.gap.largest_zero
-    pairs = [pair for group in analysis.zero_pairs for pair in group]
-    if zero is None or not zero <= analysis.raw.noise or not pairs:
+    if zero is None or not zero <= analysis.raw.noise:
         return
-    yield from itertools.islice(_perhaps_tiny(analysis, zero, pairs), 1)
-    reach = _CUT_OFF * max(pair.lift_of_digits for pair in pairs)
+    if not (analysis.under_constrained and analysis.over_constrained):
+        return
+    yield from itertools.islice(_perhaps_tiny(analysis, zero), 1)
+    if _CUT_OFF * analysis.raw.reach_of_digits <= analysis.raw.noise:
+        return
+    lifts = (pair.lift_of_digits for group in analysis.zero_pairs for pair in group)
+    reach = _CUT_OFF * max(lifts, default=0.0)
     if reach > analysis.raw.noise:
         yield Doubt(
             "rounded-geometry",
@@ -155,12 +159,11 @@ def _zeros_below_noise(analysis: Analysis) -> Iterator[Doubt]:
         )
 
 
-def _perhaps_tiny(analysis: Analysis, zero: float, pairs: list[Pair]) -> Iterator[Doubt]:
+def _perhaps_tiny(analysis: Analysis, zero: float) -> Iterator[Doubt]:
     """Reasons to take a zero for a tiny value, the plainest first."""
-    zeros = len(analysis.zero_pairs)
     largest = max(analysis.scaled_singular_values[:1].max(initial=0.0), 1.0)
     computed = _EPSILON * max(analysis.rows, analysis.columns) * largest
-    if zero > computed + fading.STORED * zeros * max(pair.lift_of_bits for pair in pairs):
+    if zero > computed + _stored(analysis, zero > computed):
         yield _close_zero(
             f"singular values up to {zero:.1e} count as zero, which is more than the rounding of "
             "the geometry's last bits would make of a zero"
@@ -179,6 +182,14 @@ def _perhaps_tiny(analysis: Analysis, zero: float, pairs: list[Pair]) -> Iterato
             "self-stress: whether its singular value is zero or only tiny is beyond the digits "
             "of the arithmetic"
         )
+
+
+def _stored(analysis: Analysis, is_needed: bool) -> float:
+    """What storing the geometry may make of the zeros; found only where it is needed."""
+    if not is_needed:
+        return 0.0
+    lifts = (pair.lift_of_bits for group in analysis.zero_pairs for pair in group)
+    return fading.STORED * len(analysis.zero_pairs) * max(lifts, default=0.0)
 
 
 def _close_zero(sentence: str) -> Doubt:

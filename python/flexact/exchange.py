@@ -161,6 +161,8 @@ class RawAnalysis(NamedTuple):
     """0 fine, 1 not converged, 2 not enough memory, 5 built without SuiteSparse."""
     bytes_needed: float
     """What the decomposition needs of memory, where the core knows."""
+    reach_of_digits: float
+    """No more than that, in the scaled matrix, can digits explain that were not typed."""
     motions: Basis
     """n - rank vectors, an orthonormal basis of the null space of D(c); see `analysis`.
 

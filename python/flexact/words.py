@@ -293,7 +293,7 @@ def _more(count: int, given: int, most: int | None, what: str, ending: str) -> I
     if count > told:
         yield f"  ... and {_plural(count - told, 'more ' + what, '', ending)}"
     if count > given:
-        yield f"Of these {count} {what}{ending} the first {given} are given, for want of room."
+        yield f"Of these {count} {what}{ending} {given} are given; the method svd gives all."
 
 
 def _basis(count: int, what: str) -> Iterator[str]:
