@@ -14,7 +14,7 @@ module flexact_sparse_route
    use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, &
                                  left_null_space, not_found
    use flexact_pairs, only: offer_pair
-   use flexact_pinned, only: pinned_t, make_pinned, lift_and_mark, release, pinned_fine, pinned_not_definite
+   use flexact_pinned, only: pinned_t, make_pinned, lift_and_mark, apply_inverse, release, pinned_fine, pinned_not_definite
    use flexact_problem, only: problem_t
    use flexact_rank, only: rank_t, decide_rank
    use flexact_sort, only: sort_descending
@@ -307,7 +307,7 @@ contains
       low%pins = size(pin)
       if (.not. options%only_plain_values .and. &
           any(in_pins > low%decision%tolerance .and. in_pins <= low_end*pinned%least)) &
-         call prove_values(part, in_pins, spanned, low%decision%tolerance, answer)
+         call prove_values(part, pinned, in_pins, spanned, low%decision%tolerance, answer)
       low%values = [in_pins, beyond]
       allocate (low%vectors(size(part%column), size(low%values)))
       low%vectors(:, :low%pins) = spanned
@@ -321,20 +321,31 @@ contains
 
    !> The count of zeros among what pins hold hangs on the other values there: of
    !> each of them the residual must be well below it.
-   subroutine prove_values(part, values, vectors, tolerance, answer)
+   subroutine prove_values(part, pinned, values, vectors, tolerance, answer)
       type(part_t), intent(in) :: part
+      type(pinned_t), intent(in) :: pinned
       real(wp), intent(in) :: values(:), tolerance
       real(wp), intent(in), contiguous :: vectors(:, :)
       type(answer_t), intent(inout) :: answer
-      real(wp) :: image(size(part%row), 1), back(size(part%column), 1)
-      integer :: k
+      real(wp), dimension(size(part%row), 1) :: image, step
+      real(wp) :: residual(size(part%column), 1)
+      integer :: k, round
 
       do k = 1, size(values)
          if (values(k) <= tolerance) cycle
          call times_transposed(part%matrix%by_row, vectors(:, k:k), image)
-         image = image/length_of(image(:, 1))
-         call times_transposed(part%matrix%by_column, image, back)
-         if (length_of(back(:, 1) - values(k)*vectors(:, k)) > values(k)/2) answer%confirmed = .false.
+         do round = 1, 2
+            image = image/length_of(image(:, 1))
+            call times_transposed(part%matrix%by_column, image, residual)
+            residual = residual - values(k)*vectors(:, k:k)
+            if (length_of(residual(:, 1)) <= values(k)/2) exit
+            if (round == 2) answer%confirmed = .false.
+            ! A tiny image is rounding in good part, which is taken from it.
+            call apply_inverse(pinned, residual, answer%status)
+            if (answer%status /= status_fine) return
+            call times_transposed(part%matrix%by_row, residual, step)
+            image = image - step
+         end do
       end do
    end subroutine prove_values
 
