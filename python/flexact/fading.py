@@ -83,7 +83,8 @@ def largest_remainder(analysis: Analysis) -> Remainder | None:
     matrix, rounding = _entries(analysis, stresses.support)
     reached = np.zeros(raw.column_scale.size, np.bool_)
     reached[matrix.column_of] = True
-    touching = np.unique(raw.motions.of_entries()[reached[raw.motions.place]])
+    # Plain np.unique would import numpy.ma, which takes as long as the analysis of a deck.
+    touching = np.flatnonzero(np.bincount(raw.motions.of_entries()[reached[raw.motions.place]]))
     touching = touching[: max(1, _MOST_TERMS // max(1, matrix.value.size))]
     motions = _first_of(raw.motions, raw.column_scale, touching)
     if motions is None:

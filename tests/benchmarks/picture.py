@@ -90,7 +90,7 @@ def _errors(axes: Axes, errors: list[dict[str, Any]]) -> None:
             if name in one["errors"]
         ]
         _line(axes, points, name, style)
-    _log(axes, "smallest singular value of stages 1 nm apart")
+    _log(axes, "smallest value, stages 1 nm apart")
     axes.set(ylabel="relative error", xlim=_decades([one["columns"] for one in errors]))
 
 
