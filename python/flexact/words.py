@@ -170,6 +170,8 @@ def _method(analysis: Analysis) -> Iterator[str]:
     if automatic and plain:
         return
     chosen = " (chosen automatically)" if automatic else ""
+    if analysis.asked.method not in ("auto", method):
+        chosen = f" ({analysis.asked.method} could not confirm the count)"
     rows, columns = analysis.raw.largest_part
     pieces = f", in {parts} parts, the largest {rows} x {columns}" if parts > 1 else ""
     yield f"Method: {method}{chosen}{pieces}."

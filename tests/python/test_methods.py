@@ -143,3 +143,10 @@ def test_gap_where_zeros_alone_are_given() -> None:
     assert part.gap == (0.25, whole.gap.largest_zero)
     none = changed(smallest_only(whole, 1), pair_value=np.zeros(0))
     assert none.gap == (None, whole.gap.largest_zero)
+
+
+def test_words_say_why_another_method_was_used() -> None:
+    """A tolerance above what the sparse route can prove leaves the count to svd."""
+    analysis = flexact.analyse(twelve_trusses(), method="sparse", tolerance=1e-3)
+    assert (analysis.method, analysis.under_constrained) == ("svd", 1)
+    assert "Method: svd (sparse could not confirm the count)." in analysis.describe()
