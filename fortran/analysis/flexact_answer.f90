@@ -2,6 +2,7 @@
 module flexact_answer
    use flexact_kinds, only: wp
    use flexact_basis, only: basis_t
+   use flexact_decomposition, only: method_svd, method_jacobi
    use flexact_rank, only: rank_t
    implicit none
    private
@@ -10,9 +11,8 @@ module flexact_answer
    public :: status_no_library
    public :: stage_assembling, stage_ordering, stage_factorising, stage_motions, stage_stresses, stage_values
 
+   !> Beside those of `flexact_decomposition`.
    integer, parameter :: method_auto = 0
-   integer, parameter :: method_svd = 1
-   integer, parameter :: method_jacobi = 2
    integer, parameter :: method_qr = 3
    integer, parameter :: method_sparse = 4
 

@@ -5,6 +5,7 @@ module flexact_dense_route
    use flexact_decomposition, only: is_feasible, decompose_by, singular_values_by, status_fine, status_no_memory
    use flexact_modes, only: add_modes
    use flexact_pairs, only: offer_pair
+   use flexact_parts, only: shape_of
    use flexact_pivoting, only: pivoted_t, factorise, take_rank, null_spaces, smallest_values
    use flexact_problem, only: problem_t
    use flexact_rank, only: decide_rank
@@ -58,13 +59,14 @@ contains
    pure real(wp) function bytes_needed(problem) result(bytes)
       type(problem_t), intent(in) :: problem
       real(wp) :: m, n, work
-      integer :: i
+      integer :: sides(2), i
 
       bytes = 0.0_wp
       work = 0.0_wp
       do i = 1, problem%parts%count
-         m = problem%parts%row_start(i + 1) - problem%parts%row_start(i)
-         n = problem%parts%column_start(i + 1) - problem%parts%column_start(i)
+         sides = shape_of(problem%parts, i)
+         m = sides(1)
+         n = sides(2)
          bytes = bytes + 8*(m*m + n*n)
          work = max(work, 8*(2*m*n + 4*min(m, n)**2 + 7*min(m, n) + 64*max(m, n)))
       end do

@@ -9,6 +9,7 @@ module flexact_determinacy
    use flexact_decomposition, only: status_fine, status_no_convergence
    use flexact_dense_route, only: analyse_dense
    use flexact_model, only: model_t
+   use flexact_parts, only: shape_of, largest_part
    use flexact_problem, only: problem_t, make_problem
    use flexact_sparse_route, only: analyse_sparse
    implicit none
@@ -55,17 +56,14 @@ contains
    !> Operations of a complete decomposition, but for a factor.
    pure real(wp) function cost(problem)
       type(problem_t), intent(in) :: problem
-      real(wp) :: shorter, longer
       integer :: i
 
       cost = 0.0_wp
-      associate (parts => problem%parts)
-         do i = 1, parts%count
-            shorter = parts%row_start(i + 1) - parts%row_start(i)
-            longer = parts%column_start(i + 1) - parts%column_start(i)
-            cost = cost + shorter*longer*max(shorter, longer)
-         end do
-      end associate
+      do i = 1, problem%parts%count
+         associate (sides => real(shape_of(problem%parts, i), wp))
+            cost = cost + product(sides)*maxval(sides)
+         end associate
+      end do
    end function cost
 
    !> Whether the sparse route gave no count, or one that is not confirmed.
@@ -96,22 +94,8 @@ contains
       type(problem_t), intent(in) :: problem
 
       choice = method_sparse
-      if (cholmod_is_there() == 0 .or. (largest_part(problem) <= small_part .and. &
+      if (cholmod_is_there() == 0 .or. (minval(largest_part(problem%parts)) <= small_part .and. &
                                         min(problem%by_column%rows, problem%by_column%columns) <= small_whole)) &
          choice = method_svd
    end function choice
-
-   !> The shorter side of the part with the longest such.
-   pure integer function largest_part(problem) result(largest)
-      type(problem_t), intent(in) :: problem
-      integer :: i
-
-      largest = 0
-      associate (parts => problem%parts)
-         do i = 1, parts%count
-            largest = max(largest, min(parts%row_start(i + 1) - parts%row_start(i), &
-                                       parts%column_start(i + 1) - parts%column_start(i)))
-         end do
-      end associate
-   end function largest_part
 end module flexact_determinacy

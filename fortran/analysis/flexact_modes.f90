@@ -20,16 +20,20 @@ module flexact_modes
 contains
 
    !> Combine vectors (n, k) so that each has an entry, its largest, where the
-   !> others have none: those of mechanisms that do not touch come apart.
-   pure subroutine untangle(vectors)
+   !> others have none: those of mechanisms that do not touch come apart. entry
+   !> (k): the places of these, 0 for what is left where vectors depend on others.
+   pure subroutine untangle(vectors, entry)
       real(wp), intent(inout) :: vectors(:, :)
+      integer, intent(out), optional :: entry(:)
       real(wp) :: weight(size(vectors, 1))
       integer :: place(2), step, j
 
+      if (present(entry)) entry = 0
       do step = 1, size(vectors, 2)
          place = maxloc(abs(vectors(:, step:)))
          j = step + place(2) - 1
          if (.not. abs(vectors(place(1), j)) > 0) return
+         if (present(entry)) entry(step) = place(1)
          weight = vectors(:, j)/vectors(place(1), j)
          vectors(:, j) = vectors(:, step)
          vectors(:, step) = weight

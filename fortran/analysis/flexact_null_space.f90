@@ -12,6 +12,7 @@ module flexact_null_space
    use flexact_decomposition, only: decompose, orthonormalise
    use flexact_lapack, only: dgeqrf
    use flexact_vectors, only: length_of
+   use flexact_modes, only: untangle
    use flexact_pinned, only: pinned_t, lift, pin, apply_inverse, pinned_not_definite
    implicit none
    private
@@ -85,13 +86,14 @@ contains
       integer, intent(out) :: status
       real(wp) :: left(size(vectors, 1), size(vectors, 2))
       logical :: is_pinned(size(vectors, 1))
-      integer :: attempt
+      integer :: entry(size(vectors, 2)), attempt
 
       left = vectors
       left(others, :) = 0.0_wp
       is_pinned = .false.
       is_pinned(others) = .true.
-      call mark_largest(left, is_pinned)
+      call untangle(left, entry)
+      is_pinned(pack(entry, entry > 0)) = .true.
       do attempt = 1, most_rounds
          call pin(a%by_row, is_pinned, pinned, status)
          if (status /= pinned_not_definite) return
@@ -118,27 +120,6 @@ contains
       call settle(a, vectors, values, status)
    end subroutine inverse_iteration
 
-   !> Mark the place of the largest entry of all, turn the vectors so that only one
-   !> has an entry there, and go on with the others. The vectors are destroyed.
-   pure subroutine mark_largest(vectors, is_marked)
-      real(wp), intent(inout) :: vectors(:, :)
-      logical, intent(inout) :: is_marked(:)
-      real(wp) :: weight(size(vectors, 1))
-      integer :: place(2), step, j
-
-      do step = 1, size(vectors, 2)
-         place = maxloc(abs(vectors(:, step:)))
-         j = step + place(2) - 1
-         if (.not. abs(vectors(place(1), j)) > 0) return
-         is_marked(place(1)) = .true.
-         weight = vectors(:, j)/vectors(place(1), j)
-         vectors(:, j) = vectors(:, step)
-         do j = step + 1, size(vectors, 2)
-            vectors(:, j) = vectors(:, j) - vectors(place(1), j)*weight
-         end do
-      end do
-   end subroutine mark_largest
-
    !> Orthonormal vectors (columns, k) whose span, with that of `apart`, holds the
    !> null space, for k of the pins, and their values, ascending.
    subroutine pinned_space(a, pinned, pin, apart, vectors, values, status)
@@ -149,6 +130,7 @@ contains
       real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
       integer, intent(out) :: status
       real(wp), allocatable :: before(:)
+      real(wp) :: zero
       integer :: k, round
 
       allocate (vectors(a%by_column%columns, size(pin)), source=0.0_wp)
@@ -164,8 +146,9 @@ contains
          if (status == 0) call orthonormalise(vectors, status)
       end do
       if (status == 0) call settle(a, vectors, values, status)
+      zero = practically_zero*norm_bound(a%by_column)
       do round = 1, most_rounds
-         if (status /= 0 .or. all(values <= practically_zero*norm_bound(a%by_column))) return
+         if (status /= 0 .or. all(values <= zero)) return
          before = values
          call improve(a, pinned, apart, vectors, values, status)
          if (all(abs(before - values) <= settled*values)) return

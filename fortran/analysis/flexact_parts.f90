@@ -4,7 +4,7 @@ module flexact_parts
    use flexact_sparse, only: sparse_t
    implicit none
    private
-   public :: parts_t, find_parts
+   public :: parts_t, find_parts, shape_of, largest_part
 
    type :: parts_t
       integer :: count = 0
@@ -15,6 +15,25 @@ module flexact_parts
    end type parts_t
 
 contains
+
+   !> Rows and columns of part i.
+   pure function shape_of(parts, i)
+      type(parts_t), intent(in) :: parts
+      integer, intent(in) :: i
+      integer :: shape_of(2)
+      shape_of = [parts%row_start(i + 1) - parts%row_start(i), parts%column_start(i + 1) - parts%column_start(i)]
+   end function shape_of
+
+   !> Rows and columns of the part that is largest in its shorter side.
+   pure function largest_part(parts) result(largest)
+      type(parts_t), intent(in) :: parts
+      integer :: largest(2), i
+
+      largest = 0
+      do i = 1, parts%count
+         if (minval(shape_of(parts, i)) > minval(largest) .or. i == 1) largest = shape_of(parts, i)
+      end do
+   end function largest_part
 
    !> Parts in the order of their first columns, those without columns last.
    pure subroutine find_parts(by_column, by_row, parts)

@@ -14,6 +14,7 @@ module flexact_sparse_route
    use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, &
                                  left_null_space, not_found
    use flexact_pairs, only: offer_pair
+   use flexact_parts, only: shape_of
    use flexact_pinned, only: pinned_t, make_pinned, lift_and_mark, apply_inverse, release, pinned_fine, pinned_not_definite
    use flexact_problem, only: problem_t
    use flexact_rank, only: rank_t, decide_rank
@@ -77,7 +78,7 @@ contains
       candidate = 0
       lowest = huge(1.0_wp)
       do i = 1, problem%parts%count
-         careful = problem%parts%count <= most_pairs .or. size_of(problem, i) >= large
+         careful = problem%parts%count <= most_pairs .or. minval(shape_of(problem%parts, i)) >= large
          call take_part(problem, options, i, careful, .true., new_row, answer, zeros, estimate)
          if (answer%status /= status_fine) return
          if (.not. careful) call keep_lowest(estimate, i, lowest, candidate)
@@ -91,18 +92,11 @@ contains
       ! Zeros of a matrix whose parts are not all of full shape.
       missing = min(problem%by_column%rows, problem%by_column%columns)
       do i = 1, problem%parts%count
-         missing = missing - size_of(problem, i)
+         missing = missing - minval(shape_of(problem%parts, i))
       end do
       answer%scaled_values = [answer%pair_value(size(answer%pair_value):1:-1), zeros, [(0.0_wp, i=1, missing)]]
       allocate (answer%singular_values(0))
    end subroutine analyse_sparse
-
-   pure integer function size_of(problem, i)
-      type(problem_t), intent(in) :: problem
-      integer, intent(in) :: i
-      size_of = min(problem%parts%row_start(i + 1) - problem%parts%row_start(i), &
-                    problem%parts%column_start(i + 1) - problem%parts%column_start(i))
-   end function size_of
 
    !> Keep a part among those whose smallest non-zero values are the smallest.
    pure subroutine keep_lowest(estimate, part, lowest, candidate)
@@ -339,7 +333,10 @@ contains
             call times_transposed(part%matrix%by_column, image, residual)
             residual = residual - values(k)*vectors(:, k:k)
             if (length_of(residual(:, 1)) <= values(k)/2) exit
-            if (round == 2) answer%confirmed = .false.
+            if (round == 2) then
+               answer%confirmed = .false.
+               return
+            end if
             ! A tiny image is rounding in good part, which is taken from it.
             call apply_inverse(pinned, residual, answer%status)
             if (answer%status /= status_fine) return

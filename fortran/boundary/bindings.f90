@@ -254,9 +254,10 @@ subroutine analyse_model(rows, columns, least, pairs, motion_room, stress_room, 
    use iso_c_binding
    use flexact_answer, only: answer_t, options_t
    use flexact_determinacy, only: analyse
-   use flexact_exchange, only: make_model, give_basis, largest_part
+   use flexact_exchange, only: make_model, give_basis
    use flexact_model, only: model_t
    use flexact_partition, only: model_count_t, count_model_again => count_model
+   use flexact_parts, only: largest_part
    use flexact_problem, only: problem_t
    implicit none
 !f2py threadsafe

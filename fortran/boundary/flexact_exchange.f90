@@ -6,10 +6,9 @@ module flexact_exchange
    use flexact_diagnostics, only: span_t, diagnostics_t, most_shown, text_length
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, slots, most_deformations
-   use flexact_parts, only: parts_t
    implicit none
    private
-   public :: to_text, from_text, make_model, give_diagnostics, give_basis, largest_part
+   public :: to_text, from_text, make_model, give_diagnostics, give_basis
 
 contains
 
@@ -75,18 +74,6 @@ contains
       place(:entries) = basis%place(:entries) - 1
       value(:entries) = basis%value(:entries)
    end subroutine give_basis
-
-   !> Rows and columns of the part that is largest in its shorter side.
-   pure function largest_part(parts) result(largest)
-      type(parts_t), intent(in) :: parts
-      integer :: largest(2), size_of(2), i
-
-      largest = 0
-      do i = 1, parts%count
-         size_of = [parts%row_start(i + 1) - parts%row_start(i), parts%column_start(i + 1) - parts%column_start(i)]
-         if (minval(size_of) > minval(largest) .or. i == 1) largest = size_of
-      end do
-   end function largest_part
 
    !> Diagnostics as arrays. count: errors, warnings, notes, shown. number:
    !> severity, line, first and last column, the same three of the other place,

@@ -10,9 +10,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _boundary, memory, remedies
-from .configuration import Labels, column_labels, jacobian, row_labels
+from .configuration import Labels, assembled, column_labels, jacobian, row_labels
 from .diagnostics import Diagnostic, FlexactError, Severity
-from .exchange import Basis, FloatArray, IntArray, RawAnalysis
+from .exchange import Basis, FloatArray, IntArray, RawAnalysis, RawAssembly
 from .frozen import Frozen
 from .model import Model
 from .model_data import ModelData
@@ -278,6 +278,12 @@ class Analysis(Frozen):
     def self_stresses(self) -> Modes[SelfStress]:
         """Stresses without load: an orthonormal basis, from U of eq. (16); see `motions`."""
         return Modes(SelfStress, self)
+
+    @cached_property
+    def assembly(self) -> RawAssembly:
+        """The whole Jacobian in the reference configuration, as the core numbers it."""
+        model = self.model
+        return assembled(model, model.reference())
 
     @cached_property
     def motion_space(self) -> Basis:

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _boundary
-from .configuration import assembled
 from .elements import NodeKind, element_kinds
 from .exchange import Basis, FloatArray
-from .subspace import Sparse
+from .pairs import affordable_pairs
+from .subspace import Sparse, index_of
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -41,11 +41,10 @@ _LAST_POWER = 13.0
 _BINS = 4
 
 # What is looked at: so many vectors of each side, of so many numbers in all; so many terms of
-# the entries of D(c) and the motions; and so many pairs with what rounding makes of them, which
-# takes the time of so many pairs times nodes and elements.
+# the entries of D(c) and the motions; and so many pairs with what rounding makes of them.
 _MOST_VECTORS, _MOST_NUMBERS = 256, 4_000_000
 _MOST_TERMS = 16_000_000
-_MOST_PAIRS, _MOST_WORK = 16, 1_000_000
+_MOST_PAIRS = 16
 
 
 class _Vectors(NamedTuple):
@@ -95,7 +94,7 @@ def largest_remainder(analysis: Analysis) -> Remainder | None:
     made = _ROUNDINGS * _EPSILON * _products(matrix._replace(value=rounding), added, moved)
     explained = np.maximum(made, _LEAST)
     ratio = (left / explained).ravel()
-    most = max(1, min(_MOST_PAIRS, _MOST_WORK // _size_of(analysis)))
+    most = max(1, min(_MOST_PAIRS, affordable_pairs(analysis)))
     worst = np.argsort(-ratio)[:most]
     worst = worst[ratio[worst] > 1.0]
     if not worst.size:
@@ -159,11 +158,11 @@ def _entries(analysis: Analysis, rows: NDArray[np.integer]) -> tuple[Sparse, Flo
     bit; the others come from products, of which a small entry may be no more than the rounding.
     """
     arrays, raw = analysis.data.arrays, analysis.raw
-    whole = assembled(analysis.model, analysis.model.reference())
+    whole = analysis.assembly
     element, deformation = raw.row_label[:, rows] - 1
     node, axis = raw.column_label - 1
-    row_of = _index(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
-    column_of = _index(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
+    row_of = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
+    column_of = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
     chosen = (row_of >= 0) & (column_of >= 0) & (whole.value != 0.0)
     matrix = Sparse(row_of, column_of, whole.value, rows.size).only(chosen)
     has_length = np.array([False, *(kind.needs_length for kind in element_kinds())])
@@ -177,16 +176,11 @@ def _entries(analysis: Analysis, rows: NDArray[np.integer]) -> tuple[Sparse, Flo
     return matrix, np.where(direction, np.abs(matrix.value), of_row)
 
 
-def _index(places: NDArray[np.integer], size: int) -> NDArray[np.int64]:
-    """(size,) at which of the places each number stands, -1 where at none."""
-    made = np.full(size, -1)
-    made[places] = np.arange(places.size)
-    return made
-
-
 def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArray:
     """(stresses, motions) u' D v; `matrix` has the rows that the self-stresses reach."""
-    place = _index(motions.support, int(matrix.column_of.max(initial=0)) + 1 + motions.support[-1])
+    place = index_of(
+        motions.support, int(matrix.column_of.max(initial=0)) + 1 + motions.support[-1]
+    )
     used = matrix.only(place[matrix.column_of] >= 0)
     moved = motions.value[place[used.column_of]]
     images = np.stack(
@@ -212,8 +206,3 @@ def _lifts(
         motions.in_full(right, analysis.columns),
         np.stack((of_left, of_right)).astype(np.int32),
     ).lift_of_bits
-
-
-def _size_of(analysis: Analysis) -> int:
-    arrays = analysis.data.arrays
-    return int(arrays.node_number.size + arrays.element_number.size)

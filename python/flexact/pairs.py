@@ -45,7 +45,7 @@ class Pair(NamedTuple):
 def of_nonzeros(analysis: Analysis) -> tuple[Pair, ...]:
     """The smallest values that are not zero, ascending, as far as the core gives their vectors."""
     raw = analysis.raw
-    most = min(raw.pair_value.size, max(1, _most_pairs(analysis)))
+    most = min(raw.pair_value.size, max(1, affordable_pairs(analysis)))
     if not most:
         return ()
     each = np.arange(most, dtype=np.int32)
@@ -66,7 +66,7 @@ def of_zeros(analysis: Analysis) -> tuple[tuple[Pair, ...], ...]:
     """
     raw, arrays = analysis.raw, analysis.data.arrays
     stresses, motions = analysis.over_constrained, analysis.under_constrained
-    most_pairs = _most_pairs(analysis)
+    most_pairs = affordable_pairs(analysis)
     zeros = min(stresses, motions, raw.stresses.vectors, raw.motions.vectors, _MOST_ZEROS)
     zeros = min(zeros, max(1, math.isqrt(most_pairs)))
     if not zeros:
@@ -84,7 +84,8 @@ def of_zeros(analysis: Analysis) -> tuple[tuple[Pair, ...], ...]:
     return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
 
 
-def _most_pairs(analysis: Analysis) -> int:
+def affordable_pairs(analysis: Analysis) -> int:
+    """How many pairs may be looked at; each takes as long as there are nodes and elements."""
     arrays = analysis.data.arrays
     return _MOST_WORK // (arrays.node_number.size + arrays.element_number.size)
 

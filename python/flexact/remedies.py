@@ -16,11 +16,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .configuration import assembled
 from .elements import AXES, Class, Dual, NodeKind, dual_table
-from .exchange import Basis, FloatArray, RawAssembly
+from .exchange import Basis, FloatArray
 from .modes import column_weights, ranked, row_weights
-from .subspace import Sparse, norms_of_product, orthonormal, row_norms, support_of
+from .subspace import Sparse, index_of, norms_of_product, orthonormal, row_norms, support_of
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -86,9 +85,9 @@ def deformations(analysis: Analysis) -> Deformations:
     released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
     if not released.any():
         return []
-    whole = _assembled(analysis)
+    whole = analysis.assembly
     node, axis = analysis.raw.column_label - 1
-    column = _inverse(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
+    column = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
     chosen = released[whole.row_of] & (column >= 0)
     matrix = Sparse(whole.row_of, column, whole.value, released.size).only(chosen)
     value = matrix.value / column_weights(analysis)[matrix.column_of]
@@ -104,12 +103,6 @@ def coordinate_operands(analysis: Analysis, node: int, axis: int) -> str:
     kind = int(arrays.node_kind[node])
     first = 2 if kind == NodeKind.ORIENTATION else 1  # behind the first Euler parameter
     return f"{arrays.node_number[node]} {AXES[kind].index(axis) + first}"
-
-
-def _assembled(analysis: Analysis) -> RawAssembly:
-    """The whole Jacobian in the reference configuration."""
-    model = analysis.model
-    return assembled(model, model.reference())
 
 
 def motion_space(analysis: Analysis) -> Basis:
@@ -151,9 +144,9 @@ def _reactions(analysis: Analysis, able: NDArray[np.bool_]) -> FloatArray:
     Zero where nothing is left of what the elements contribute.
     """
     arrays = analysis.data.arrays
-    whole = _assembled(analysis)
+    whole = analysis.assembly
     element, deformation = analysis.raw.row_label - 1
-    row = _inverse(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
+    row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
     chosen = able[whole.column_of] & (row >= 0)
     matrix = Sparse(whole.column_of, row, whole.value, able.size).only(chosen)
     turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
@@ -170,13 +163,6 @@ def _reactions(analysis: Analysis, able: NDArray[np.bool_]) -> FloatArray:
     return np.where(reaction > _NOTHING * contributed, reaction, 0.0)
 
 
-def _inverse(places: NDArray[np.integer], size: int) -> NDArray[np.int64]:
-    """(size,) where each of `size` numbers stands among the places, -1 where it does not."""
-    made = np.full(size, -1)
-    made[places] = np.arange(places.size)
-    return made
-
-
 def _largest(leverage: FloatArray) -> list[int]:
     order = np.array(ranked(leverage, leverage.size), np.int64)
     chosen: list[int] = order[leverage[order] > _NOTHING].tolist()
@@ -191,7 +177,7 @@ def _independent_rows(basis: Basis, able: NDArray[np.bool_] | None = None) -> li
     support = support_of(basis)
     if able is not None:
         support = support[able[support]]
-    place = _inverse(support, basis.size)[basis.place]
+    place = index_of(support, basis.size)[basis.place]
     there = place >= 0
     rest = np.zeros((support.size, basis.vectors))
     rest[place[there], basis.of_entries()[there]] = basis.value[there]

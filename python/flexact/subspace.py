@@ -61,6 +61,13 @@ def support_of(basis: Basis) -> NDArray[np.integer]:
     return np.flatnonzero(np.bincount(basis.place, minlength=basis.size))
 
 
+def index_of(places: NDArray[np.integer], size: int) -> NDArray[np.int64]:
+    """(size,) at which of the places each number stands, -1 where at none."""
+    made = np.full(size, -1)
+    made[places] = np.arange(places.size)
+    return made
+
+
 def row_norms(basis: Basis) -> FloatArray:
     """(size,) norm of each row of the vectors side by side."""
     return np.sqrt(np.bincount(basis.place, basis.value**2, basis.size))

@@ -5,6 +5,7 @@ program test_decomposition
    use flexact_decomposition, only: method_svd, method_jacobi, is_feasible, decompose_by, singular_values_by, &
                                     orthonormalise, status_fine, status_no_convergence
    use flexact_pivoting, only: pivoted_t, factorise, take_rank, null_spaces, smallest_values
+   use flexact_test_matrices, only: identity
    use flexact_testing, only: tally_t, set_random
    implicit none
 
@@ -46,17 +47,6 @@ program test_decomposition
    call tally%finish()
 
 contains
-
-   function identity(n) result(a)
-      integer, intent(in) :: n
-      real(wp) :: a(n, n)
-      integer :: i
-
-      a = 0.0_wp
-      do i = 1, n
-         a(i, i) = 1.0_wp
-      end do
-   end function identity
 
    subroutine check_orthogonal(a, name)
       real(wp), intent(in) :: a(:, :)

@@ -10,44 +10,22 @@ import json
 import math
 import re
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from known_models import ring, twelve_trusses
+from reference_decks import NAMES, ROOT, text_of, transform, truth_of
+from verdicts import counts
 
 import flexact
 from flexact import Analysis, Model, analyse
 from flexact.exchange import FloatArray
 
-ROOT = Path(__file__).resolve().parents[2]
-REFERENCE = ROOT / "tests" / "reference"
-if str(REFERENCE) not in sys.path:
-    sys.path.append(str(REFERENCE))
-transform: Any = importlib.import_module("transform")
 sys.path.append(str(ROOT / "tests" / "benchmarks"))
 families: Any = importlib.import_module("families")
 
-NAMES = [
-    path.relative_to(ROOT / "input_decks").with_suffix("").as_posix()
-    for path in sorted((ROOT / "input_decks").rglob("*.dat"))
-    if path.relative_to(ROOT / "input_decks").parts[0] != "broken"
-]
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
-
-
-def counts(analysis: Analysis) -> tuple[int, int]:
-    return analysis.under_constrained, analysis.over_constrained
-
-
-def text_of(name: str) -> str:
-    return (ROOT / "input_decks" / f"{name}.dat").read_text(encoding="utf-8")
-
-
-def truth_of(name: str) -> tuple[int, int]:
-    content = json.loads((REFERENCE / f"{name}.json").read_text(encoding="utf-8"))
-    return content["under_constrained"], content["over_constrained"]
 
 
 def assert_right_or_nearly(analysis: Analysis, truth: tuple[int, int]) -> None:

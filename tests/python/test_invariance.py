@@ -4,28 +4,15 @@ Decks are rewritten by tests/reference/transform.py, which shares nothing with t
 expected counts are those of the stored references, each of which names its source.
 """
 
-import importlib
 import json
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from reference_decks import NAMES, REFERENCE, text_of, transform
 
 import flexact
 
-ROOT = Path(__file__).resolve().parents[2]
-REFERENCE = ROOT / "tests" / "reference"
-if str(REFERENCE) not in sys.path:
-    sys.path.append(str(REFERENCE))
-transform: Any = importlib.import_module("transform")
-
-NAMES = [
-    path.relative_to(ROOT / "input_decks").with_suffix("").as_posix()
-    for path in sorted((ROOT / "input_decks").rglob("*.dat"))
-    if path.relative_to(ROOT / "input_decks").parts[0] != "broken"
-]
 # From a turn about all axes to half a turn, which leaves every coordinate on its axis: decks that
 # state single coordinates can be turned by the later ones only.
 TURNS = {
@@ -36,10 +23,6 @@ TURNS = {
     "about x": transform.about("x", 0.9),
     "half a turn about z": transform.about("z", np.pi),
 }
-
-
-def text_of(name: str) -> str:
-    return (ROOT / "input_decks" / f"{name}.dat").read_text(encoding="utf-8")
 
 
 def reference_of(name: str) -> dict[str, Any]:
