@@ -52,15 +52,17 @@ subroutine survey_deck(n, text, elements, node_slots)
 end subroutine survey_deck
 
 ! Read a deck. sizes: nodes, elements, 1 for a planar scene, statements that
-! were read and not used. Diagnostics as flexact_exchange gives them.
+! were read and not used, 1 where the deck says how elements are drawn; only then
+! look_choice and look_value are filled. Diagnostics and these as flexact_exchange
+! gives them.
 subroutine read_deck(n, text, most_nodes, most_elements, node_number, node_kind, node_value, coordinate_class, &
                      element_number, element_kind, element_node, element_vector, deformation_class, &
-                     element_origin, element_name, sizes, diag_count, diag_number, diag_text)
+                     element_origin, element_name, look_choice, look_value, sizes, diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_deck, only: read_text => read_deck
    use flexact_deck_scene, only: scene_t
    use flexact_diagnostics, only: diagnostics_t
-   use flexact_exchange, only: to_text, give_diagnostics
+   use flexact_exchange, only: to_text, give_diagnostics, give_look
    use flexact_model, only: node_position, node_orientation
    implicit none
 !f2py threadsafe
@@ -79,6 +81,8 @@ subroutine read_deck(n, text, most_nodes, most_elements, node_number, node_kind,
    integer(c_int), intent(inout) :: deformation_class(6, most_elements)
    integer(c_int), intent(inout) :: element_origin(most_elements)
    integer(c_int), intent(inout) :: element_name(2, most_elements)
+   integer(c_int), intent(inout) :: look_choice(2, most_elements)
+   real(c_double), intent(inout) :: look_value(9, most_elements)
    integer(c_int), intent(out) :: sizes(8)
    integer(c_int), intent(out) :: diag_count(4)
    integer(c_int), intent(out) :: diag_number(8, 100)
@@ -110,6 +114,8 @@ subroutine read_deck(n, text, most_nodes, most_elements, node_number, node_kind,
       element_origin(:ne) = model%element_origin
       element_name(1, :ne) = scene%element_names%first
       element_name(2, :ne) = scene%element_names%last
+      sizes(5) = merge(1, 0, allocated(scene%look))
+      if (allocated(scene%look)) call give_look(scene%look, look_choice(:, :ne), look_value(:, :ne))
    end associate
 end subroutine read_deck
 

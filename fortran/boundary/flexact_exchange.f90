@@ -5,10 +5,11 @@ module flexact_exchange
    use flexact_deck, only: locate
    use flexact_diagnostics, only: span_t, diagnostics_t, most_shown, text_length
    use flexact_kinds, only: wp
+   use flexact_look, only: look_t
    use flexact_model, only: model_t, slots, most_deformations
    implicit none
    private
-   public :: to_text, from_text, make_model, give_diagnostics, give_basis
+   public :: to_text, from_text, make_model, give_diagnostics, give_basis, give_look
 
 contains
 
@@ -74,6 +75,21 @@ contains
       place(:entries) = basis%place(:entries) - 1
       value(:entries) = basis%value(:entries)
    end subroutine give_basis
+
+   !> How elements are drawn, as arrays. choice: kind of cross-section, 1 where
+   !> drawn. value: dimensions, colour, colour of edges, opacity.
+   pure subroutine give_look(look, choice, value)
+      type(look_t), intent(in) :: look
+      integer, intent(inout) :: choice(:, :)
+      real(wp), intent(inout) :: value(:, :)
+
+      choice(1, :) = look%cross_section
+      choice(2, :) = merge(1, 0, look%drawn)
+      value(1:2, :) = look%dimensions
+      value(3:5, :) = look%colour
+      value(6:8, :) = look%edge_colour
+      value(9, :) = look%opacity
+   end subroutine give_look
 
    !> Diagnostics as arrays. count: errors, warnings, notes, shown. number:
    !> severity, line, first and last column, the same three of the other place,

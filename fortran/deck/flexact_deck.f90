@@ -4,6 +4,7 @@ module flexact_deck
    use flexact_deck_classes, only: read_classes
    use flexact_deck_elements, only: read_elements
    use flexact_deck_forms, only: read_forms, note_unused
+   use flexact_deck_picture, only: read_picture
    use flexact_deck_scene, only: scene_t
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
@@ -16,7 +17,7 @@ module flexact_deck
 contains
 
    !> Read the text. The scene is a model to analyse where no error was
-   !> reported. `unused` counts the statements about dynamics and pictures.
+   !> reported. `unused` counts the statements that were read for their form alone.
    subroutine read_deck(text, scene, unused, diagnostics)
       character(len=*), intent(in) :: text
       type(scene_t), intent(out) :: scene
@@ -34,6 +35,7 @@ contains
          if (scene%model%elements > 0) then
             call read_values(text, all_statements, scene, diagnostics)
             call read_classes(text, all_statements, scene, diagnostics)
+            call read_picture(text, all_statements, scene, diagnostics)
             call read_forms(text, all_statements, scene, diagnostics)
          end if
          call check_model(scene%model, diagnostics)

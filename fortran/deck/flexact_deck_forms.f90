@@ -1,5 +1,5 @@
-!> Statements that the analysis does not use: dynamics, in/out, picture. Their
-!> form is checked, and what they name must exist.
+!> Statements that are not used: dynamics, in/out, and of the picture what is not
+!> drawn. Their form is checked, and what they name must exist.
 module flexact_deck_forms
    use flexact_choice, only: choice_t, components_of, deformations_of, take_choice
    use flexact_deck_scene, only: scene_t, take_node, take_element

@@ -2,6 +2,7 @@
 !> the deck's numbers, and how a number that is not there is reported.
 module flexact_deck_scene
    use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_look, only: look_t
    use flexact_model, only: model_t
    use flexact_numbering, only: numbering_t
    use flexact_operands, only: operands_t
@@ -20,6 +21,8 @@ module flexact_deck_scene
       !> Numbers in element statements that could not be read: nodes or elements
       !> perhaps, so that nobody is told that they do not exist.
       type(numbering_t) :: excused
+      !> How the elements are to be drawn, where the deck says something about it.
+      type(look_t), allocatable :: look
    end type scene_t
 
 contains

@@ -7,9 +7,9 @@ module flexact_keywords
    use flexact_element_table, only: element_kinds
    implicit none
    private
-   public :: keyword_t, keywords, find_keyword, nearest_keyword
+   public :: keyword_t, keywords, find_keyword, nearest_keyword, edit_distance
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
-   public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown
+   public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture
 
    integer, parameter :: block_kinematics = 1
    integer, parameter :: block_dynamics = 2
@@ -20,7 +20,8 @@ module flexact_keywords
 
    !> What a statement does: makes an element; gives a node its value; gives a
    !> coordinate or a deformation its class; is read for its form alone; is
-   !> known, and outside what Flexact covers; or is not known at all.
+   !> known, and outside what Flexact covers; is not known at all; or says how
+   !> elements are drawn.
    integer, parameter :: role_element = 1
    integer, parameter :: role_value = 2
    integer, parameter :: role_coordinate = 3
@@ -28,6 +29,7 @@ module flexact_keywords
    integer, parameter :: role_form = 5
    integer, parameter :: role_uncovered = 6
    integer, parameter :: role_unknown = 7
+   integer, parameter :: role_picture = 8
 
    type :: keyword_t
       character(len=13) :: name
@@ -44,6 +46,7 @@ module flexact_keywords
    integer, parameter :: dyn = block_dynamics
    integer, parameter :: pic = block_picture
    integer, parameter :: form = role_form
+   integer, parameter :: draw = role_picture
    integer, parameter :: no = role_uncovered
 
    type(keyword_t), parameter :: keywords(*) = [ &
@@ -89,26 +92,26 @@ module flexact_keywords
                                  keyword_t('OUTF', block_inout, form, 'r', 1, any_number), &
                                  keyword_t('OUTX', block_inout, form, 'r', 1, any_number), &
                                  keyword_t('OUTXP', block_inout, form, 'r', 1, any_number), &
-                                 keyword_t('VISUALIZATION', pic, form, 'w', 0, any_number), &
-                                 keyword_t('BEAMPROPS', pic, form, 'e', 0, any_number), &
-                                 keyword_t('CROSSTYPE', pic, form, 'w', 1, 1), &
-                                 keyword_t('CROSSDIM', pic, form, 'r', 1, any_number), &
+                                 keyword_t('VISUALIZATION', pic, draw, 'w', 0, any_number), &
+                                 keyword_t('BEAMPROPS', pic, draw, 'e', 0, any_number), &
+                                 keyword_t('CROSSTYPE', pic, draw, 'w', 1, 1), &
+                                 keyword_t('CROSSDIM', pic, draw, 'r', 1, any_number), &
                                  keyword_t('SHOWJOINTS', pic, form, 'r', 1, 1), &
-                                 keyword_t('GRAPHICS', pic, form, 'e', 0, any_number), &
-                                 keyword_t('FACECOLOR', pic, form, 'r', 3, 3), &
-                                 keyword_t('EDGECOLOR', pic, form, 'r', 3, 3), &
-                                 keyword_t('OPACITY', pic, form, 'r', 1, 1), &
+                                 keyword_t('GRAPHICS', pic, draw, 'e', 0, any_number), &
+                                 keyword_t('FACECOLOR', pic, draw, 'r', 3, 3), &
+                                 keyword_t('EDGECOLOR', pic, draw, 'r', 3, 3), &
+                                 keyword_t('OPACITY', pic, draw, 'r', 1, 1), &
                                  keyword_t('LINESTYLE', pic, form, 'w', 1, any_number), &
                                  keyword_t('INITIAL', pic, form, 'w', 0, any_number), &
                                  keyword_t('COLOR', pic, form, 'r', 3, 3), &
                                  keyword_t('VISIBLE', pic, form, 'r', 1, 1), &
-                                 keyword_t('DONOTDRAW', pic, form, 'e', 1, any_number), &
+                                 keyword_t('DONOTDRAW', pic, draw, 'e', 1, any_number), &
                                  keyword_t('LIGHT', pic, form, 'w', 0, any_number), &
                                  keyword_t('AXISPROPS', pic, form, 'w', 0, any_number), &
                                  keyword_t('LIMITS', pic, form, 'r', 1, 6), &
                                  keyword_t('TRAJECT', pic, form, 'w', 0, any_number), &
-                                 keyword_t('BEAMVIS', pic, form, 'w', 0, any_number), &
-                                 keyword_t('TRUSSVIS', pic, form, 'w', 0, any_number)]
+                                 keyword_t('BEAMVIS', pic, draw, 'w', 0, any_number), &
+                                 keyword_t('TRUSSVIS', pic, draw, 'w', 0, any_number)]
 
 contains
 

@@ -2,6 +2,7 @@
 !> said at its place.
 module flexact_operands
    use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_keywords, only: block_picture
    use flexact_kinds, only: wp
    use flexact_lexer, only: next_word
    use flexact_numbers, only: read_integer, read_real, number_fine, number_malformed, number_not_whole, &
@@ -16,15 +17,19 @@ module flexact_operands
       type(span_t) :: word
       !> Whether every operand so far was what it should be.
       logical :: fine = .true.
+      !> What is wrong with one is a warning, and the statement is not used.
+      logical :: forgiving = .false.
       integer, private :: position = 1
       integer, private :: last = 0
       type(span_t), private :: keyword
    contains
       procedure :: another
+      procedure :: left
       procedure :: word_operand
       procedure :: positive_integer
       procedure :: real_number
       procedure :: finish
+      procedure, private :: error => tell
    end type operands_t
 
 contains
@@ -36,6 +41,7 @@ contains
       operands%position = statement%keyword%last + 1
       operands%last = statement%last
       operands%keyword = statement%keyword
+      operands%forgiving = statement%block == block_picture
       operands%word = statement%keyword
    end function operands_of
 
@@ -49,6 +55,22 @@ contains
       another = word%first > 0
       if (another) self%word = word
    end function another
+
+   !> How many operands are still to be taken.
+   pure integer function left(self, text)
+      class(operands_t), intent(in) :: self
+      character(len=*), intent(in) :: text
+      type(span_t) :: word
+      integer :: position
+
+      position = self%position
+      left = -1
+      do
+         left = left + 1
+         call next_word(text, position, self%last, word)
+         if (word%first == 0) exit
+      end do
+   end function left
 
    !> Take a word of any kind; its absence is reported.
    subroutine word_operand(self, text, what, diagnostics)
@@ -74,8 +96,8 @@ contains
       associate (word => text(self%word%first:self%word%last))
          call read_integer(word, value, status)
          if (status == number_fine .and. value < 1) then
-            call diagnostics%error('bad-number', self%word, quoted(word)//' is less than 1', &
-                                   'expected here: '//trim(what), 'elements, nodes and components count from 1')
+            call self%error('bad-number', self%word, quoted(word)//' is less than 1', &
+                            'expected here: '//trim(what), 'elements, nodes and components count from 1', diagnostics)
             value = 0
             self%fine = .false.
          else if (status /= number_fine) then
@@ -117,11 +139,25 @@ contains
       do while (self%another(text))
          surplus%last = self%word%last
       end do
-      call diagnostics%error('surplus-operand', surplus, &
-                             text(self%keyword%first:self%keyword%last)//' has more operands than it takes', &
-                             'nothing may stand here', 'its form is: '//form)
+      call self%error('surplus-operand', surplus, &
+                      text(self%keyword%first:self%keyword%last)//' has more operands than it takes', &
+                      'nothing may stand here', 'its form is: '//form, diagnostics)
       self%fine = .false.
    end subroutine finish
+
+   !> Report what is wrong with an operand.
+   subroutine tell(self, code, place, message, label, help, diagnostics)
+      class(operands_t), intent(in) :: self
+      character(len=*), intent(in) :: code, message, label, help
+      type(span_t), intent(in) :: place
+      type(diagnostics_t), intent(inout) :: diagnostics
+
+      if (self%forgiving) then
+         call diagnostics%warning(code, place, message//'; the option is left out', label, help)
+      else
+         call diagnostics%error(code, place, message, label, help)
+      end if
+   end subroutine tell
 
    logical function required(self, text, what, diagnostics)
       type(operands_t), intent(inout) :: self
@@ -134,9 +170,9 @@ contains
       behind = self%word%last + 1
       ! One missing operand is said once, not once for each that would follow.
       if (self%position < huge(1)) then
-         call diagnostics%error('missing-operand', span_t(behind, behind), &
-                                text(self%keyword%first:self%keyword%last)//' needs one more operand: '//trim(what), &
-                                'expected here: '//trim(what), 'add it')
+         call self%error('missing-operand', span_t(behind, behind), &
+                         text(self%keyword%first:self%keyword%last)//' needs one more operand: '//trim(what), &
+                         'expected here: '//trim(what), 'add it', diagnostics)
       end if
       self%position = huge(1)
       self%fine = .false.
@@ -155,18 +191,18 @@ contains
       end if
       select case (status)
       case (number_malformed)
-         call diagnostics%error('bad-number', self%word, quoted(word)//' is not a number', &
-                                'expected here: '//trim(what), 'write a number such as 3, -0.5 or 1.0e-3')
+         call self%error('bad-number', self%word, quoted(word)//' is not a number', &
+                         'expected here: '//trim(what), 'write a number such as 3, -0.5 or 1.0e-3', diagnostics)
       case (number_not_whole)
-         call diagnostics%error('not-whole', self%word, quoted(word)//' is not a whole number', &
-                                'expected here: '//trim(what), 'write a whole number, without point and exponent')
+         call self%error('not-whole', self%word, quoted(word)//' is not a whole number', &
+                         'expected here: '//trim(what), 'write a whole number, without point and exponent', diagnostics)
       case (number_not_finite)
-         call diagnostics%error('not-finite', self%word, quoted(word)//' is not a finite number', &
-                                'expected here: '//trim(what), 'write a finite number')
+         call self%error('not-finite', self%word, quoted(word)//' is not a finite number', &
+                         'expected here: '//trim(what), 'write a finite number', diagnostics)
       case (number_too_large)
-         call diagnostics%error('number-too-large', self%word, quoted(word)//' is larger than it can be', &
-                                'expected here: '//trim(what), &
-                                'whole numbers go up to 2147483647, others up to 1.79e308')
+         call self%error('number-too-large', self%word, quoted(word)//' is larger than it can be', &
+                         'expected here: '//trim(what), &
+                         'whole numbers go up to 2147483647, others up to 1.79e308', diagnostics)
       end select
    end subroutine wrong_number
 
@@ -181,8 +217,8 @@ contains
       type(operands_t), intent(inout) :: self
       type(diagnostics_t), intent(inout) :: diagnostics
 
-      call diagnostics%error('bad-comment', self%word, 'a semicolon opens a comment in the picture block alone', &
-                             'not a comment here', 'write % or # instead')
+      call self%error('bad-comment', self%word, 'a semicolon opens a comment in the picture block alone', &
+                      'not a comment here', 'write % or # instead', diagnostics)
       self%fine = .false.
       self%position = huge(1)
    end subroutine semicolon

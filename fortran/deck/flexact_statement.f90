@@ -4,7 +4,8 @@ module flexact_statement
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds, find_element_kind
    use flexact_keywords, only: keywords, find_keyword, nearest_keyword, block_kinematics, block_dynamics, &
-                               block_closed, block_inout, block_picture, role_element, role_uncovered, role_unknown
+                               block_closed, block_inout, block_picture, role_element, role_uncovered, role_unknown, &
+                               role_picture
    use flexact_lexer, only: line_t, next_line, next_word, upper_case
    implicit none
    private
@@ -15,7 +16,8 @@ module flexact_statement
    type :: statement_t
       integer :: block = block_kinematics
       integer :: role = 0
-      !> Row of the keyword table, or element kind where the role is an element.
+      !> Row of the keyword table, or element kind where the role is an element;
+      !> 0 for a group of the picture block that is not known.
       integer :: what = 0
       type(span_t) :: keyword
       !> Last character of the statement, its comment left out.
@@ -216,8 +218,12 @@ contains
       if (nearest /= '') help = 'did you mean '//trim(nearest)//'?'
       if (reader%block == block_picture) then
          ! Pictures do not touch the analysis, and dialects have more options than these.
+         statement%what = 0
+         if (opens_group(word, nearest)) statement%role = role_picture
          call diagnostics%warning('unknown-keyword', statement%keyword, &
-                                  word//' is not a picture option that Flexact knows', 'not used', help)
+                                  word//' is not a picture option that Flexact knows', &
+                                  merge('not used, nor the options behind it', 'not used                           ', &
+                                        statement%role == role_picture), help)
       else
          call diagnostics%error('unknown-keyword', statement%keyword, word//' is not a keyword of the '// &
                                 trim(block_name(reader%block))//' block', 'unknown keyword', help)
@@ -232,6 +238,17 @@ contains
          end if
       end if
    end subroutine unknown_keyword
+
+   !> Whether an unknown word of the picture block seems to open a group, so that
+   !> the options that follow are not those of the group before it.
+   pure logical function opens_group(word, nearest)
+      character(len=*), intent(in) :: word, nearest
+      integer :: props
+
+      props = index(word, 'PROPS', back=.true.)
+      opens_group = (props > 0 .and. props == len(word) - 4) .or. &
+                    any(nearest == [character(len=9) :: 'BEAMPROPS', 'GRAPHICS', 'INITIAL', 'AXISPROPS'])
+   end function opens_group
 
    subroutine wrong_block(reader, statement, diagnostics)
       type(reader_t), intent(in) :: reader

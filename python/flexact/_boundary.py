@@ -22,6 +22,7 @@ from .exchange import (
     RawCount,
     RawDeck,
     RawDiagnostics,
+    RawLook,
     RawSensitivities,
     first_of,
     room_for,
@@ -73,11 +74,14 @@ def read_deck(text: bytes) -> RawDeck:
     room = room_for(nn, ne)
     origin = np.empty(ne, np.int32)
     name = np.empty((2, ne), np.int32, order="F")
-    sizes, counts, number, words = _core.read_deck(data, *room, origin, name)
-    nodes, elements, planar = (int(size) for size in sizes[:3])
-    problems = RawDiagnostics(counts, number, words)
+    choice = np.empty((2, ne), np.int32, order="F")
+    value = np.empty((9, ne), np.float64, order="F")
+    found = _core.read_deck(data, *room, origin, name, choice, value)
+    nodes, elements, planar, _, drawn = found[0][:5].tolist()
+    problems = RawDiagnostics(*found[1:])
     arrays = first_of(room, nodes, elements)
-    return RawDeck(arrays, name[:, :elements], planar == 1, problems)
+    look = RawLook(choice[:, :elements], value[:, :elements]) if drawn else None
+    return RawDeck(arrays, name[:, :elements], planar == 1, problems, look)
 
 
 def check_model(arrays: ModelArrays) -> RawDiagnostics:

@@ -23,6 +23,8 @@ def read_deck(
     deformation_class: _Ints,
     element_origin: _Ints,
     element_name: _Ints,
+    look_choice: _Ints,
+    look_value: _Floats,
     /,
 ) -> tuple[_Ints, _Ints, _Ints, _Bytes]: ...
 def check_model(

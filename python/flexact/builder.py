@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from . import targets
+from . import look_targets, targets
 from .diagnostics import model_error
 from .draft import NO_VECTOR, Draft
 from .elements import Class, ElementKind, NodeKind, kind_of
 from .handles import Element, Node, Sheet
+from .look_draft import Shape
+from .look_targets import Section
 from .model_data import ModelData
 
 
@@ -69,8 +71,13 @@ class Builder:
 
     # Elements ---------------------------------------------------------------
 
-    def truss(self, p: Node | int, q: Node | int, name: str = "") -> Element:
-        """A bar: its elongation is held. A number stands for a position node."""
+    def truss(
+        self, p: Node | int, q: Node | int, name: str = "", *, section: Section | None = None
+    ) -> Element:
+        """A bar: its elongation is held. A number stands for a position node.
+
+        `section` is how it is drawn, see `look`.
+        """
         draft = self._change()
         slots = (
             targets.position(draft, self._owner, p),
@@ -79,7 +86,8 @@ class Builder:
             0,
         )
         name = targets.text(name, "the name of an element")
-        number = draft.add_element(_kind("TRUSS", draft.planar), slots, name)
+        shape = look_targets.shape_of(section)
+        number = draft.add_element(_kind("TRUSS", draft.planar), slots, name, shape=shape)
         return Element(number, self._owner)
 
     def beam(
@@ -89,6 +97,8 @@ class Builder:
         y: Sequence[float] | None = None,
         release: Iterable[int] = (),
         name: str = "",
+        *,
+        section: Section | None = None,
     ) -> Element:
         """A beam; all deformations are held but those in `release`.
 
@@ -101,16 +111,30 @@ class Builder:
                 in the local xz plane, 5 and 6 in the local xy plane at p and q; of a
                 planar beam 1 elongation, 2 and 3 bending.
             name: What the element is called.
+            section: How it is drawn, see `look`.
         """
         released = targets.deformations(_kind("BEAM", self._planar), release)
-        element = self._beam(p, q, y, (), name)
+        shape = look_targets.shape_of(section)
+        element = self._beam(p, q, y, (), name, shape)
         if released:
             self.release(element, *released)
         return element
 
-    def wire(self, p: Node, q: Node, y: Sequence[float] | None = None, name: str = "") -> Element:
-        """A wire flexure: its elongation is held, torsion and bending are released."""
-        return self._beam(p, q, y, (2, 3) if self._planar else (2, 3, 4, 5, 6), name)
+    def wire(
+        self,
+        p: Node,
+        q: Node,
+        y: Sequence[float] | None = None,
+        name: str = "",
+        *,
+        section: Section | None = None,
+    ) -> Element:
+        """A wire flexure: its elongation is held, torsion and bending are released.
+
+        `section` is how it is drawn, see `look`: as a rule the diameter [m].
+        """
+        shape = look_targets.shape_of(section)
+        return self._beam(p, q, y, (2, 3) if self._planar else (2, 3, 4, 5, 6), name, shape)
 
     def sheet(
         self,
@@ -119,6 +143,8 @@ class Builder:
         width: Sequence[float] | None = None,
         beams: int = 1,
         name: str = "",
+        *,
+        section: Sequence[float] | None = None,
     ) -> Sheet:
         """A sheet flexure: elongation and in-plane bending are held, the rest released.
 
@@ -132,28 +158,33 @@ class Builder:
                 sheet from its side and takes no width.
             beams: Into how many equal beams the sheet is divided.
             name: What the sheet is called.
+            section: Width and thickness [m], as it is drawn.
         """
         draft = self._change()
         name = targets.text(name, "the name of a sheet")
+        shape = look_targets.sheet_shape(section)
         normal = targets.sheet_normal(draft, self._owner, p, q, width)
         points = targets.between(draft, self._owner, p, q, beams)
         nodes = (p, *(self.node(*point) for point in points), q)
         names = [f"{name}, {i + 1}" if name and beams > 1 else name for i in range(beams)]
         released = (2, 3) if self._planar else (2, 5, 6)
         elements = tuple(
-            self._beam(nodes[i], nodes[i + 1], normal, released, names[i]) for i in range(beams)
+            self._beam(nodes[i], nodes[i + 1], normal, released, names[i], shape)
+            for i in range(beams)
         )
         return Sheet(elements, nodes)
 
-    def rigid(self, p: Node, q: Node, name: str = "") -> Element:
+    def rigid(self, p: Node, q: Node, name: str = "", *, section: Section | None = None) -> Element:
         """A rigid link that carries q with p.
 
         It becomes an RBEAM, which holds the position of q alone, unless the orientation
         of q is needed by another element or by a class that names its coordinates, or
         the link itself is given a class; then it becomes a BEAM with everything held.
         The deformations of `release` and `independent` are those of a BEAM.
+        `section` is how it is drawn, see `look`.
         """
-        element = self._beam(p, q, None, (), name)
+        shape = look_targets.shape_of(section)
+        element = self._beam(p, q, None, (), name, shape)
         draft = self._change()
         draft.rigid.add(len(draft.kinds) - 1)
         return element
@@ -205,6 +236,7 @@ class Builder:
         y: Sequence[float] | None,
         released: tuple[int, ...],
         name: str,
+        shape: Shape | None = None,
     ) -> Element:
         draft, owner = self._change(), self._owner
         if y is not None and draft.planar:
@@ -217,7 +249,8 @@ class Builder:
             targets.orientation(draft, owner, q),
         )
         name = targets.text(name, "the name of an element")
-        number = draft.add_element(_kind("BEAM", draft.planar), slots, name, hint, released)
+        kind = _kind("BEAM", draft.planar)
+        number = draft.add_element(kind, slots, name, hint, released, shape)
         return Element(number, owner)
 
     # Classes ----------------------------------------------------------------
@@ -255,6 +288,41 @@ class Builder:
         """
         targets.give_deformations(
             self._change(), self._owner, element, deformations, Class.DEPENDENT
+        )
+
+    # Pictures ---------------------------------------------------------------
+
+    def look(
+        self,
+        target: Element | Sheet | Node | int,
+        *,
+        section: Section | None = None,
+        colour: Sequence[float] | None = None,
+        edge_colour: Sequence[float] | None = None,
+        opacity: float | None = None,
+        drawn: bool | None = None,
+    ) -> None:
+        """Say how elements are drawn; the analysis does not use it.
+
+        What is not given stays as it was.
+
+        Args:
+            target: An element, a sheet (each of its beams), the point beyond a hinge, or
+                an element's number.
+            section: A diameter, or the sizes along the local y and z axes [m]; of a sheet
+                its width and its thickness, whatever its local axes are.
+            colour: Red, green and blue, from 0 to 1.
+            edge_colour: The same for edges.
+            opacity: From 0, invisible, to 1.
+            drawn: Whether it is drawn at all.
+
+        Raises:
+            ModelError: something of it is wrong; then nothing has changed.
+        """
+        draft = self._change()
+        indices = look_targets.indices_of(draft, self._owner, target)
+        draft.look.give(
+            indices, look_targets.said(target, section, colour, edge_colour, opacity, drawn)
         )
 
 

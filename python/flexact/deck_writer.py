@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from .draft import one_line
 from .elements import AXES, Class, NodeKind, element_kinds
+from .exchange import IntArray
+from .look import CrossSection, Look
 from .model_data import ModelData
 
 _IDENTITY = {
@@ -41,6 +43,7 @@ def deck_of(data: ModelData) -> str:
         list(_deformations(data, Class.DEPENDENT, "RLSE")),
         list(_deformations(data, Class.INDEPENDENT, "DYNE")),
         ["END"],
+        [] if data.given_look is None else _picture(data.given_look, data.arrays.element_number),
     ]
     return "\n".join(line for block in blocks for line in block) + "\n"
 
@@ -95,3 +98,50 @@ def _deformations(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]
         if len(modes) < np.count_nonzero(a.deformation_class[:, index]):
             words += map(str, modes)
         yield " ".join(words)
+
+
+#: So many numbers of elements stand in a line of the picture block.
+_NUMBERS_A_LINE = 16
+
+
+def _picture(look: Look, numbers: IntArray) -> Iterator[str]:
+    """The picture block; elements that look alike share their options."""
+    yield from ("HALT", "END", "", "VISUALIZATION")
+    for name, options in (("BEAMPROPS", _cross_sections(look)), ("GRAPHICS", _colours(look))):
+        alike: dict[tuple[str, ...], list[int]] = {}
+        for number, lines in zip(numbers.tolist(), options, strict=True):
+            if lines:
+                alike.setdefault(lines, []).append(number)
+        for lines, elements in alike.items():
+            # Without numbers a group is all elements.
+            all_of_them = len(elements) == numbers.size
+            for line in [name] if all_of_them else _in_lines(name, elements):
+                yield line
+                yield from lines
+    yield from _in_lines("DONOTDRAW", numbers[~look.drawn].tolist())
+
+
+def _in_lines(name: str, elements: list[int]) -> Iterator[str]:
+    for i in range(0, len(elements), _NUMBERS_A_LINE):
+        yield " ".join([name, *map(str, elements[i : i + _NUMBERS_A_LINE])])
+
+
+def _cross_sections(look: Look) -> Iterable[tuple[str, ...]]:
+    for kind, sizes in zip(look.cross_section.tolist(), look.dimensions.tolist(), strict=True):
+        lines = [f"CROSSTYPE {CrossSection(kind).name}"] if kind else []
+        if any(sizes):
+            round_one = kind in (CrossSection.CIRC, CrossSection.CIRCHOL)
+            lines.append("CROSSDIM " + " ".join(map(repr, sizes[:1] if round_one else sizes)))
+        yield tuple(lines)
+
+
+def _colours(look: Look) -> Iterable[tuple[str, ...]]:
+    for face, edge, opacity in zip(
+        look.colour.tolist(), look.edge_colour.tolist(), look.opacity.tolist(), strict=True
+    ):
+        given = ("FACECOLOR", face), ("EDGECOLOR", edge), ("OPACITY", [opacity])
+        yield tuple(
+            f"{name} {' '.join(map(repr, values))}"
+            for name, values in given
+            if values[0] == values[0]
+        )

@@ -16,6 +16,7 @@ from .elements import (
     kind_of,
 )
 from .exchange import IntArray, model_arrays
+from .look_draft import LookDraft, Shape
 from .model_data import ModelData
 
 Vector = tuple[float, float, float]
@@ -46,6 +47,7 @@ class Draft:
         self.vectors: list[Vector] = []
         self.classes: list[tuple[int, ...]] = []
         self.names: dict[int, str] = {}
+        self.look = LookDraft()
         #: Classes that were stated for single deformations, by index.
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
@@ -74,6 +76,8 @@ class Draft:
         draft.vectors = list(map(tuple, a.element_vector.T.tolist()))
         draft.classes = list(map(tuple, a.deformation_class.T.tolist()))
         draft.names = {i: name for i, name in enumerate(data.element_names) if name}
+        if data.given_look is not None:
+            draft.look = LookDraft.of(data.given_look)
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
         return draft
@@ -101,6 +105,7 @@ class Draft:
         name: str,
         vector: Vector = NO_VECTOR,
         released: Iterable[int] = (),
+        shape: Shape | None = None,
     ) -> int:
         """Add an element and return its number; `released` are part of what it is."""
         number = self.last_element + 1
@@ -110,6 +115,8 @@ class Draft:
             name = one_line(name)
             if name:
                 self.names[len(self.kinds)] = name
+        if shape is not None:
+            self.look.shape[len(self.kinds)] = shape
         if self._index_of is not None:
             self._index_of[number] = len(self.kinds)
         self.last_element = number
@@ -191,7 +198,8 @@ class Draft:
         names = tuple(self.names.get(i, "") for i in range(len(self.kinds)))
         wrong = [_unused(number) for number in self._given_in_vain(set(numbers))]
         found = Problems.of(wrong) if wrong else None
-        return ModelData(arrays, self.planar, name, names, found=found)
+        look = self.look.freeze(len(self.kinds))
+        return ModelData(arrays, self.planar, name, names, found=found, given_look=look)
 
     def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
         """Kinds, slots and classes, with the kind of every rigid element decided.

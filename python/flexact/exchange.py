@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 IntArray = NDArray[np.int32]
 FloatArray = NDArray[np.float64]
 ByteArray = NDArray[np.int8]
+BoolArray = NDArray[np.bool_]
 
 
 class ModelArrays(NamedTuple):
@@ -46,6 +47,15 @@ class RawDiagnostics(NamedTuple):
     """(240, 4, 100) code, message, label, help, blank padded."""
 
 
+class RawLook(NamedTuple):
+    """How elements are drawn, as a deck says."""
+
+    choice: IntArray
+    """(2, ne) cross-section, a `CrossSection`; 1 where drawn."""
+    value: FloatArray
+    """(9, ne) sizes along local y and z [m], colour, colour of edges, opacity; NaN not given."""
+
+
 class RawDeck(NamedTuple):
     """What reading a deck gives."""
 
@@ -54,6 +64,8 @@ class RawDeck(NamedTuple):
     """(2, ne) first and last place of each element's name, 0 without one."""
     planar: bool
     problems: RawDiagnostics
+    look: RawLook | None
+    """None where the deck has nothing of it."""
 
 
 class RawCount(NamedTuple):

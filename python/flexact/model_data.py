@@ -11,6 +11,7 @@ from . import _boundary
 from .diagnostics import DeckError, Diagnostic, ModelError, Problems, Severity, problems_of
 from .exchange import IntArray, ModelArrays, RawCount
 from .frozen import Frozen
+from .look import Look
 from .source import Source, decode
 
 #: As the core says it of a deck.
@@ -58,6 +59,7 @@ class ModelData(Frozen):
         source: The deck's text, for a model that was read.
         found: What reading the deck, or making the arrays, found; None where the arrays
             are still to be checked.
+        given_look: What was said about drawing the elements; None where nothing was.
     """
 
     arrays: ModelArrays
@@ -66,6 +68,7 @@ class ModelData(Frozen):
     element_names: Sequence[str]
     source: Source | None = None
     found: Problems | None = None
+    given_look: Look | None = None
 
     @cached_property
     def problems(self) -> Problems:
@@ -75,6 +78,13 @@ class ModelData(Frozen):
         if not self.arrays.element_number.size:
             return Problems.of([_NOTHING])
         return problems_of(_boundary.check_model(self.arrays))
+
+    @cached_property
+    def look(self) -> Look:
+        """How the elements are to be drawn."""
+        if self.given_look is not None:
+            return self.given_look
+        return Look.plain(self.arrays.element_number.size)
 
     @cached_property
     def node_index(self) -> dict[int, int]:

@@ -8,6 +8,7 @@ from typing import BinaryIO
 
 from . import _boundary
 from .diagnostics import DeckError, Diagnostic, Place, Problems, Severity, problems_of
+from .look import Look
 from .model import Model
 from .model_data import DeckNames, ModelData
 from .source import Source
@@ -112,7 +113,9 @@ def _model(raw: bytes, name: str) -> Model:
     if problems.errors:
         raise DeckError(problems, name, source)
     names = DeckNames(raw, deck.name)
-    return Model.from_data(ModelData(deck.arrays, deck.planar, name, names, source, problems))
+    look = Look.of(deck.look) if deck.look is not None else None
+    data = ModelData(deck.arrays, deck.planar, name, names, source, problems, look)
+    return Model.from_data(data)
 
 
 def _require_text(raw: bytes, name: str) -> None:

@@ -23,7 +23,7 @@ from .handles import Element, Node, Sheet
 #: As the core's check of a y vector.
 _PARALLEL = 1.0e-6
 #: What gives three parts and still is no vector.
-_UNORDERED = (str, bytes, bytearray, set, frozenset, dict)
+UNORDERED = (str, bytes, bytearray, set, frozenset, dict)
 _BY_NUMBER = "a deformation is given by its number"
 
 
@@ -34,9 +34,9 @@ def vector(given: Sequence[float], what: str) -> Vector:
         ModelError: they are not.
     """
     try:
-        if isinstance(given, _UNORDERED):
+        if isinstance(given, UNORDERED):
             raise TypeError
-        x, y, z = (_real(part) for part in given)
+        x, y, z = (real(part) for part in given)
     except (TypeError, ValueError, OverflowError):
         raise model_error("bad-number", f"the {what} must be three numbers") from None
     if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
@@ -44,7 +44,8 @@ def vector(given: Sequence[float], what: str) -> Vector:
     return x, y, z
 
 
-def _real(part: object) -> float:
+def real(part: object) -> float:
+    """A number, but no text that reads as one."""
     if isinstance(part, (str, bytes, bytearray, complex)):
         raise TypeError
     return float(part)  # type: ignore[arg-type]
@@ -76,7 +77,8 @@ def axis(draft: Draft, given: Sequence[float] | None) -> Vector:
     return direction(given, "axis")
 
 
-def _wrong_model(what: str) -> ModelError:
+def wrong_model(what: str) -> ModelError:
+    """The error for a handle of another model."""
     return model_error("other-model", f"the {what} belongs to another model")
 
 
@@ -84,7 +86,7 @@ def position(draft: Draft, owner: object, point: Node | int) -> int:
     """Number of the position node of a point, or the number itself."""
     if isinstance(point, Node):
         if point.owner is not owner:
-            raise _wrong_model("node")
+            raise wrong_model("node")
         number = point.position
     else:
         number = _node_number(draft, point)
@@ -109,7 +111,7 @@ def orientation(draft: Draft, owner: object, point: Node) -> int:
             "make one with node(x, y, z), or with handle(position, orientation) from numbers",
         )
     if point.owner is not owner:
-        raise _wrong_model("node")
+        raise wrong_model("node")
     return point.orientation
 
 
@@ -246,7 +248,7 @@ def give_coordinates(
     """Give coordinates of a point or a node a class; all where none is named."""
     if isinstance(target, Node):
         if target.owner is not owner:
-            raise _wrong_model("node")
+            raise wrong_model("node")
         numbers = [target.position, target.orientation]
     elif isinstance(target, (Element, Sheet)):
         raise model_error("not-a-node", "an element has deformations, not coordinates")
@@ -277,6 +279,15 @@ def _coordinate(draft: Draft, numbers: Sequence[int], name: str | int) -> tuple[
     )
 
 
+def element_index(draft: Draft, owner: object, target: object) -> int:
+    """Index of an element by its handle or its number."""
+    if isinstance(target, Element):
+        if target.owner is not owner:
+            raise wrong_model("element")
+        return draft.index_of(target.number)
+    return draft.index_of(_number(target, "an element is given by its handle or its number"))
+
+
 def give_deformations(
     draft: Draft,
     owner: object,
@@ -291,13 +302,7 @@ def give_deformations(
         for element in target.elements:
             give_deformations(draft, owner, element, which, value)
         return
-    if isinstance(target, Element):
-        if target.owner is not owner:
-            raise _wrong_model("element")
-        index = draft.index_of(target.number)
-    else:
-        number = _number(target, "an element is given by its handle or its number")
-        index = draft.index_of(number)
+    index = element_index(draft, owner, target)
     numbers = [_number(item, _BY_NUMBER) for item in which]
     every = range(1, draft.deformations_of(index) + 1)
     draft.state_deformations(index, numbers or every, value)

@@ -44,7 +44,7 @@ def describe(analysis: Analysis, *, about_model: bool = True, most: int | None =
     sections = (
         _verdict(analysis),
         _counts(analysis),
-        _decision(analysis),
+        decision(analysis),
         _motions(analysis, most),
         _self_stresses(analysis, most),
         _notes(analysis, about_model),
@@ -101,7 +101,8 @@ def _counts(analysis: Analysis) -> Iterator[str]:
     yield f"{_plural(freedom, 'degree', '', 's')} of freedom declared."
 
 
-def _decision(analysis: Analysis) -> Iterator[str]:
+def decision(analysis: Analysis) -> Iterator[str]:
+    """Sentences on the rank: size, method, gap, certainty, margin, condition."""
     rows, columns, rank = analysis.rows, analysis.columns, analysis.rank
     size = f"{_plural(rows, 'row', '', 's')} and {_plural(columns, 'column', '', 's')}"
     yield f"D(c) has {size}; its rank is {rank}."
@@ -190,10 +191,11 @@ def _motions(analysis: Analysis, most: int | None) -> Iterator[str]:
         yield _listed(f"  {number}. ", parts)
     yield from _more(count, len(analysis.motions), most, "motion", "s")
     yield from _basis(count, "motions")
-    yield from _remedies_of_motions(analysis)
+    yield from remedies_of_motions(analysis)
 
 
-def _remedies_of_motions(analysis: Analysis) -> Iterator[str]:
+def remedies_of_motions(analysis: Analysis) -> Iterator[str]:
+    """What may be declared or held so that there are fewer motions."""
     count = analysis.under_constrained
     able = _columns(analysis, remedies.coordinates(analysis)[: _PARTS + 1])
     operands = remedies.coordinate_operands(analysis, *able[0]) if able else ""
@@ -209,7 +211,7 @@ def _remedies_of_motions(analysis: Analysis) -> Iterator[str]:
         operands = _operands(analysis, *changed[0])
         yield _listed(
             "Or declare or hold one of these released deformations: ",
-            (_deformation(analysis, *place) for place in changed),
+            (deformation_name(analysis, *place) for place in changed),
             note=f"(DYNE {operands} instead of RLSE {operands})",
         )
     if 1 < count <= MOST_MODES:
@@ -231,27 +233,28 @@ def _self_stresses(analysis: Analysis, most: int | None) -> Iterator[str]:
     index_of = analysis.data.element_index
     for number, stress in enumerate(analysis.self_stresses[:most], start=1):
         parts = (
-            f"{_deformation(analysis, index_of[element], mode)} {value:.4g} "
-            f"{_unit(analysis, index_of[element], mode)}"
+            f"{deformation_name(analysis, index_of[element], mode)} {value:.4g} "
+            f"{unit_of(analysis, index_of[element], mode)}"
             for element, mode, value in stress.largest(_PARTS + 1)
         )
         yield _listed(f"  {number}. ", parts)
     yield from _more(count, len(analysis.self_stresses), most, "self-stress", "es")
     yield from _basis(count, "self-stresses")
-    yield from _remedies_of_self_stresses(analysis)
+    yield from remedies_of_self_stresses(analysis)
 
 
-def _remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
+def remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
+    """What may be released, freed or taken away so that there are fewer self-stresses."""
     count = analysis.over_constrained
     able = _rows(analysis, remedies.releases(analysis)[: _PARTS + 1])
     driven = remedies.driven_deformations(analysis)
     moved, held = remedies.driven_coordinates(analysis), remedies.supports(analysis)
-    declared = [_deformation(analysis, *place) for place in driven[: _PARTS + 1]]
+    declared = [deformation_name(analysis, *place) for place in driven[: _PARTS + 1]]
     declared += [_coordinate(analysis, *place) for place in moved[: _PARTS + 1]]
     release = f"(RLSE {_operands(analysis, *able[0])})" if able else ""
     instead = f"(RLSE {_operands(analysis, *driven[0])} instead)" if driven else ""
     offers = (
-        ("release one of: ", [_deformation(analysis, *p) for p in able], release, _PARTS),
+        ("release one of: ", [deformation_name(analysis, *p) for p in able], release, _PARTS),
         ("take a declaration away (driven against a constraint): ", declared, instead, _PARTS),
         (
             "free a support: ",
@@ -269,7 +272,7 @@ def _remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
     if len(chosen) == count > 1:
         yield _listed(
             f"To remove {_all(count)}, release all of: ",
-            (_deformation(analysis, *p) for p in _rows(analysis, chosen)),
+            (deformation_name(analysis, *p) for p in _rows(analysis, chosen)),
             most=count,
         )
 
@@ -323,7 +326,8 @@ def _operands(analysis: Analysis, index: int, mode: int) -> str:
     return f"{analysis.data.arrays.element_number[index]} {mode}"
 
 
-def _deformation(analysis: Analysis, index: int, mode: int) -> str:
+def deformation_name(analysis: Analysis, index: int, mode: int) -> str:
+    """A deformation of an element, given by its index from 0, in words."""
     arrays = analysis.data.arrays
     name = harmless(analysis.data.element_names[index])
     called = f" ({name})" if name else ""
@@ -331,7 +335,8 @@ def _deformation(analysis: Analysis, index: int, mode: int) -> str:
     return f"element {arrays.element_number[index]}{called} e{mode} {word}"
 
 
-def _unit(analysis: Analysis, index: int, mode: int) -> str:
+def unit_of(analysis: Analysis, index: int, mode: int) -> str:
+    """The unit of the stress resultant of a deformation: N or N m."""
     dual = dual_table()[analysis.data.arrays.element_kind[index], mode - 1]
     return "N" if dual == Dual.FORCE else "N m"
 
