@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import meshio
 
     from .certainty import Assessment
+    from .freedoms import Freedom
     from .pairs import Pair
 
 #: A smallest non-zero singular value below this part of the largest is worth a warning.
@@ -278,6 +279,16 @@ class Analysis(Frozen):
     def self_stresses(self) -> Modes[SelfStress]:
         """Stresses without load: an orthonormal basis, from U of eq. (16); see `motions`."""
         return Modes(SelfStress, self)
+
+    @cached_property
+    def freedoms(self) -> tuple[Freedom, ...]:
+        """The declared degrees of freedom, with the motion of each (`flexact.freedoms`).
+
+        Of very many only the first are here.
+        """
+        from .freedoms import freedoms_of
+
+        return freedoms_of(self)
 
     @cached_property
     def assembly(self) -> RawAssembly:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .elements import Dual, NodeKind, coordinate_name, dual_table
 from .exchange import Basis, FloatArray, IntArray
 from .frozen import Frozen
+from .model_data import ModelData
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -87,6 +88,11 @@ class Motion(Frozen):
 
     index: int
     analysis: Analysis
+
+    @property
+    def data(self) -> ModelData:
+        """The model whose coordinates it is a motion of."""
+        return self.analysis.data
 
     @property
     def vector(self) -> FloatArray:

@@ -1,0 +1,126 @@
+"""How the mechanism moves in each declared degree of freedom.
+
+A degree of freedom is an independent coordinate or deformation, eq. (6). Its motion is a
+velocity of the dependent coordinates that solves eq. (12) with that one independent velocity
+equal to one and the others zero. It is found as what becomes indeterminate when the one is
+no longer declared: in the null space of the D(c) that this leaves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .elements import Class, coordinate_name
+from .exchange import FloatArray
+from .frozen import Frozen
+from .model import Model
+from .model_data import ModelData
+
+if TYPE_CHECKING:
+    from .analysis import Analysis
+
+#: Of more degrees of freedom than this only the first are looked at.
+MOST = 24
+
+
+@dataclass(frozen=True, eq=False)
+class FreeMotion(Frozen):
+    """The velocities of all nodes in a declared degree of freedom.
+
+    Attributes:
+        data: The model without this declaration.
+        displacement: (nodes, 3) of each position [m]; zero rows for orientations.
+        rotation: (nodes, 3) of each orientation [rad]; zero rows for positions.
+    """
+
+    data: ModelData
+    displacement: FloatArray
+    rotation: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Freedom(Frozen):
+    """A declared degree of freedom: an independent coordinate or deformation, eq. (6).
+
+    Attributes:
+        analysis: The analysis that it belongs to.
+        place: Axis and node, or deformation and element, all from 0.
+        is_coordinate: Which of the two.
+    """
+
+    analysis: Analysis
+    place: tuple[int, int]
+    is_coordinate: bool
+
+    @property
+    def label(self) -> str:
+        """Such as "node 1 z" or "element 3 e6"."""
+        arrays = self.analysis.data.arrays
+        part, owner = self.place
+        if self.is_coordinate:
+            name = coordinate_name(int(arrays.node_kind[owner]), part)
+            return f"node {arrays.node_number[owner]} {name}"
+        return f"element {arrays.element_number[owner]} e{part + 1}"
+
+    @cached_property
+    def motion(self) -> FreeMotion | None:
+        """Its motion, with a velocity of one; None where the mechanism cannot move so.
+
+        Where motions are left that nothing determines, it is the one with the least part in
+        them.
+        """
+        from .analysis import analyse
+
+        data = self._undeclared()
+        freed = analyse(Model.from_data(data), method=self.analysis.asked.method)
+        if freed.under_constrained <= self.analysis.under_constrained:
+            return None
+        motions = tuple(freed.motions)
+        rates = np.array([self._rate(motion.displacement + motion.rotation) for motion in motions])
+        shares = rates / (rates @ rates)
+        moved, turned = np.zeros((2, data.arrays.node_kind.size, 3))
+        for share, motion in zip(shares.tolist(), motions, strict=True):
+            moved += share * motion.displacement
+            turned += share * motion.rotation
+        return FreeMotion(data, moved, turned)
+
+    def _rate(self, velocity: FloatArray) -> float:
+        """Its own velocity where the nodes have these (nodes, 3)."""
+        part, owner = self.place
+        if self.is_coordinate:
+            return float(velocity[owner, part])
+        raw = self.analysis.assembly
+        mine = raw.row_of == 6 * owner + part
+        return float(raw.value[mine] @ velocity.ravel()[raw.column_of[mine]])
+
+    def _undeclared(self) -> ModelData:
+        """The model in which it is dependent or released instead of independent."""
+        data = self.analysis.data
+        field = "coordinate_class" if self.is_coordinate else "deformation_class"
+        classes = getattr(data.arrays, field).copy(order="F")
+        classes[self.place] = Class.DEPENDENT
+        return ModelData(
+            data.arrays._replace(**{field: classes}),
+            data.planar,
+            data.name,
+            data.element_names,
+            given_look=data.given_look,
+        )
+
+
+def freedoms_of(analysis: Analysis) -> tuple[Freedom, ...]:
+    """The declared degrees of freedom, coordinates first; of very many the first."""
+    arrays = analysis.data.arrays
+    found = []
+    for classes, is_coordinate in (
+        (arrays.coordinate_class, True),
+        (arrays.deformation_class, False),
+    ):
+        owner, part = np.nonzero(classes.T == Class.INDEPENDENT)
+        places = zip(part[:MOST].tolist(), owner[:MOST].tolist(), strict=True)
+        found += [Freedom(analysis, place, is_coordinate) for place in places]
+    return tuple(found[:MOST])

@@ -1,0 +1,42 @@
+"""What is drawn of a model: members with their sizes, symbols, poses, shapes and resultants.
+
+Numbers alone; what draws them (pictures, meshes, pages) stands elsewhere.
+"""
+
+from .colours import QUANTITIES
+from .field import Field, field_along
+from .forms import Form
+from .hinges import Hinges
+from .members import Members
+from .movement import Movement, Moving, move
+from .pose import Pose, reference_pose
+from .resultants import Resultants, resultants
+from .scene import Scene, scene_of
+from .shapes import Strip, stations
+from .solids import Solid, solid
+from .supports import Arrows, Support, Supports
+
+__all__ = [
+    "QUANTITIES",
+    "Arrows",
+    "Field",
+    "Form",
+    "Hinges",
+    "Members",
+    "Movement",
+    "Moving",
+    "Pose",
+    "Resultants",
+    "Scene",
+    "Solid",
+    "Strip",
+    "Support",
+    "Supports",
+    "field_along",
+    "move",
+    "reference_pose",
+    "resultants",
+    "scene_of",
+    "solid",
+    "stations",
+]

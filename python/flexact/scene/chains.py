@@ -1,0 +1,47 @@
+"""Members in a row: the beams into which a sheet or a wire is divided."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..exchange import FloatArray
+
+#: Cosine of the largest angle between two beams of one sheet.
+_IN_LINE = 0.9998
+
+
+def chain_lengths(
+    nodes: np.ndarray, form: np.ndarray, ex: FloatArray, length: FloatArray
+) -> FloatArray:
+    """(k,) length of the row of equal members in line that each member belongs to [m].
+
+    Args:
+        nodes: (k, 2) position nodes of the ends.
+        form: (k,) forms; only members of one form make a row.
+        ex: (k, 3) directions.
+        length: (k,) [m].
+    """
+    owner = list(range(len(length)))
+
+    def root(i: int) -> int:
+        while owner[i] != i:
+            owner[i] = owner[owner[i]]
+            i = owner[i]
+        return i
+
+    for i, j in _neighbours(nodes):
+        if form[i] == form[j] and abs(ex[i] @ ex[j]) > _IN_LINE:
+            owner[root(i)] = root(j)
+    roots = np.array([root(i) for i in range(len(owner))], dtype=np.int64)
+    return np.asarray(np.bincount(roots, length, len(owner))[roots], np.float64)
+
+
+def _neighbours(nodes: np.ndarray) -> list[tuple[int, int]]:
+    """Members that are alone with each other at a node."""
+    ends = nodes.ravel()
+    order = np.argsort(ends, kind="stable")
+    member = np.repeat(np.arange(len(nodes)), 2)[order]
+    starts = np.flatnonzero(np.r_[True, np.diff(ends[order]) > 0]) if ends.size else np.array([])
+    counts = np.diff(np.r_[starts, ends.size])
+    first = starts[counts == 2].astype(np.int64)
+    return list(zip(member[first].tolist(), member[first + 1].tolist(), strict=True))

@@ -1,0 +1,154 @@
+"""The path of a motion: poses in which the deformations that it holds stay zero, or nearly so.
+
+From the reference one step after the other: along the motion, then back towards D(x) = 0 of
+eq. (5) by Gauss-Newton steps of least norm. Where the motion is infinitesimal only, they end
+at the least deformations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import _boundary
+from ..configuration import Configuration
+from ..elements import Class, Dual, NodeKind, dual_table
+from ..exchange import FloatArray
+from ..frozen import Frozen
+from ..model_data import ModelData
+from .pose import Pose, pose_of
+
+if TYPE_CHECKING:
+    from .movement import Moving
+
+#: More coordinates than these are not followed: each step solves a dense system.
+_MOST_COORDINATES = 300
+#: Steps back towards the path, and the correction [scene size] that ends them.
+_MOST_STEPS = 12
+_SETTLED = 1.0e-11
+#: Singular values below this part of the largest belong to directions that stay.
+_CUT = 1.0e-4
+#: The corrections of a step may be this part of the step itself.
+_FARTHEST = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Path(Frozen):
+    """Poses along a motion.
+
+    Attributes:
+        poses: One a share.
+        deviation: The largest deformation in them that the motion holds, as a part of the
+            scene's size.
+    """
+
+    poses: tuple[Pose, ...]
+    deviation: float
+
+
+def follow(motion: Moving, shares: FloatArray, size: float) -> Path | None:
+    """The poses at shares of a motion that grow from the reference on.
+
+    Args:
+        motion: The motion; what its model holds stays zero, what it fixes stays.
+        shares: (k,) by which the motion is multiplied, of one sign.
+        size: Of the scene [m].
+
+    Returns:
+        The path, or None where there is none near, or the model is large.
+    """
+    track = _Track(motion.data, size)
+    if not 0 < track.columns.size <= _MOST_COORDINATES:
+        return None
+    direction = track.scaled(motion)
+    length = float(np.linalg.norm(direction))
+    if not length > 0.0:
+        return None
+    direction *= np.sign(shares[0]) / length
+    here = track.reference
+    poses, deviation = [], 0.0
+    for step in np.abs(np.diff(shares, prepend=0.0)).tolist():
+        found = track.step(here, direction, step * length)
+        if found is None:
+            return None
+        here, error = found
+        deviation = max(deviation, error)
+        poses.append(pose_of(motion.data.arrays, here))
+        direction = track.onward(here, direction)
+    return Path(tuple(poses), deviation)
+
+
+class _Track:
+    """The held deformations of a model as functions of the coordinates that may change."""
+
+    def __init__(self, data: ModelData, size: float) -> None:
+        self.arrays = data.arrays
+        self.entries = data.count.entries
+        self.size = size
+        classes = self.arrays.deformation_class
+        held = (classes == Class.FIXED) | (classes == Class.INDEPENDENT)
+        self.rows = np.flatnonzero(held.T.ravel())
+        self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
+        # Rotations count as the displacements that they make at the scene's size.
+        placed = self.arrays.node_kind[self.columns // 3] <= NodeKind.POSITION
+        self.weight = np.where(placed, 1.0, size)
+        turning = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
+        self.row_weight = np.where(turning, size, 1.0)
+
+    @property
+    def reference(self) -> Configuration:
+        """Where the path starts."""
+        return Configuration(self.arrays.node_kind, self.arrays.node_value.T)
+
+    def scaled(self, motion: Moving) -> FloatArray:
+        """(columns,) the motion, rotations times the size of the scene."""
+        both = (motion.displacement + motion.rotation).ravel()
+        return np.asarray(both[self.columns] * self.weight)
+
+    def step(
+        self, start: Configuration, ahead: FloatArray, step: float
+    ) -> tuple[Configuration, float] | None:
+        """The configuration after a step, and its largest held deformation [scene size].
+
+        None where there is none near.
+        """
+        here, went = self._moved(start, step * ahead), 0.0
+        for _ in range(_MOST_STEPS):
+            error, jacobian = self._assembled(here)
+            if not np.all(np.isfinite(error)):
+                return None
+            # Corrections are across the motion, so that its share stays.
+            across = jacobian - np.outer(jacobian @ ahead, ahead)
+            back = np.asarray(-np.linalg.lstsq(across, error, rcond=_CUT)[0], np.float64)
+            correction = float(np.linalg.norm(back))
+            if correction <= _SETTLED * self.size:
+                return here, float(np.abs(error).max(initial=0.0)) / self.size
+            went += correction
+            if went > _FARTHEST * step:
+                return None
+            here = self._moved(here, back)
+        return None
+
+    def onward(self, here: Configuration, direction: FloatArray) -> FloatArray:
+        """The direction in which the path goes on: the last one within the null space."""
+        _, jacobian = self._assembled(here)
+        along = direction - np.linalg.lstsq(jacobian, jacobian @ direction, rcond=_CUT)[0]
+        length = float(np.linalg.norm(along))
+        return np.asarray(along / length) if length > _FARTHEST else direction
+
+    def _moved(self, start: Configuration, change: FloatArray) -> Configuration:
+        delta = np.zeros(3 * self.arrays.node_kind.size)
+        delta[self.columns] = change / self.weight
+        return start.moved(delta.reshape(-1, 3))
+
+    def _assembled(self, here: Configuration) -> tuple[FloatArray, FloatArray]:
+        """Held deformations (rows,) [m], their derivatives (rows, columns) [1]."""
+        nodes, elements = self.arrays.node_number.size, self.arrays.element_number.size
+        raw = _boundary.assemble(self.arrays, self.entries, here.value.T, np.zeros(elements))
+        full = np.zeros((6 * elements, 3 * nodes))
+        np.add.at(full, (raw.row_of, raw.column_of), raw.value)
+        error = raw.deformation.T.ravel()[self.rows] * self.row_weight
+        part = full[np.ix_(self.rows, self.columns)]
+        return error, self.row_weight[:, None] * part / self.weight

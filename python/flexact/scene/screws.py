@@ -1,0 +1,68 @@
+"""A motion to a finite extent: rigid bodies on their screws, other nodes straight on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..elements import NodeKind
+from ..exchange import ModelArrays
+from .forms import BEAMS, LINKS, all_held, is_one_of
+from .places import slots_of
+from .pose import Pose, reference_pose
+from .rotations import matrix_of, screw_matrix
+
+if TYPE_CHECKING:
+    from .movement import Moving
+
+
+def moved_by_screws(motion: Moving, share: float) -> Pose:
+    """The pose after a motion times `share`.
+
+    Every node of a rigid body moves on the body's screw, so that the body keeps its shape. A
+    node of no body moves straight and turns about its own axis.
+    """
+    arrays = motion.data.arrays
+    moved, turned = share * motion.displacement, share * motion.rotation
+    reference = reference_pose(arrays)
+    position = reference.position + moved
+    rotation = matrix_of(turned)
+    centre, turn = _bodies(arrays)
+    body = np.flatnonzero(centre >= 0)
+    arm = reference.position[body] - reference.position[centre[body]]
+    about = turned[turn[body]]
+    carried = np.einsum("kxy,ky->kx", screw_matrix(about), moved[centre[body]])
+    position[body] = (
+        reference.position[centre[body]] + carried + np.einsum("kxy,ky->kx", matrix_of(about), arm)
+    )
+    placed = arrays.node_kind <= NodeKind.POSITION
+    rotation[placed] = np.eye(3)
+    return Pose(position, rotation)
+
+
+def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
+    """Of each position node of a rigid body, a position node and an orientation node of it.
+
+    (nodes,) indices, -1 for nodes of no body.
+    """
+    rigid = is_one_of(arrays.element_kind, (*BEAMS, *LINKS)) & all_held(arrays)
+    owner = list(range(arrays.node_kind.size))
+
+    def root(i: int) -> int:
+        while owner[i] != i:
+            owner[i] = owner[owner[i]]
+            i = owner[i]
+        return i
+
+    slots = slots_of(arrays)[rigid]
+    for p, op, q, oq in slots.tolist():
+        for node in (p, q, oq):
+            if node >= 0:
+                owner[root(node)] = root(op)
+    centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
+    first: dict[int, tuple[int, int]] = {}
+    for p, op, q, _ in slots.tolist():
+        centre_here, turn_here = first.setdefault(root(op), (p, op))
+        centre[[p, q]], turn[[p, q]] = centre_here, turn_here
+    return centre, turn

@@ -1,0 +1,95 @@
+"""The surfaces of members: their sections along their stations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..exchange import FloatArray
+from ..frozen import Frozen
+from .members import Members
+from .shapes import Strip
+
+#: Corners of a round section.
+_ROUND = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Solid(Frozen):
+    """Surfaces of members that have equally many stations and corners.
+
+    Attributes:
+        member: (k,) which of the scene's members.
+        strip: (k,) which row of the strip.
+        at: (s,) stations, from 0 at p to 1 at q.
+        offset: (k, c, 2) corners of the sections along ey and ez [m].
+        points: (k, s, c, 3) corners along the member [m].
+        closed: Whether the corners go round; in the plane they are two edges.
+    """
+
+    member: np.ndarray
+    strip: np.ndarray
+    at: FloatArray
+    offset: FloatArray
+    points: FloatArray
+    closed: bool
+
+    @property
+    def quads(self) -> np.ndarray:
+        """(k, f, 4) corners of the faces, indices into `points.reshape(-1, 3)`.
+
+        Along the member first, station by station, then the two ends. Seen from outside they
+        go round anticlockwise.
+        """
+        k, s, c, _ = self.points.shape
+        faces = _faces(s, c, self.closed)
+        return np.asarray(np.arange(k)[:, None, None] * (s * c) + faces)
+
+
+def solid(strip: Strip, members: Members, planar: bool = False) -> list[Solid]:
+    """The surfaces of a strip: those with rectangular sections, then the round ones.
+
+    In the plane all are flat, two edges at a distance of the size along ey.
+    """
+    made = []
+    for shape in (False, True):
+        rows = np.flatnonzero(members.round[strip.member] == shape)
+        if planar:
+            rows = rows if shape else np.arange(strip.member.size)
+        if not rows.size or (planar and shape):
+            continue
+        member = strip.member[rows]
+        offset = members.section[member][:, None, :] * _corners(shape, planar)
+        across = strip.frame[rows][..., 1:]
+        points = strip.centre[rows][:, :, None] + np.einsum("ksxd,kcd->kscx", across, offset)
+        made.append(Solid(member, rows, strip.at, offset, points, not planar))
+    return made
+
+
+def _corners(round_: bool, planar: bool) -> FloatArray:
+    """(c, 2) corners of a section of unit size, anticlockwise about ex."""
+    if planar:
+        return np.array([[-0.5, 0.0], [0.5, 0.0]])
+    if not round_:
+        return np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
+    angle = 2 * np.pi * np.arange(_ROUND) / _ROUND
+    return np.column_stack((np.cos(angle), np.sin(angle))) / 2
+
+
+def _faces(s: int, c: int, closed: bool) -> np.ndarray:
+    """(f, 4) faces of one member; its ends are cut into quads."""
+    station = np.arange(s - 1)[:, None] * c
+    corner = np.arange(c if closed else c - 1)
+    follower = (corner + 1) % c
+    side = np.stack(
+        np.broadcast_arrays(
+            station + corner, station + follower, station + c + follower, station + c + corner
+        ),
+        axis=-1,
+    ).reshape(-1, 4)
+    if not closed:
+        # Seen from the side to which ez points.
+        return np.asarray(side[:, ::-1])
+    fan = np.array([[0, i, i + 1, i + 2] for i in range(1, c - 1, 2)])
+    return np.concatenate((side[:, ::1], fan[:, ::-1], fan + (s - 1) * c))
