@@ -479,7 +479,7 @@ contains
       ! Of what counts as zero though no pin holds it, the images are the left vectors.
       images = pack([(k, k=1, size(is_zero))], is_zero .and. .not. is_held)
       wanted = size(part%row) - size(part%column) + low%local%vectors + count(is_held .and. is_zero)
-      is_few = wanted <= most_left .or. real(size(part%row), wp)*wanted**2 <= most_work
+      is_few = wanted <= most_left .or. size(part%row)*real(wanted, wp)**2 <= most_work
       if (.not. is_few .and. size(images) == 0) then
          call find_scattered_vectors(operator_t(part%matrix%by_row, part%matrix%by_column), first_left, many)
          if (many%vectors > 0) then
