@@ -89,14 +89,23 @@ def test_stiff_members_keep_their_length_and_all_start_in_the_reference(name: st
 def test_the_largest_displacement_is_a_tenth_of_the_size(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
     scene = scene_of(analysis.data)
-    for motion in analysis.motions:
-        scale = move(scene, motion).scale
+    reference = list(stations(scene.members, scene.reference))
+    freedoms = [freedom.motion for freedom in analysis.freedoms if freedom.motion is not None]
+    for motion in (*analysis.motions[:4], *freedoms[:2]):
+        movement = move(scene, motion)
         along = field_along(scene.members, motion.displacement, motion.rotation)
-        largest = max(np.linalg.norm(each.displacement, axis=-1).max() for each in along)
-        turned = np.linalg.norm(motion.rotation, axis=1).max()
-        assert scale * largest <= 0.1 * scene.size * (1 + 1e-12)
-        assert scale * turned <= 1.0 + 1e-12
-        assert scale * largest >= 0.1 * scene.size * (1 - 1e-12) or scale * turned >= 1 - 1e-12
+        first_order = max(np.linalg.norm(each.displacement, axis=-1).max() for each in along)
+        assert movement.scale * first_order <= 0.1 * scene.size * (1 + 1e-12)
+        drawn = turned = 0.0
+        for pose in (movement.poses[0], movement.poses[-1]):
+            for here, there in zip(stations(scene.members, pose), reference, strict=True):
+                way = np.linalg.norm(here.centre - there.centre, axis=-1).max()
+                drawn = max(drawn, float(way) / scene.size)
+            turned = max(turned, float(np.linalg.norm(vector_of(pose.rotation), axis=1).max()))
+        assert drawn <= 0.1 * 1.003
+        # Less where rotations would be too large, or where the path ends before.
+        ends = name == "flexures/parallel_guide_four_beams"
+        assert drawn >= 0.1 * 0.985 or turned >= 0.99 or (ends and drawn > 0.08)
 
 
 def test_the_twelve_trusses_move_on_their_true_path() -> None:
@@ -110,7 +119,7 @@ def test_the_twelve_trusses_move_on_their_true_path() -> None:
     np.testing.assert_allclose(1 + np.sin(a) + np.sin(b) - np.cos(a) * np.cos(b), 0.0, atol=1e-9)
     assert np.interp(0.1, np.sort(a), np.sort(b)[::-1]) == pytest.approx(-0.1112, abs=2e-3)
     reached = np.linalg.norm(movement.poses[-1].position - scene.reference.position, axis=1)
-    assert reached.max() == pytest.approx(0.1 * scene.size, rel=0.2)
+    assert reached.max() == pytest.approx(0.1 * scene.size, rel=0.01)
 
 
 #: Classical answers, as in tests/reference/known_answers.json: Tarnai (1980) for the rings,
@@ -245,3 +254,14 @@ def test_a_freedom_that_a_stress_stops_has_no_motion() -> None:
     # Its bending at the clamped end cannot be free: the trap of tests/reference.
     analysis = flexact.analyse(flexact.read_text(text_of("flexures/folded_sheet_clamped_trap")))
     assert [freedom.motion for freedom in analysis.freedoms] == [None]
+
+
+def test_pin_jointed_bodies_move_each_on_its_own_screw() -> None:
+    # Two cranks on a bar, that share positions and no orientation: the supports stay.
+    analysis = flexact.analyse(flexact.read_text(text_of("linkages/parallelogram_flat")))
+    model = analysis.model
+    fixed = np.flatnonzero(np.all(model.coordinate_classes[:, :2] == Class.FIXED, axis=1))
+    assert fixed.size == 2
+    for motion in analysis.motions:
+        pose = moved_by_screws(motion, 0.5)
+        np.testing.assert_allclose(pose.position[fixed], model.positions[fixed], atol=1e-15)

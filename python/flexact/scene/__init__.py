@@ -7,7 +7,8 @@ from .colours import QUANTITIES
 from .field import Field, field_along
 from .forms import Form
 from .hinges import Hinges
-from .members import Members
+from .joints import joints_of
+from .members import Members, frames_along
 from .movement import Movement, Moving, move
 from .pose import Pose, reference_pose
 from .resultants import Resultants, resultants
@@ -33,6 +34,8 @@ __all__ = [
     "Support",
     "Supports",
     "field_along",
+    "frames_along",
+    "joints_of",
     "move",
     "reference_pose",
     "resultants",

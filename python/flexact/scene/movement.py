@@ -11,11 +11,12 @@ from ..exchange import FloatArray
 from ..frozen import Frozen
 from ..model_data import ModelData
 from .field import field_along
-from .path import follow
+from .path import follow, is_followed
 from .pose import Pose, reference_pose
-from .rotations import between
+from .rotations import between, vector_of
 from .scene import Scene
 from .screws import moved_by_screws
+from .shapes import stations
 
 #: The largest displacement that is drawn, as a part of the scene's size.
 AMPLITUDE = 0.1
@@ -27,6 +28,9 @@ _STEPS = 8
 #: to here nobody sees them.
 _TRUE = 1.0e-9
 _UNSEEN = 1.0e-3
+#: How well the farthest displacement is to fit, and how often it is tried.
+_FITS = 2.0e-3
+_MOST_FITS = 6
 
 
 class Moving(Protocol):
@@ -50,11 +54,11 @@ class Movement(Frozen):
     """A motion as it is drawn.
 
     Attributes:
-        scale: What the motion is multiplied by, so that the largest displacement along the
-            members is a tenth of the scene's size, and no rotation larger than 1 rad.
+        scale: What the motion is multiplied by, so that to first order the largest displacement
+            along the members is a tenth of the scene's size, and no rotation larger than 1 rad.
         deviation: The largest deformation in the poses that the motion holds, as a part of the
-            scene's size; infinite where none of it was looked at and rigid bodies move on the
-            screws of the motion.
+            scene's size; infinite where there is no such path near, NaN where the model is too
+            large to look for it. Then rigid bodies move on the screws of the motion.
         phases: (17,) from -1 to 1; 0 is the reference.
         poses: One a phase.
     """
@@ -68,6 +72,17 @@ class Movement(Frozen):
     def true_path(self) -> bool:
         """Whether the mechanism can move so far: the held deformations stay zero."""
         return self.deviation <= _TRUE
+
+    @property
+    def remark(self) -> str:
+        """What is to be said of the poses, a sentence."""
+        if self.true_path:
+            return "On its path: no held deformation changes."
+        if np.isnan(self.deviation):
+            return "Rigid bodies are drawn on the screws of their velocities: a large model."
+        if np.isinf(self.deviation):
+            return "Infinitesimal: rigid bodies are drawn on the screws of their velocities."
+        return f"Held deformations stay below {self.deviation:.1e} of the model's size."
 
     def pose(self, phase: float) -> Pose:
         """The pose at a phase from -1 to 1, between the two nearest ones."""
@@ -84,25 +99,59 @@ def move(scene: Scene, motion: Moving) -> Movement:
     """The poses of a motion on both sides of the reference.
 
     They lie on a path on which the deformations that the motion holds stay zero, or so small
-    that nobody sees them, where there is one and the model is not large.
+    that nobody sees them, where there is one and the model is not large. The larger of the two
+    farthest displacements is a tenth of the scene's size, unless rotations are too large.
     """
-    scale = scale_of(scene, motion)
-    shares = scale * np.arange(1, _STEPS + 1) / _STEPS
-    sides = [follow(motion, sign * shares, scene.size) for sign in (-1.0, 1.0)]
-    found = [side.poses for side in sides if side is not None and side.deviation <= _UNSEEN]
-    deviation = max(side.deviation if side is not None else np.inf for side in sides)
-    if len(found) < len(sides):
-        deviation = np.inf
-        found = [
-            tuple(moved_by_screws(motion, sign * share) for share in shares.tolist())
-            for sign in (-1.0, 1.0)
-        ]
-    poses = (*found[0][::-1], reference_pose(scene.data.arrays), *found[1])
+    scale = reach = scale_of(scene, motion)
+    sides, deviation = _swung(motion, reach, scene.size)
+    for _ in range(_MOST_FITS):
+        factor = _factor(scene, [side[-1] for side in sides])
+        if abs(factor - 1.0) < _FITS:
+            break
+        reach *= factor
+        fitted, there = _swung(motion, reach, scene.size)
+        if np.isinf(there) and np.isfinite(deviation):
+            # The path ends before.
+            break
+        sides, deviation = fitted, there
+    poses = (*sides[0][::-1], reference_pose(scene.data.arrays), *sides[1])
     return Movement(scale, deviation, np.linspace(-1.0, 1.0, len(poses)), poses)
 
 
+def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
+    """The poses to both sides, up to the motion times `reach`; the deviation."""
+    shares = reach * np.arange(1, _STEPS + 1) / _STEPS
+    followed = is_followed(motion.data)
+    if followed:
+        sides = [follow(motion, sign * shares, size) for sign in (-1.0, 1.0)]
+        found = [side for side in sides if side is not None and side.deviation <= _UNSEEN]
+        if len(found) == len(sides):
+            return [side.poses for side in found], max(side.deviation for side in found)
+    swings = [
+        tuple(moved_by_screws(motion, sign * share) for share in shares.tolist())
+        for sign in (-1.0, 1.0)
+    ]
+    return swings, np.inf if followed else np.nan
+
+
+def _factor(scene: Scene, ends: list[Pose]) -> float:
+    """By how much poses are too near to the reference, to be as far as they may."""
+    largest = turned = 0.0
+    reference = list(stations(scene.members, scene.reference))
+    for pose in ends:
+        way = np.linalg.norm(pose.position - scene.reference.position, axis=1)
+        largest = max(largest, float(way.max(initial=0.0)))
+        for here, there in zip(stations(scene.members, pose), reference, strict=True):
+            way = np.linalg.norm(here.centre - there.centre, axis=-1)
+            largest = max(largest, float(way.max(initial=0.0)))
+        angle = np.linalg.norm(vector_of(pose.rotation), axis=1)
+        turned = max(turned, float(angle.max(initial=0.0)))
+    factor = _least(AMPLITUDE * scene.size, largest, _LARGEST_ROTATION, turned)
+    return min(max(factor, 0.5), 2.0) if factor > 0.0 else 1.0
+
+
 def scale_of(scene: Scene, motion: Moving) -> float:
-    """What a motion is multiplied by when it is drawn."""
+    """What a motion is multiplied by when it is drawn, to first order."""
     along = field_along(scene.members, motion.displacement, motion.rotation)
     largest = max(
         (float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along),
@@ -110,9 +159,10 @@ def scale_of(scene: Scene, motion: Moving) -> float:
     )
     largest = max(largest, float(np.linalg.norm(motion.displacement, axis=1).max(initial=0.0)))
     turned = float(np.linalg.norm(motion.rotation, axis=1).max(initial=0.0))
-    bounds = []
-    if largest > 0.0:
-        bounds.append(AMPLITUDE * scene.size / largest)
-    if turned > 0.0:
-        bounds.append(_LARGEST_ROTATION / turned)
+    return _least(AMPLITUDE * scene.size, largest, _LARGEST_ROTATION, turned)
+
+
+def _least(far: float, largest: float, angle: float, turned: float) -> float:
+    """The smaller of two quotients whose divisors are not zero; 0 where both are."""
+    bounds = [a / b for a, b in ((far, largest), (angle, turned)) if b > 0.0]
     return min(bounds, default=0.0)

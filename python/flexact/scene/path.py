@@ -48,6 +48,12 @@ class Path(Frozen):
     deviation: float
 
 
+def is_followed(data: ModelData) -> bool:
+    """Whether a model is small enough for its motions to be followed."""
+    coordinates = int(np.count_nonzero(data.arrays.coordinate_class == Class.DEPENDENT))
+    return 0 < coordinates <= _MOST_COORDINATES
+
+
 def follow(motion: Moving, shares: FloatArray, size: float) -> Path | None:
     """The poses at shares of a motion that grow from the reference on.
 
@@ -57,11 +63,9 @@ def follow(motion: Moving, shares: FloatArray, size: float) -> Path | None:
         size: Of the scene [m].
 
     Returns:
-        The path, or None where there is none near, or the model is large.
+        The path, or None where there is none near.
     """
     track = _Track(motion.data, size)
-    if not 0 < track.columns.size <= _MOST_COORDINATES:
-        return None
     direction = track.scaled(motion)
     length = float(np.linalg.norm(direction))
     if not length > 0.0:

@@ -56,13 +56,15 @@ def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
         return i
 
     slots = slots_of(arrays)[rigid]
-    for p, op, q, oq in slots.tolist():
-        for node in (p, q, oq):
-            if node >= 0:
-                owner[root(node)] = root(op)
+    # Members that share a position alone turn about it.
+    for _, op, _, oq in slots.tolist():
+        if oq >= 0:
+            owner[root(oq)] = root(op)
     centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
     first: dict[int, tuple[int, int]] = {}
     for p, op, q, _ in slots.tolist():
-        centre_here, turn_here = first.setdefault(root(op), (p, op))
-        centre[[p, q]], turn[[p, q]] = centre_here, turn_here
+        body = first.setdefault(root(op), (p, op))
+        for node in (p, q):
+            if centre[node] < 0:
+                centre[node], turn[node] = body
     return centre, turn

@@ -11,9 +11,6 @@ from ..frozen import Frozen
 from .members import Members
 from .shapes import Strip
 
-#: Corners of a round section.
-_ROUND = 8
-
 
 @dataclass(frozen=True, eq=False)
 class Solid(Frozen):
@@ -47,10 +44,14 @@ class Solid(Frozen):
         return np.asarray(np.arange(k)[:, None, None] * (s * c) + faces)
 
 
-def solid(strip: Strip, members: Members, planar: bool = False) -> list[Solid]:
+def solid(strip: Strip, members: Members, planar: bool = False, corners: int = 8) -> list[Solid]:
     """The surfaces of a strip: those with rectangular sections, then the round ones.
 
-    In the plane all are flat, two edges at a distance of the size along ey.
+    Args:
+        strip: The members with their stations.
+        members: All members of the scene.
+        planar: Whether all are flat, two edges at a distance of the size along ey.
+        corners: Of round sections, an even number.
     """
     made = []
     for shape in (False, True):
@@ -60,20 +61,20 @@ def solid(strip: Strip, members: Members, planar: bool = False) -> list[Solid]:
         if not rows.size or (planar and shape):
             continue
         member = strip.member[rows]
-        offset = members.section[member][:, None, :] * _corners(shape, planar)
+        offset = members.section[member][:, None, :] * _corners(corners if shape else 4, planar)
         across = strip.frame[rows][..., 1:]
         points = strip.centre[rows][:, :, None] + np.einsum("ksxd,kcd->kscx", across, offset)
         made.append(Solid(member, rows, strip.at, offset, points, not planar))
     return made
 
 
-def _corners(round_: bool, planar: bool) -> FloatArray:
+def _corners(count: int, planar: bool) -> FloatArray:
     """(c, 2) corners of a section of unit size, anticlockwise about ex."""
     if planar:
         return np.array([[-0.5, 0.0], [0.5, 0.0]])
-    if not round_:
+    if count == 4:
         return np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
-    angle = 2 * np.pi * np.arange(_ROUND) / _ROUND
+    angle = 2 * np.pi * np.arange(count) / count
     return np.column_stack((np.cos(angle), np.sin(angle))) / 2
 
 

@@ -10,13 +10,17 @@ import numpy as np
 from ..elements import Class, NodeKind
 from ..exchange import FloatArray, ModelArrays
 from ..frozen import Frozen
-from .members import Members
+from .members import Members, frames_along
 from .places import turned_at
 from .rotations import unit
 
-#: Part of the scene's size, and of the shortest member at the node.
-_PART = 0.045
+#: Parts of the scene's size, and of the shortest member at the node.
+_PART, _SMALLEST = 0.045, 0.012
 _LIMIT = 0.4
+#: How much a block of ground stands out beside a member, as a part of the symbol's size.
+_BESIDE = 0.55
+#: Cosine of the largest angle between a clamp and the member along whose section it lies.
+_UPRIGHT = 0.9
 
 
 class Support(IntEnum):
@@ -39,14 +43,22 @@ class Supports(Frozen):
     Attributes:
         node: (s,) position node.
         kind: (s,) `Support`.
-        direction: (s, 3) unit vectors, from the ground towards what is held.
+        frame: (s, 3, 3) columns: the unit vector from the ground towards what is held, and two
+            across it, of a clamp along the section of the widest member that it holds.
+        extent: (s, 2) half sizes along these two [m].
         size: (s,) [m].
     """
 
     node: np.ndarray
     kind: np.ndarray
-    direction: FloatArray
+    frame: FloatArray
+    extent: FloatArray
     size: FloatArray
+
+    @property
+    def direction(self) -> FloatArray:
+        """(s, 3) unit vectors from the ground towards what is held."""
+        return self.frame[..., 0]
 
     def __len__(self) -> int:
         """How many there are."""
@@ -74,7 +86,7 @@ class Arrows(Frozen):
 
 def supports_of(arrays: ModelArrays, members: Members, size: float) -> Supports:
     """The supports of a model whose scene has this size [m]."""
-    moved, turned = _where(arrays, Class.FIXED)
+    moved, turned = _fixed(arrays)
     positions = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
     held = moved[positions].all(axis=1)
     clamped = held & turned[positions].all(axis=1)
@@ -97,37 +109,43 @@ def supports_of(arrays: ModelArrays, members: Members, size: float) -> Supports:
     direction = np.concatenate(
         [outward[each] if axis is None else _along(axis, outward[each]) for each, _, axis in rows]
     )
-    return Supports(node, kind, direction, np.minimum(_PART * size, _LIMIT * room[node]))
+    # A pyramid stands straight.
+    pinned = kind == Support.PIN
+    direction[pinned] = _upright(direction[pinned])
+    room_here = np.maximum(_LIMIT * room[node], _SMALLEST * size)
+    sizes = np.minimum(_PART * size, room_here)
+    frame, extent = _grounds(members, node, kind, direction, arrays.node_kind.size)
+    return Supports(node, kind, frame, extent + _BESIDE * sizes[:, None], sizes)
 
 
 def arrows_of(arrays: ModelArrays) -> Arrows:
-    """The independent coordinates of a model, those of positions first."""
-    moved, turned = _where(arrays, Class.INDEPENDENT, anywhere=True)
-    node, axis = np.concatenate((np.argwhere(moved), np.argwhere(turned))).T
-    turning = np.arange(node.size) >= np.count_nonzero(moved)
-    return Arrows(node, np.eye(3)[axis], turning)
+    """The independent coordinates of a model, those of positions first.
 
-
-def _where(
-    arrays: ModelArrays, wanted: Class, anywhere: bool = False
-) -> tuple[np.ndarray, np.ndarray]:
-    """(nodes, 3) each: which translations and rotations of position nodes are of a class.
-
-    A translation or rotation that a planar node does not have counts as fixed. Of several
-    orientations at one position all must be of the class, or, `anywhere`, one of them.
+    A rotation has one arrow, at the first position that turns with it.
     """
-    mine = (arrays.coordinate_class == wanted).T
-    position = arrays.node_kind <= NodeKind.POSITION
-    lacking = (arrays.coordinate_class == Class.NONE).T & (wanted == Class.FIXED)
-    moved = (mine | lacking) & position[:, None]
+    node, axis = np.argwhere((arrays.coordinate_class == Class.INDEPENDENT).T).T
+    pairs = turned_at(arrays)
+    place = np.full(arrays.node_kind.size, -1)
+    place[pairs[::-1, 1]] = pairs[::-1, 0]
+    turning = arrays.node_kind[node] > NodeKind.POSITION
+    node = np.where(turning, place[node], node)
+    rows = np.argsort(turning, kind="stable")
+    rows = rows[node[rows] >= 0]
+    return Arrows(node[rows], np.eye(3)[axis[rows]], turning[rows])
+
+
+def _fixed(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
+    """(nodes, 3) each: which translations and rotations of position nodes are fixed.
+
+    One that a planar node does not have counts as fixed. Of several orientations at one
+    position all must be fixed.
+    """
+    mine = np.isin(arrays.coordinate_class.T, (Class.FIXED, Class.NONE))
+    moved = mine & (arrays.node_kind <= NodeKind.POSITION)[:, None]
     pairs = turned_at(arrays)
     turned = np.zeros_like(moved)
-    there = (mine | lacking)[pairs[:, 1]]
-    if anywhere:
-        np.logical_or.at(turned, pairs[:, 0], there)
-    else:
-        turned[pairs[:, 0]] = True
-        np.logical_and.at(turned, pairs[:, 0], there)
+    turned[pairs[:, 0]] = True
+    np.logical_and.at(turned, pairs[:, 0], mine[pairs[:, 1]])
     return moved, turned
 
 
@@ -140,6 +158,38 @@ def _outward(nodes: int, members: Members) -> tuple[FloatArray, FloatArray]:
         np.minimum.at(room, members.nodes[:, slot], members.length)
     towards[np.linalg.norm(towards, axis=1) < 1.0e-6] = 0.0
     return unit(towards), room
+
+
+def _grounds(
+    members: Members, node: np.ndarray, kind: np.ndarray, direction: FloatArray, nodes: int
+) -> tuple[FloatArray, FloatArray]:
+    """Frames (s, 3, 3) of symbols, and half sizes (s, 2) of what a clamp holds [m]."""
+    frame = frames_along(direction, np.zeros_like(direction))
+    extent = np.zeros((node.size, 2))
+    widest = np.full(nodes, -1)
+    order = np.argsort(members.section.max(axis=1), kind="stable")
+    widest[members.nodes[order, 0]], other = order, widest.copy()
+    other[members.nodes[order, 2]] = order
+    thick = np.append(members.section.max(axis=1), -1.0)
+    widest = np.where(thick[other] > thick[widest], other, widest)[node]
+    held = np.flatnonzero((kind == Support.CLAMP) & (widest >= 0))
+    member = widest[held]
+    own = members.frame[member]
+    cosine = np.sum(own[..., 0] * direction[held], axis=1)
+    along = np.abs(cosine) > _UPRIGHT
+    side = np.where(cosine < 0.0, -1.0, 1.0)[:, None, None] * np.array([1.0, 0.0, 1.0])
+    frame[held[along]] = (own * (side + np.array([0.0, 1.0, 0.0])))[along]
+    section = members.section[member] / 2
+    extent[held] = np.where(along[:, None], section, section.max(axis=1)[:, None])
+    return frame, extent
+
+
+def _upright(direction: FloatArray) -> FloatArray:
+    """(k, 3) the global axes nearest to directions; of equally near ones the last."""
+    axis = 2 - np.argmax(np.round(np.abs(direction[:, ::-1]), 6), axis=1)
+    made: FloatArray = np.eye(3)[axis]
+    made[np.sum(made * direction, axis=1) < 0.0] *= -1.0
+    return made
 
 
 def _along(axis: int, outward: FloatArray) -> FloatArray:
