@@ -1,192 +1,217 @@
-"""The scene with its motions and self-stresses as a mesh, for ParaView and its like.
+"""The mechanism with its motions and self-stresses as a mesh, for ParaView and its like.
 
-An element with two ends is a line with two points of its own; an element without extent (a
-hinge) is a vertex where its orientation node sits. Points are not shared, so that parts which a
-motion moves apart come apart in the picture.
+Every element that has two ends is a row of lines along its axis, eight where it can bend and one
+where not; an element without extent (a hinge) is a vertex where its orientation nodes stand. The
+elements that are drawn have a surface of quads besides: sheets, rods, solids; cylinders for
+hinges; flat strips and discs in the plane. What the deck does not draw (DONOTDRAW) has its line or
+vertex, with all its numbers, but no surface. With more than 5,000 elements there are no surfaces.
+Points are not shared between elements, nor between an axis and its surface, so that parts which
+a motion moves apart come apart in the picture. Lengths are in m.
 
 Point data
-    ``node``: number of the position node at the point, 0 where none is known;
-    ``motion_k``: its displacement in motion k; ``motion_k_rotation``: the rotation of the
-    element's orientation node at that end, zeros where the element has none. A rigid link with
-    one orientation node shows that one at both ends, a hinge the first of its two.
+    ``displacement``, ``rotation``: of the motion that is shown, times what makes the largest
+    displacement a tenth of the mechanism's size, so that Warp By Vector with a factor of 1 shows
+    it. The motion is the one asked for, else the first motion, else that of the first declared
+    degree of freedom that can move (not looked for with more than 5,000 elements); zeros without
+    any. First order: along a bending member cubic, at a surface that of the axis plus the
+    rotation times the arm [m, rad].
+    ``node``: number of the position node at the point; 0 between nodes, at surfaces, and where
+    none is known.
+    ``motion_k``, ``motion_k_rotation``: displacement and rotation in motion k as the analysis
+    gives it, at the nodes to the last bit, between them likewise. The far end of a rigid link
+    turns with its near end, a hinge with the first of its two orientation nodes, a truss with
+    its axis.
+    ``selfstress_k_N``, ``_T``, ``_My``, ``_Mz``: normal force [N], torsion, and the bending
+    moments in the local xz and xy planes [N m] of self-stress k at that station of the member:
+    the stress resultants of the analysis at its ends, linear between. Equal values at both ends
+    are a constant moment, of planar beams too. A rigid link has the components of its force at
+    its far end: N along itself, and the moments that the others make on the way. HINGE: T
+    about its axis, My and Mz the other two. PLHINGE: Mz.
 Cell data
-    ``element``: its number; ``kind``: its code, see ``flexact.elements``;
-    ``selfstress_k_N``, ``_T``, ``_My``, ``_Mz``: normal force, torque and bending moments. A
-    bending moment is the one of larger magnitude of the two ends, with its sign; equal signs at
-    both ends are a constant moment, and planar beams count as in space. RBEAM, PINBODY and
-    PLRBEAM have no axis: N is the magnitude of their force. HINGE: T about its axis, My and Mz
-    the other two. PLHINGE: Mz.
+    ``element``: number of the element; ``kind``: its code, see ``flexact.elements``; ``form``:
+    what it is to the eye, see ``flexact.scene.Form``, 0 for hinges; ``name``: its name, in the
+    .vtu and .vtp files of ``flexact export`` alone. meshio holds no text, and does not read a
+    file that has some; what ``flexact analyse`` writes it reads.
 
-Of very many motions or self-stresses only the first are there; see `most_modes`.
+Of very many motions or self-stresses only the first are there; see `Meshes.most_modes`.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from itertools import chain
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .analysis import Analysis
-from .elements import NodeKind, kind_of
-from .exchange import FloatArray, ModelArrays
-from .modes import SelfStress
+from .exchange import FloatArray
+from .frozen import Frozen
+from .mesh_layout import Integers, Layout, layout_of
+from .model_data import ModelData
+from .scene import Pose, Scene, scene_of
+from .scene.forms import forms_of
+from .scene.movement import scale_of
+from .shown import chosen_motion
 
 if TYPE_CHECKING:
     import meshio
 
-Integers = NDArray[np.int64]
+    from .scene import Moving
 
-#: So many motions, and so many self-stresses, are in a mesh at most, and so many at least;
-#: between the two it is as many as give so many numbers.
+#: With more elements than these there are no surfaces, and no motion is looked for that the
+#: analysis does not give.
+MOST_SURFACES = 5_000
+
+#: So many motions, and so many self-stresses, are in a mesh at most, and so many at least, but
+#: 1 in each mesh of a cycle; between the two it is as many as give so many numbers in all.
 _MOST = 200
 _LEAST = 6
 _NUMBERS = 20_000_000
+#: Numbers at a point of a motion and a self-stress.
+_NUMBERS_A_POINT = 10
+
+SHAPES = ("vertex", "line", "quad")
 
 
-def most_modes(analysis: Analysis) -> int:
-    """So many motions, and so many self-stresses, a mesh of this analysis holds at most."""
-    numbers = 12 * analysis.data.arrays.element_number.size  # two points an element
-    return min(max(_NUMBERS // max(numbers, 1), _LEAST), _MOST)
+@dataclass(frozen=True, eq=False)
+class Mesh(Frozen):
+    """A mesh with its data; see the module.
+
+    Attributes:
+        points: (n, 3) [m].
+        corners: Points of the cells: (vertices, 1), (lines, 2), (quads, 4).
+        point_data: (n,) or (n, 3) each, by name.
+        cell_data: (cells,) each, by name, in the order of `corners`.
+        names: Name of each element.
+        element: (cells,) index of each cell's element.
+    """
+
+    points: FloatArray
+    corners: tuple[Integers, Integers, Integers]
+    point_data: dict[str, NDArray[np.generic]]
+    cell_data: dict[str, NDArray[np.generic]]
+    names: Sequence[str]
+    element: Integers
+
+    def to_meshio(self) -> meshio.Mesh:
+        """The same for meshio, which holds no names.
+
+        Vertices come before lines, and these before quads (the order that gmsh's files keep).
+
+        Raises:
+            ImportError: meshio is not installed.
+        """
+        import meshio
+
+        behind = np.cumsum([len(corners) for corners in self.corners])[:-1]
+        kept = [i for i, corners in enumerate(self.corners) if len(corners)]
+        parts = {name: np.split(values, behind) for name, values in self.cell_data.items()}
+        return meshio.Mesh(
+            self.points,
+            [(SHAPES[i], self.corners[i]) for i in kept],
+            point_data=dict(self.point_data),
+            cell_data={name: [part[i] for i in kept] for name, part in parts.items()},
+        )
 
 
 def to_meshio(analysis: Analysis) -> meshio.Mesh:
-    """The scene of an analysis with its motions and self-stresses; see the module.
-
-    Vertices come before lines (the order that gmsh's files keep), each in that of the elements.
+    """The mechanism with its motions and self-stresses; see the module.
 
     Raises:
         ImportError: meshio is not installed.
     """
-    import meshio
-
-    scene = _Scene(analysis.data.arrays)
-    lines, vertices = np.flatnonzero(scene.is_line), np.flatnonzero(~scene.is_line)
-    cells = [
-        ("vertex", np.arange(vertices.size).reshape(-1, 1), vertices),
-        ("line", vertices.size + np.arange(2 * lines.size).reshape(-1, 2), lines),
-    ]
-    blocks = [block for block in cells if block[2].size]
-    return meshio.Mesh(
-        scene.at_points(scene.position, scene.node),
-        [(shape, corners) for shape, corners, _ in blocks],
-        point_data=_point_values(analysis, scene),
-        cell_data={
-            name: [values[elements] for _, _, elements in blocks]
-            for name, values in _cell_values(analysis, scene).items()
-        },
-    )
+    return mesh_of(analysis).to_meshio()
 
 
-def _point_values(analysis: Analysis, scene: _Scene) -> dict[str, NDArray[np.generic]]:
-    values: dict[str, NDArray[np.generic]] = {"node": scene.at_points(scene.number, scene.node)}
-    for k, motion in enumerate(analysis.motions[: most_modes(analysis)], start=1):
-        values[f"motion_{k}"] = scene.at_points(motion.displacement, scene.node)
-        values[f"motion_{k}_rotation"] = scene.at_points(motion.rotation, scene.turning_node)
-    return values
+def mesh_of(analysis: Analysis, shown: Moving | None = None) -> Mesh:
+    """The mesh of an analysis; `shown` is a motion instead of the one that is chosen."""
+    return Meshes(analysis).still(shown)
 
 
-def _cell_values(analysis: Analysis, scene: _Scene) -> dict[str, NDArray[np.generic]]:
-    values: dict[str, NDArray[np.generic]] = {"element": scene.element, "kind": scene.kind}
-    for k, stress in enumerate(analysis.self_stresses[: most_modes(analysis)], start=1):
-        for name, resultant in _resultants(scene.kind, stress).items():
-            values[f"selfstress_{k}_{name}"] = resultant
-    return values
+class Meshes:
+    """The meshes of an analysis, still or in poses."""
+
+    def __init__(self, analysis: Analysis, count: int = 1) -> None:
+        """The points and cells of an analysis, for so many meshes."""
+        self.analysis = analysis
+        self.count = count
+        self.small = analysis.data.arrays.element_number.size <= MOST_SURFACES
+        drawn = analysis.data.look.drawn
+        self.skinned = drawn if self.small else np.zeros_like(drawn)
+        self.reference = self.layout(self.scene.reference)
+
+    @cached_property
+    def drawn_scene(self) -> Scene:
+        """The scene as it is drawn."""
+        return scene_of(self.analysis.data)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene with what is not drawn, too."""
+        data = self.analysis.data
+        return self.drawn_scene if data.look.drawn.all() else scene_of(_all_drawn(data))
+
+    def layout(self, pose: Pose) -> Layout:
+        """The points and cells in a pose."""
+        return layout_of(self.scene, pose, self.skinned)
+
+    @property
+    def most_modes(self) -> int:
+        """So many motions, and so many self-stresses, a mesh holds at most."""
+        numbers = _NUMBERS_A_POINT * len(self.reference.points) * self.count
+        least = max(_LEAST // self.count, 1)
+        return min(max(_NUMBERS // max(numbers, 1), least), _MOST)
+
+    def still(self, shown: Moving | None = None) -> Mesh:
+        """The mesh in the reference configuration."""
+        if shown is None and (self.small or self.analysis.under_constrained):
+            chosen = chosen_motion(self.analysis)
+            shown = None if chosen is None else chosen.motion
+        moved, turned = np.zeros((2, *self.reference.points.shape))
+        if shown is not None:
+            scale = scale_of(self.drawn_scene, shown)
+            moved, turned = self.reference.motion(shown.displacement, shown.rotation)
+            moved, turned = scale * moved, scale * turned
+        return self.with_data(self.reference.points, moved, turned)
+
+    def with_data(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
+        """A mesh with these points, displacements and rotations, (n, 3) each."""
+        values = {"displacement": moved, "rotation": turned, **self._of_analysis}
+        arrays, element = self.analysis.data.arrays, self.reference.element
+        of_cells = {
+            "element": arrays.element_number.astype(np.int64),
+            "kind": arrays.element_kind.astype(np.int64),
+            "form": forms_of(arrays)[0],
+        }
+        return Mesh(
+            points,
+            self.reference.corners,
+            values,
+            {name: of_elements[element] for name, of_elements in of_cells.items()},
+            self.analysis.data.element_names,
+            element,
+        )
+
+    @cached_property
+    def _of_analysis(self) -> dict[str, NDArray[np.generic]]:
+        """Point data that are the same in every pose."""
+        layout, numbers = self.reference, self.analysis.data.arrays.node_number
+        node = np.zeros(len(layout.points), np.int64)
+        node[: layout.node.size] = np.where(layout.node >= 0, numbers[layout.node], 0)
+        values: dict[str, NDArray[np.generic]] = {"node": node}
+        most = self.most_modes
+        for k, motion in enumerate(self.analysis.motions[:most], start=1):
+            moved, turned = layout.motion(motion.displacement, motion.rotation)
+            values |= {f"motion_{k}": moved, f"motion_{k}_rotation": turned}
+        for k, stress in enumerate(self.analysis.self_stresses[:most], start=1):
+            for quantity, of_points in layout.stress(stress).items():
+                values[f"selfstress_{k}_{quantity}"] = of_points
+        return values
 
 
-def _resultants(kind: Integers, stress: SelfStress) -> dict[str, FloatArray]:
-    """N, T, My and Mz of every element, (elements,) each."""
-    f, m = stress.forces, stress.moments
-    beam, planar_beam, hinge, planar_hinge, truss, planar_truss = (
-        kind == kind_of(keyword).number
-        for keyword in ("BEAM", "PLBEAM", "HINGE", "PLHINGE", "TRUSS", "PLTRUSS")
-    )
-    straight = beam | planar_beam | truss | planar_truss
-    return {
-        "N": np.where(straight, f[:, 0], np.linalg.norm(f, axis=1)),
-        "T": np.select([beam, hinge], [m[:, 1], m[:, 0]], 0.0),
-        "My": np.select([beam, hinge], [_larger(m[:, 2], m[:, 3]), m[:, 1]], 0.0),
-        "Mz": np.select(
-            [beam, hinge, planar_beam, planar_hinge],
-            [_larger(m[:, 4], m[:, 5]), m[:, 2], -_larger(m[:, 1], m[:, 2]), m[:, 0]],
-            0.0,
-        ),
-    }
-
-
-def _larger(at_p: FloatArray, at_q: FloatArray) -> FloatArray:
-    return np.where(np.abs(at_p) >= np.abs(at_q), at_p, at_q)
-
-
-class _Scene:
-    """Where the elements are, and which nodes stand at their points.
-
-    Node indices count from 0; -1 means none.
-    """
-
-    def __init__(self, arrays: ModelArrays) -> None:
-        self.number = arrays.node_number.astype(np.int64)
-        self.element = arrays.element_number.astype(np.int64)
-        self.kind = arrays.element_kind.astype(np.int64)
-        placed = arrays.node_kind <= NodeKind.POSITION
-        self.position = np.where(placed, arrays.node_value[:3], 0.0).T
-        slots = arrays.element_node.T.astype(np.int64) - 1
-        self.is_line = (slots[:, 0] >= 0) & (slots[:, 2] >= 0)
-        self.node = slots[:, [0, 2]]
-        self.node[~self.is_line, 0] = _places_of_hinges(slots, self.is_line)
-        far = np.where(slots[:, 3] >= 0, slots[:, 3], slots[:, 1])
-        self.turning_node = np.stack((slots[:, 1], far), axis=1)
-
-    def at_points(self, values: NDArray[np.generic], node: Integers) -> NDArray[np.generic]:
-        """Values (nodes, ...) at the points: the vertices, then both ends of each line."""
-        of_node = np.concatenate((values, np.zeros_like(values, shape=(1, *values.shape[1:]))))
-        ends = node[self.is_line].ravel()
-        return np.asarray(of_node[np.concatenate((node[~self.is_line, 0], ends))])
-
-
-def _places_of_hinges(slots: Integers, is_line: NDArray[np.bool_]) -> Integers:
-    """Position node of each element without extent, -1 where none is known.
-
-    It is one that both of its orientation nodes stand at, else one of either. Where an
-    orientation node stands between hinges alone, as in a cardan joint, it is where those are.
-    """
-    hinges = slots[~is_line][:, [1, 3]].tolist()
-    places: dict[int, list[int]] = {node: [] for pair in hinges for node in pair}
-    for p, op, q, oq in slots[is_line].tolist() if hinges else ():
-        for position, orientation in ((p, op), (q, oq if oq >= 0 else op)):
-            if orientation in places:
-                places[orientation].append(position)
-    _place_between_hinges(places, hinges)
-    return np.array([_common(places[a], places[b]) for a, b in hinges], dtype=np.int64)
-
-
-def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]]) -> None:
-    """Place orientation nodes that only hinges name where most of what they join stands."""
-    beyond: dict[int, list[int]] = {node: [] for node in places}
-    for a, b in hinges:
-        beyond[a].append(b)
-        beyond[b].append(a)
-    nowhere: set[int] = set()
-    for start in [node for node in places if not places[node]]:
-        if start in nowhere:
-            continue
-        joined, around, found = [start], Counter[int](), {start}
-        for node in joined:
-            for other in beyond[node]:
-                if places[other]:
-                    around.update(dict.fromkeys(places[other], 1))
-                elif other not in found:
-                    found.add(other)
-                    joined.append(other)
-        if not around:
-            nowhere |= found
-        for node in joined:
-            places[node] = [place for place, _ in around.most_common(1)]
-
-
-def _common(first: list[int], second: list[int]) -> int:
-    others = set(second)
-    shared = (node for node in first if node in others)
-    return next(chain(shared, first, second), -1)
+def _all_drawn(data: ModelData) -> ModelData:
+    drawn = np.ones_like(data.look.drawn)
+    return replace(data, given_look=replace(data.look, drawn=drawn))

@@ -24,7 +24,9 @@ from .outputs import OutputError
 if TYPE_CHECKING:
     import meshio
 
-# Known to hold lines, vertices and every array; what other formats hold is looked at.
+    from .mesh import Mesh
+
+# Known to hold every cell and every array; what other formats hold is looked at.
 COMPLETE = ("vtu", "vtk", "xdmf")
 
 OPTIONS = {"xdmf": {"data_format": "XML"}}
@@ -47,7 +49,7 @@ class MeshFormat:
 
 
 def find_format(name: str) -> MeshFormat:
-    """The format that has this name or suffix, if it can hold lines with data at all.
+    """The format that has this name or suffix, if it can hold lines and quads with data.
 
     Raises:
         MeshFormatError: meshio has none, it cannot hold them, or a package is not installed.
@@ -61,7 +63,7 @@ def find_format(name: str) -> MeshFormat:
         except _PackageError as error:
             reasons.append(str(error))
         except MeshFormatError:
-            reasons.append(f"mesh format {each} cannot hold lines with data")
+            reasons.append(f"mesh format {each} cannot hold lines and quads with data")
     if usable:
         return MeshFormat(suffix, tuple(usable))
     raise MeshFormatError(f"{'; '.join(reasons)}; {' or '.join(COMPLETE)} will do")
@@ -78,18 +80,26 @@ def _look_up(name: str) -> tuple[str, tuple[str, ...]]:
         if name in names:
             return suffix, (name,)
     every = sorted({each for names in known.values() for each in names})
-    raise MeshFormatError(f"mesh format {name!r} is not known; there are {', '.join(every)}")
+    raise MeshFormatError(
+        f"mesh format {name!r} is not known; there are {', '.join(every)}; "
+        f"{' or '.join(COMPLETE)} will do"
+    )
 
 
 def _try_out(name: str, suffix: str) -> None:
-    """Write two lines with the data that every scene has."""
+    """Write a line and a quad with the data that every mesh has."""
+    from .mesh import Mesh
+
     if name in COMPLETE:
         return
-    mesh = _meshio().Mesh(
-        np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 3.0]]),
-        [("line", np.array([[0, 1], [2, 3]]))],
-        point_data={"node": np.array([1, 2, 2, 3])},
-        cell_data={"element": [np.array([7, 9])], "kind": [np.array([1, 2])]},
+    points = np.arange(18.0).reshape(-1, 3)
+    mesh = Mesh(
+        points,
+        (np.zeros((0, 1), np.int64), np.array([[0, 1]]), np.array([[2, 3, 4, 5]])),
+        point_data={"displacement": points + 1.0, "node": np.arange(6)},
+        cell_data={"element": np.array([7, 9]), "kind": np.array([1, 2])},
+        names=("", ""),
+        element=np.array([0, 1]),
     )
     try:
         _written(mesh, name, suffix)
@@ -100,8 +110,8 @@ def _try_out(name: str, suffix: str) -> None:
         return
 
 
-def mesh_bytes(mesh: meshio.Mesh, form: MeshFormat) -> bytes:
-    """The file that holds a mesh.
+def mesh_bytes(mesh: Mesh, form: MeshFormat) -> bytes:
+    """The file that holds a mesh, and that meshio reads: without names.
 
     Raises:
         MeshFormatError: The format cannot hold the mesh or its data, or needs a package.
@@ -123,7 +133,7 @@ def _meshio() -> ModuleType:
         raise MeshFormatError(f"mesh files need the package meshio: {error}") from error
 
 
-def _written(mesh: meshio.Mesh, name: str, suffix: str) -> bytes:
+def _written(mesh: Mesh, name: str, suffix: str) -> bytes:
     remarks = io.StringIO()
     try:
         with (
@@ -133,12 +143,14 @@ def _written(mesh: meshio.Mesh, name: str, suffix: str) -> bytes:
             _placeholder_for_h5py(name),
         ):
             path = folder / f"mesh{suffix}"
-            made = _tagged(mesh) if name == "gmsh" else mesh
+            made = mesh.to_meshio()
+            if name == "gmsh":
+                made = _tagged(made)
             _meshio().write(path, made, file_format=name, **OPTIONS.get(name, {}))
             if (files := len(list(folder.iterdir()))) != 1:
                 raise MeshFormatError(f"it takes {files} files instead of one")
             if name not in COMPLETE:
-                _check_held(mesh, _meshio().read(path, file_format=name))
+                _check_held(mesh.to_meshio(), _meshio().read(path, file_format=name))
             return path.read_bytes()
     # meshio's writers fail in ways of their own: KeyError, AssertionError, sys.exit ...
     except (Exception, SystemExit) as error:
@@ -176,7 +188,7 @@ def _explained(error: BaseException, name: str, remarks: str) -> OutputError:
 
 
 def _tagged(mesh: meshio.Mesh) -> meshio.Mesh:
-    """The mesh with the entities that gmsh wants: one for the vertices, one for the lines."""
+    """The mesh with the entities that gmsh wants: one for the cells of a shape."""
     tagged = mesh.copy()
     entity = np.ones((len(mesh.points), 2), dtype=np.int32)
     for block in mesh.cells:
@@ -194,8 +206,12 @@ def _check_held(mesh: meshio.Mesh, back: meshio.Mesh) -> None:
     for name, values in mesh.point_data.items():
         if name not in back.point_data or not np.allclose(values, back.point_data[name]):
             raise MeshFormatError(f"it loses {name}")
-    for name, blocks in mesh.cell_data.items():
-        if name not in back.cell_data or not all(map(np.allclose, blocks, back.cell_data[name])):
+    for name in mesh.cell_data:
+        # A format may have the shapes in an order of its own.
+        if name not in back.cell_data or not all(
+            np.allclose(mesh.get_cell_data(name, shape), back.get_cell_data(name, shape))
+            for shape in cells[0]
+        ):
             raise MeshFormatError(f"it loses {name}")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from .batch import BatchError, DeckFile, reason_of
@@ -49,6 +50,16 @@ def plan_files(
             owner[place] = deck.path
         plan[deck.path] = targets
     return plan
+
+
+def plan_file(deck: DeckFile, target: Path) -> dict[str, tuple[Path, ...]]:
+    """As `plan_files`, of one deck and the one file that was named.
+
+    Raises:
+        OutputError: The deck would be overwritten, or the folder cannot take files.
+    """
+    named = replace(deck, relative=Path(target.stem))
+    return plan_files([named], target.parent, (target.suffix,))
 
 
 def _shared(target: Path, first: str, second: str) -> str:

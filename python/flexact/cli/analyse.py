@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import flexact
 from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
 from flexact.cli import failures, remarks
-from flexact.cli.analysed import add_method, analysed, opened, tolerance
+from flexact.cli.analysed import add_decision, analysed, opened
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.terminal import complain, say
@@ -48,14 +48,7 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
     parser.add_argument(
         "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
     )
-    add_method(parser)
-    parser.add_argument(
-        "--tolerance",
-        dest="zero_tolerance",
-        type=tolerance,
-        metavar="T",
-        help="singular values of the scaled matrix up to T count as zero",
-    )
+    add_decision(parser)
     parser.add_argument("--expect", choices=VERDICTS, help="exit with 3 for any other verdict")
     parser.set_defaults(run=analyse_decks)
 
@@ -103,17 +96,19 @@ class _Work:
     def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> Exception | None:
         """Write the results, or say why not: that is no reason to keep the verdict back."""
         from flexact.log import log_text
-        from flexact.mesh import most_modes, to_meshio
+        from flexact.mesh import Meshes
         from flexact.mesh_file import mesh_bytes
         from flexact.outputs import OutputError, write_together
 
         assert self.format is not None
         try:
             contents = [f"{analysis.to_json()}\n".encode()]
-            log = log_text(analysis, most_in_mesh=most_modes(analysis))
+            meshes = Meshes(analysis)
+            log = log_text(analysis, most_in_mesh=meshes.most_modes)
             contents.append(log.encode("utf-8", "backslashreplace"))
+            mesh = meshes.still()
             with unwinding():
-                contents.append(mesh_bytes(to_meshio(analysis), self.format))
+                contents.append(mesh_bytes(mesh, self.format))
                 write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
         except (OutputError, MemoryError) as error:
             return error

@@ -12,6 +12,18 @@ from flexact.cli import remarks
 from flexact.cli.bar import Bar
 
 
+def add_decision(parser: argparse.ArgumentParser) -> None:
+    """Add to a verb's parser how the rank of D(c) is decided."""
+    add_method(parser)
+    parser.add_argument(
+        "--tolerance",
+        dest="zero_tolerance",
+        type=tolerance,
+        metavar="T",
+        help="singular values of the scaled matrix up to T count as zero",
+    )
+
+
 def add_method(parser: argparse.ArgumentParser) -> None:
     """Add the choice of the method to a verb's parser."""
     parser.add_argument(

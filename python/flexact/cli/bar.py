@@ -60,6 +60,19 @@ class Bar:
             self._bar.n = max(self._bar.n, (_STAGES.index(stage) + done) / len(_STAGES))
             self._bar.set_description_str(text)
 
+    def show_frames(self, done: float) -> None:
+        """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
+        self._wanted = True
+        if not _is_watched():
+            return
+        with contextlib.suppress(ImportError, OSError):
+            if self._bar is None or done <= self._bar.n:
+                self.clear()
+                self._bar = _drawn(f"{self._deck}: drawing")
+            self._bar.set_description_str(f"{self._deck}: drawing", refresh=False)
+            self._bar.n = done
+            self._bar.refresh()
+
     def clear(self) -> None:
         """Wipe the bar, so that something else can be said."""
         if self._bar is not None:

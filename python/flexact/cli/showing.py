@@ -1,0 +1,65 @@
+"""What the verbs that show a mechanism share: the choice of the deck and of the motion."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from flexact.batch import BatchError, DeckFile, find_decks
+
+if TYPE_CHECKING:
+    import flexact
+    from flexact.shown import Shown
+
+
+def add_deck(parser: argparse.ArgumentParser, file: str) -> None:
+    """Add the one deck to a verb's parser, and the file made of it, described by `file`."""
+    parser.add_argument("deck", metavar="DECK", help="a deck")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", required=True, help=file)
+
+
+def add_shown(parser: argparse.ArgumentParser) -> None:
+    """Add the choice of the motion to a verb's parser; numbers count from 1."""
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
+        "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
+    )
+    which.add_argument(
+        "--freedom", type=number, metavar="K", help="show declared degree of freedom K"
+    )
+
+
+def number(text: str) -> int:
+    """A whole number from 1, as an option's type."""
+    value = int(text)
+    if value < 1:
+        raise ValueError
+    return value
+
+
+# What argparse calls the type in its errors.
+number.__name__ = "number"
+
+
+def one_deck(chosen: argparse.Namespace) -> DeckFile:
+    """The deck that is meant.
+
+    Raises:
+        BatchError: A folder with several decks is meant.
+    """
+    decks = find_decks([chosen.deck])
+    if len(decks) > 1:
+        raise BatchError(f"{chosen.deck} holds {len(decks)} decks; this takes one at a time")
+    return decks[0]
+
+
+def shown_motion(analysis: flexact.Analysis, chosen: argparse.Namespace) -> Shown | None:
+    """The motion that is shown; None where the mechanism does not move.
+
+    Raises:
+        BatchError: What was asked for is not there.
+    """
+    from flexact.shown import chosen_motion
+
+    return chosen_motion(analysis, chosen.motion, chosen.freedom)
