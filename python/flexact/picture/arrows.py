@@ -1,0 +1,123 @@
+"""Arrows: displacements of a motion, and declared degrees of freedom; always in front."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..elements import NodeKind
+from ..exchange import FloatArray
+from ..scene import Pose, Scene, frames_along
+from ..scene.colours import ARROW, FREEDOM
+from ..scene.rotations import unit
+from .drawing import OVER, Drawing
+from .symbols import turn_about
+
+#: Displacements below this part of the largest get no arrow, and no more than so many get one.
+_LEAST, _MOST = 0.3, 28
+#: Arrows whose nodes are nearer than this part of the scene's size are one.
+_APART = 0.06
+#: Lengths of arrows of freedoms, and radius of turning ones: parts of the scene's size.
+_LENGTH, _RADIUS = 0.13, 0.055
+#: Length and width of a head: parts of the scene's size, and at most of the arrow's length.
+_HEAD, _HEAD_PART = (0.03, 0.02), 0.5
+_WIDTH = 1.9
+_CASE = (1.0, 1.0, 1.0)
+#: Freedoms beyond so many are not drawn.
+_MOST_FREEDOMS = 60
+
+
+def add_displacements(drawing: Drawing, scene: Scene, pose: Pose) -> None:
+    """Arrows from where nodes were to where they are, of the largest displacements."""
+    start, end = _largest(scene, pose)
+    _add_straight(drawing, start, end, ARROW, scene.size)
+
+
+def add_freedoms(drawing: Drawing, scene: Scene) -> None:
+    """Arrows of the declared degrees of freedom, straight or turning."""
+    arrows = scene.arrows
+    if len(arrows) > _MOST_FREEDOMS:
+        return
+    place = scene.reference.position[arrows.node]
+    straight = ~arrows.turning
+    start = place[straight]
+    end = start + _LENGTH * scene.size * arrows.direction[straight]
+    _add_straight(drawing, start, end, FREEDOM, scene.size)
+    for row in np.flatnonzero(arrows.turning).tolist():
+        _add_turning(drawing, place[row], arrows.direction[row], scene.size)
+
+
+def _largest(scene: Scene, pose: Pose) -> tuple[FloatArray, FloatArray]:
+    """Starts and ends (n, 3) of the arrows of the largest displacements, not too close."""
+    shown = np.unique(scene.members.nodes[:, [0, 2]])
+    shown = shown[shown >= 0]
+    kind = scene.data.arrays.node_kind[shown]
+    shown = shown[kind <= NodeKind.POSITION]
+    start, end = scene.reference.position[shown], pose.position[shown]
+    length = np.linalg.norm(end - start, axis=1)
+    order = np.argsort(-np.round(length / scene.size, 9), kind="stable")
+    order = order[length[order] > _LEAST * length.max(initial=0.0)]
+    chosen: list[int] = []
+    for row in order.tolist():
+        gap = np.linalg.norm(start[chosen] - start[row], axis=1)
+        if gap.min(initial=np.inf) > _APART * scene.size:
+            chosen.append(row)
+        if len(chosen) == _MOST:
+            break
+    return start[chosen], end[chosen]
+
+
+def _add_straight(
+    drawing: Drawing,
+    start: FloatArray,
+    end: FloatArray,
+    colour: tuple[float, float, float],
+    size: float,
+) -> None:
+    """Straight arrows, their heads in the plane of the picture."""
+    way = end - start
+    towards = drawing.view.axes[2]
+    flat = way - (way @ towards)[:, None] * towards
+    length = np.linalg.norm(flat, axis=1)
+    able = length > 1.0e-3 * size
+    start, end, flat, length = start[able], end[able], flat[able], length[able]
+    head = np.minimum(_HEAD[0] * size, _HEAD_PART * length)
+    along = unit(flat)
+    # The shaft ends where the head begins; in the picture, whatever its depth.
+    neck = end - (0.85 * head)[:, None] * along
+    shaft = np.stack((start, neck), axis=1)
+    wing = np.cross(towards, along) * (head * _HEAD[1] / _HEAD[0] / 2)[:, None]
+    back = end - head[:, None] * along
+    heads = np.stack((end, back + wing, back - wing), axis=1)
+    _add(drawing, shaft, heads, colour, size)
+
+
+def _add_turning(drawing: Drawing, place: FloatArray, axis: FloatArray, size: float) -> None:
+    """Three quarters of a circle about an axis, with a head."""
+    frame = frames_along(axis[None], np.zeros((1, 3)))[0]
+    radius = _RADIUS * size
+    angle = np.linspace(0.0, 1.5 * np.pi, 28)
+    circle = place + radius * (turn_about(axis, angle) @ frame[:, 1])
+    head = 0.8 * _HEAD[0] * size
+    along = circle[-1] - circle[-2]
+    towards = drawing.view.axes[2]
+    flat = unit(along - (along @ towards) * towards)
+    tip = circle[-1] + 0.7 * head * flat
+    wing = np.cross(towards, flat) * head * _HEAD[1] / _HEAD[0] / 2
+    back = tip - head * flat
+    heads = np.stack((tip, back + wing, back - wing))[None]
+    _add(drawing, circle[None], heads, FREEDOM, size)
+
+
+def _add(
+    drawing: Drawing,
+    shafts: FloatArray,
+    heads: FloatArray,
+    colour: tuple[float, float, float],
+    size: float,
+) -> None:
+    given, case = np.array(colour), np.array(_CASE)
+    drawing.lines(shafts, case, _WIDTH + 1.6, layer=OVER)
+    drawing.polygons(heads, case, edge=case, width=1.6, layer=OVER)
+    above = 10 * size  # over the cases of all
+    drawing.lines(shafts, given, _WIDTH, layer=OVER, nearer=above)
+    drawing.polygons(heads, given, edge=given, width=0.4, layer=OVER, nearer=above)

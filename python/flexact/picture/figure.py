@@ -1,0 +1,320 @@
+"""The picture as a figure of matplotlib: panels, titles, legend, axes."""
+
+from __future__ import annotations
+
+import os
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..exchange import FloatArray
+from ..rendering import harmless
+from ..scene import Pose, Scene
+from ..scene.colours import diverging
+from ..scene.movement import AMPLITUDE
+from ..words import sentence
+from .drawing import Box
+from .panel import Panel, is_simplified, paint
+from .stress import UNITS, WORDS, Stress
+from .subject import Subject
+from .view import View
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ..analysis import Analysis
+
+#: Pixels an inch, as wide as one panel is [px], and its height.
+DPI = 100
+PANEL = (900, 760)
+_INK = (0.13, 0.15, 0.18)
+_FAINT = (0.38, 0.40, 0.43)
+#: Colour of the verdict's mark: exactly constrained, else.
+_RIGHT, _WRONG = (0.11, 0.55, 0.38), (0.80, 0.32, 0.02)
+_SIZES = {"name": 11.5, "title": 14.0, "panel": 12.0, "caption": 10.5, "legend": 10.0}
+#: Parts of a panel's width at each side, and of its height, that stay free.
+_MARGIN = 0.05
+#: A rotation beyond this [rad] says why displacements are no larger.
+_TURNED = 0.9
+#: Pieces of the bar of colours.
+_PIECES = 128
+#: Values nearer to each other than this are told once [px].
+_APART = np.array((52.0, 16.0))
+
+
+def compose(
+    analysis: Analysis,
+    scene: Scene,
+    subjects: list[Subject],
+    view: View,
+    *,
+    phase: float = 1.0,
+    size: tuple[int, int] | None = None,
+    plain: bool = False,
+    box: Box | None = None,
+) -> Figure:
+    """The figure of some subjects side by side.
+
+    Args:
+        analysis: The result, of which the verdict is the title.
+        scene: Its scene.
+        subjects: What is shown, a panel each.
+        view: From where.
+        phase: Of movements, from -1 to 1.
+        size: Width and height [px].
+        plain: Whether titles, captions and legend are left out.
+        box: What is to be seen; by default all that is drawn.
+    """
+    from matplotlib.figure import Figure
+
+    width, height = size or (PANEL[0] * len(subjects), PANEL[1])
+    figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI, facecolor="white")
+    scale = float(np.clip(width / len(subjects) / PANEL[0], 0.3, 2.0))
+    frame = _Frame(figure, width, height, scale)
+    top = 0.0 if plain else _add_verdict(frame, analysis)
+    for number, subject in enumerate(subjects):
+        left, right = (width * n / len(subjects) for n in (number, number + 1))
+        fineness = 0.2 + 0.6 * scale if plain else scale
+        panel = paint(scene, subject, view, phase, fineness)
+        seen = panel.drawing.box if box is None else box
+        _add_panel(frame, scene, subject, panel, seen, (left, right), top, plain)
+    return figure
+
+
+class _Frame:
+    """A figure measured in pixels from its upper left corner."""
+
+    def __init__(self, figure: Figure, width: float, height: float, scale: float) -> None:
+        self.figure, self.width, self.height, self.scale = figure, width, height, scale
+
+    def text(self, x: float, y: float, text: str, kind: str, **others: Any) -> None:
+        size = _SIZES[kind] * self.scale * 72 / DPI * 1.25
+        others = {"va": "top", "ha": "left", "color": _INK, **others}
+        self.figure.text(
+            x / self.width,
+            1 - y / self.height,
+            text,
+            fontsize=size,
+            parse_math=False,
+            **others,
+        )
+
+    def axes(self, left: float, top: float, right: float, bottom: float) -> Axes:
+        made = self.figure.add_axes(
+            (
+                left / self.width,
+                1 - bottom / self.height,
+                (right - left) / self.width,
+                (bottom - top) / self.height,
+            )
+        )
+        made.set_axis_off()
+        return made
+
+    def line(self, kind: str) -> float:
+        """Height of a line of text [px]."""
+        return _SIZES[kind] * self.scale * 1.25 * 1.32
+
+
+def _add_verdict(frame: _Frame, analysis: Analysis) -> float:
+    """The name and the verdict; where they end [px]."""
+    left, y = 18 * frame.scale, 14 * frame.scale
+    name = harmless(os.path.basename(analysis.name))
+    if name:
+        frame.text(left, y, _cut(name, frame, "name"), "name", color=_FAINT)
+        y += frame.line("name")
+    exact = not analysis.under_constrained and not analysis.over_constrained
+    words = " ".join(sentence(analysis).split())
+    for line in _balanced(words, _letters(frame, "title")):
+        colour = _RIGHT if exact else _WRONG
+        frame.text(left, y, line, "title", color=colour, weight="bold")
+        y += frame.line("title")
+    return y + 4 * frame.scale
+
+
+def _balanced(text: str, most: int) -> list[str]:
+    """Lines of at most so many letters, as few as can be, about equally long."""
+    lines = textwrap.wrap(text, most)
+    narrow = most
+    while narrow > 12 and len(textwrap.wrap(text, narrow - 1)) == len(lines):
+        narrow -= 1
+    return textwrap.wrap(text, narrow)
+
+
+def _letters(frame: _Frame, kind: str, width: float | None = None) -> int:
+    """How many letters fit."""
+    room = (width or frame.width) - 36 * frame.scale
+    return max(12, int(room / (0.585 * _SIZES[kind] * frame.scale * 1.25)))
+
+
+def _cut(text: str, frame: _Frame, kind: str) -> str:
+    most = _letters(frame, kind)
+    return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+def _add_panel(
+    frame: _Frame,
+    scene: Scene,
+    subject: Subject,
+    panel: Panel,
+    box: Box,
+    sides: tuple[float, float],
+    top: float,
+    plain: bool,
+) -> None:
+    left, right = sides
+    pad = 18 * frame.scale
+    bottom = frame.height
+    if not plain:
+        for line in textwrap.wrap(subject.title, _letters(frame, "panel", right - left)):
+            frame.text(left + pad, top, line, "panel")
+            top += frame.line("panel")
+        words = caption(scene, subject)
+        lines = textwrap.wrap(words, _letters(frame, "caption", right - left))
+        bottom -= frame.line("caption") * len(lines) + 0.6 * pad
+        for number, line in enumerate(lines):
+            y = bottom + number * frame.line("caption") + 0.2 * pad
+            frame.text(left + pad, y, line, "caption", color=_FAINT)
+        if subject.stress is not None:
+            bottom -= frame.line("legend") * 3.6
+    axes = frame.axes(left, top, right, bottom)
+    _fill(axes, panel, box, (right - left, bottom - top))
+    if not plain:
+        _add_values(frame, axes, panel)
+        if subject.stress is not None:
+            _add_legend(frame, subject.stress, (left + pad, right - pad), bottom)
+        if not scene.planar:
+            _add_triad(frame, panel.drawing.view, left + 3.4 * pad, bottom - 3.0 * pad)
+
+
+def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None:
+    """Put the drawing into its axes, as large as it fits."""
+    axes.add_collection(panel.drawing.collection(), autolim=False)
+    low, high = box
+    extent = np.maximum(high - low, 1.0e-9 * np.max(high - low, initial=1.0e-300))
+    pixels = np.array(room) * (1 - 2 * _MARGIN)
+    unit = float(np.max(extent / np.maximum(pixels, 1.0))) or 1.0
+    middle, half = (low + high) / 2, unit * np.array(room) / 2
+    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
+
+
+def caption(scene: Scene, subject: Subject) -> str:
+    """What is to be known of a panel."""
+    simply = f" {len(scene.members)} members, drawn simply." if is_simplified(scene) else ""
+    return f"{_about(scene, subject)}{simply}".strip()
+
+
+def _about(scene: Scene, subject: Subject) -> str:
+    movement, stress = subject.movement, subject.stress
+    if stress is not None:
+        return "Relative values, only their ratios matter."
+    if movement is None:
+        return "Arrows: declared degrees of freedom." if len(scene.arrows) else ""
+    part = largest_displacement(scene, subject)
+    near = abs(part / AMPLITUDE - 1) < 0.25
+    words = "about 10 %" if near else f"{100 * part:.0f} %"
+    size = f"largest displacement {words} of the model's size"
+    turned = _largest_rotation(movement.pose(1.0))
+    if not near and turned > _TURNED:
+        size = f"{size}, largest rotation {turned:.1f} rad"
+    return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
+
+
+def largest_displacement(scene: Scene, subject: Subject) -> float:
+    """As drawn, along the members, as a part of the scene's size."""
+    from ..scene import stations
+
+    assert subject.movement is not None
+    pose = subject.movement.pose(1.0)
+    pairs = zip(
+        stations(scene.members, pose), stations(scene.members, scene.reference), strict=True
+    )
+    largest = max(
+        (float(np.linalg.norm(a.centre - b.centre, axis=-1).max()) for a, b in pairs), default=0.0
+    )
+    return largest / scene.size
+
+
+def _largest_rotation(pose: Pose) -> float:
+    """Of a node, since the reference [rad]."""
+    cosine = (np.trace(pose.rotation, axis1=1, axis2=2) - 1) / 2
+    return float(np.arccos(np.clip(cosine, -1.0, 1.0)).max(initial=0.0))
+
+
+def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: float) -> None:
+    """A bar of the colours, with the values at its ends."""
+    from matplotlib.collections import PolyCollection
+
+    line = frame.line("legend")
+    unit = UNITS[stress.quantity]
+    frame.text(sides[0], top, f"{WORDS[stress.quantity]} [{unit}]", "legend")
+    width = min(320 * frame.scale, sides[1] - sides[0])
+    axes = frame.axes(sides[0], top + 1.25 * line, sides[0] + width, top + 2.0 * line)
+    # Each piece reaches to the end, so that there are no seams between them.
+    start = np.linspace(0.0, 1.0, _PIECES, endpoint=False)
+    pieces = [((x, 0.0), (1.0, 0.0), (1.0, 1.0), (x, 1.0)) for x in start.tolist()]
+    colours = diverging(2 * start + 1 / _PIECES - 1)
+    axes.add_collection(PolyCollection(pieces, facecolors=colours, linewidths=0), autolim=False)
+    axes.set_xlim(0.0, 1.0)
+    axes.set_ylim(0.0, 1.0)
+    for place, value, side in ((0.0, -1.0, "left"), (0.5, 0.0, "center"), (1.0, 1.0, "right")):
+        words = f"{value * stress.largest:+.3g}" if value else "0"
+        frame.text(sides[0] + place * width, top + 2.15 * line, words, "legend", ha=side)
+
+
+def _add_values(frame: _Frame, axes: Axes, panel: Panel) -> None:
+    """The values at the peaks of diagrams; of those that coincide one."""
+    told: list[FloatArray] = []
+    for peak in panel.peaks:
+        ends = panel.drawing.view.project(np.array((peak.foot, peak.place)))[:, :2]
+        foot, top = np.asarray(axes.transData.transform(ends))
+        away = top - foot
+        place = top + 14 * frame.scale * away / max(float(np.hypot(*away)), 1.0e-9)
+        if any(np.all(np.abs(place - each) < _APART * frame.scale) for each in told):
+            continue
+        told.append(place)
+        _halo_text(frame, float(place[0]), frame.height - float(place[1]), f"{peak.value:+.3g}")
+
+
+def _halo_text(frame: _Frame, x: float, y: float, text: str) -> None:
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=2.4 * frame.scale, foreground="white")]
+    frame.text(x, y, text, "legend", va="center", ha="center", path_effects=halo)
+
+
+def _add_triad(frame: _Frame, view: View, x: float, y: float) -> None:
+    """Which way the axes point: z is up."""
+    length = 30 * frame.scale
+    axes = frame.axes(x - 2 * length, y - 2 * length, x + 2 * length, y + 2 * length)
+    axes.set_xlim(-2, 2)
+    axes.set_ylim(-2, 2)
+    for name, end in zip("xyz", view.project(np.eye(3)).tolist(), strict=True):
+        if np.hypot(*end[:2]) < 0.1:
+            continue
+        axes.annotate(
+            "",
+            end[:2],
+            (0.0, 0.0),
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": _FAINT,
+                "lw": frame.scale,
+                "shrinkA": 0,
+                "shrinkB": 0,
+                "mutation_scale": 8 * frame.scale,
+            },
+        )
+        away = 1.28 / max(np.hypot(*end[:2]), 0.5) * 1.0
+        frame.text(
+            x + end[0] * length * (1 + 0.3 * away),
+            y - end[1] * length * (1 + 0.3 * away),
+            name,
+            "legend",
+            color=_FAINT,
+            va="center",
+            ha="center",
+        )

@@ -1,0 +1,190 @@
+"""Pictures of a result: a figure, or the bytes of a file."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from ..batch import BatchError
+from ..rendering import harmless
+from ..scene import scene_of
+from ..words import sentence
+from .subject import Chosen, moving_subject, subjects_of
+from .view import view_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..analysis import Analysis
+
+#: Suffixes of the files that a picture can be.
+SUFFIXES = (".png", ".gif", ".svg")
+
+
+class PictureError(BatchError):
+    """A picture that cannot be made."""
+
+
+def check_suffix(suffix: str) -> str:
+    """The suffix in small letters, if a picture can be such a file.
+
+    Raises:
+        PictureError: It cannot.
+    """
+    if suffix.lower() not in SUFFIXES:
+        kinds = ", ".join(known.removeprefix(".") for known in SUFFIXES)
+        what = f"{suffix!r} is no kind of picture" if suffix else "the picture has no suffix"
+        raise PictureError(f"{what}: it is one of {kinds}, as the suffix of the file says")
+    return suffix.lower()
+
+
+def check_packages(suffix: str) -> None:
+    """Find out whether what is needed for such a file is installed.
+
+    Raises:
+        PictureError: It is not.
+    """
+    needed = {"matplotlib": "matplotlib", "PIL": "pillow"}
+    missing = [name for package, name in needed.items() if find_spec(package) is None]
+    if missing:
+        raise PictureError(
+            f"pictures need the package {missing[0]}: pip install 'flexact[pictures]'"
+        )
+
+
+def draw(
+    analysis: Analysis,
+    *,
+    motion: int | None = None,
+    freedom: int | None = None,
+    stress: int | None = None,
+    quantity: str | None = None,
+    view: str | None = None,
+    phase: float = 1.0,
+    size: tuple[int, int] | None = None,
+    plain: bool = False,
+) -> Figure:
+    """Draw a result.
+
+    Where nothing is chosen, the first motion and the first self-stress, those that there are;
+    else the first degree of freedom that moves, else the model.
+
+    Args:
+        analysis: The result.
+        motion: Number of a motion, from 1.
+        freedom: Number of a declared degree of freedom, from 1.
+        stress: Number of a self-stress, from 1.
+        quantity: `N`, `T`, `My` or `Mz` of the self-stress; by default the dominant one.
+        view: `iso`, `front`, `back`, `left`, `right`, `top`, `bottom`, or the azimuth and the
+            elevation of the eye in degrees, as in `-60,25`; z is up. Planar models are drawn
+            in their plane.
+        phase: Of the motion, from -1 to 1.
+        size: Width and height [px].
+        plain: Whether titles, captions and legends are left out.
+
+    Returns:
+        A figure of matplotlib's, at 100 pixels an inch, that belongs to no window.
+
+    Raises:
+        PictureError: A package is missing.
+        SubjectError: Something chosen is not there.
+        ViewError: There is no such view.
+    """
+    from .figure import compose
+
+    check_packages(".png")
+    chosen = Chosen(motion, freedom, stress, quantity)
+    scene = scene_of(analysis.data)
+    subjects = subjects_of(analysis, scene, chosen)
+    seen = view_of(view, scene)
+    return compose(analysis, scene, subjects, seen, phase=phase, size=size, plain=plain)
+
+
+def picture_bytes(
+    analysis: Analysis,
+    suffix: str,
+    *,
+    motion: int | None = None,
+    freedom: int | None = None,
+    stress: int | None = None,
+    quantity: str | None = None,
+    view: str | None = None,
+    size: tuple[int, int] | None = None,
+    plain: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> bytes:
+    """A picture as the content of a file; the same result gives the same bytes.
+
+    Args:
+        analysis: The result.
+        suffix: `.png`, `.svg`, or `.gif`, which moves.
+        motion: As of `draw`, and the others likewise.
+        freedom: See there.
+        stress: See there.
+        quantity: See there.
+        view: See there.
+        size: See there.
+        plain: See there.
+        progress: Called with the part of a GIF's frames that is drawn, from 0 to 1.
+
+    Raises:
+        PictureError: There is no such kind of picture, or a package is missing; else as `draw`.
+    """
+    kind = check_suffix(suffix)
+    check_packages(kind)
+    chosen = Chosen(motion, freedom, stress, quantity)
+    with _quiet():
+        if kind == ".gif":
+            return _moving(analysis, chosen, view, size, plain, progress)
+        figure = draw(
+            analysis,
+            motion=motion,
+            freedom=freedom,
+            stress=stress,
+            quantity=quantity,
+            view=view,
+            size=size,
+            plain=plain,
+        )
+        if kind == ".svg":
+            from .vector import svg_bytes
+
+            return svg_bytes(figure, *_words(analysis))
+        from .raster import png_bytes
+
+        return png_bytes(figure)
+
+
+def _moving(
+    analysis: Analysis,
+    chosen: Chosen,
+    view: str | None,
+    size: tuple[int, int] | None,
+    plain: bool,
+    progress: Callable[[float], None] | None,
+) -> bytes:
+    from .animation import gif_bytes
+
+    scene = scene_of(analysis.data)
+    subject = moving_subject(analysis, scene, chosen)
+    seen = view_of(view, scene)
+    return gif_bytes(analysis, scene, subject, seen, size=size, plain=plain, progress=progress)
+
+
+def _words(analysis: Analysis) -> tuple[str, str]:
+    return harmless(os.path.basename(analysis.name)) or "Mechanism", " ".join(
+        sentence(analysis).split()
+    )
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Letters that the font lacks are boxes; that is nothing to warn of."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from", category=UserWarning)
+        warnings.filterwarnings("ignore", message="Matplotlib currently does not support")
+        yield

@@ -1,0 +1,168 @@
+"""A self-stress on the members: colours along them, and bending diagrams beside them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..exchange import FloatArray
+from ..frozen import Frozen
+from ..scene import QUANTITIES, Resultants, Scene, stations
+from ..scene.colours import diverging
+from .drawing import Drawing
+from .surfaces import OUTLINE
+
+#: What the quantities are called.
+WORDS = {
+    "N": "normal force N, tension positive",
+    "T": "torsional moment T",
+    "My": "bending moment My in the local xz plane",
+    "Mz": "bending moment Mz in the local xy plane",
+}
+UNITS = {"N": "N", "T": "N m", "My": "N m", "Mz": "N m"}
+#: Height of the largest bending moment in a diagram, a part of the scene's size.
+_HEIGHT = 0.08
+#: Column of the local frame along which a diagram stands off the axis.
+_OFF = {"My": 2, "Mz": 1}
+#: A diagram in the plane of a sheet is seen on it: it counts as nearer to the eye by this part.
+_ABOVE = 0.006
+#: Values below this part of the largest are not drawn.
+_LEAST = 1.0e-6
+#: Peaks below this part of the largest are not named, and no more than so many are.
+_NAMED, _MOST_NAMED = 0.3, 8
+#: Values that differ by less than this part of the largest have one colour.
+_EVEN = 0.01
+#: Of very many members those above this part of the largest value are drawn thicker.
+_LOUD = 0.05
+#: Pieces of a member for its colours.
+PIECES = 36
+
+
+@dataclass(frozen=True, eq=False)
+class Stress(Frozen):
+    """One quantity of a self-stress.
+
+    Attributes:
+        values: The resultants.
+        quantity: One of `QUANTITIES`.
+        largest: Its largest magnitude, of members and hinges [N] or [N m].
+    """
+
+    values: Resultants
+    quantity: str
+    largest: float
+
+    def colours(self, member: np.ndarray, at: FloatArray) -> FloatArray:
+        """(k, s - 1, 3) of the pieces between stations (s,) of members (k,)."""
+        middle = (at[1:] + at[:-1]) / 2
+        return diverging(self._relative(self.values.along(self.quantity, member, middle)))
+
+    def member_colours(self) -> FloatArray:
+        """(k, 3) of the members by the larger of the values at their ends."""
+        ends = self.values[self.quantity]
+        larger = np.abs(ends).argmax(axis=1)[:, None]
+        return diverging(self._relative(np.take_along_axis(ends, larger, axis=1)[:, 0]))
+
+    def is_loud(self) -> np.ndarray:
+        """(k,) whether a member has more than a small part of the largest value."""
+        return np.asarray(np.abs(self.values[self.quantity]).max(axis=1) > _LOUD * self.largest)
+
+    def hinge_colours(self) -> FloatArray:
+        """(h, 3) of the hinges."""
+        return diverging(self._relative(self.values.hinges[:, QUANTITIES.index(self.quantity)]))
+
+    def _relative(self, values: FloatArray) -> FloatArray:
+        return values / self.largest if self.largest > 0.0 else np.zeros_like(values)
+
+    @property
+    def pieces(self) -> int:
+        """Of how many pieces a member is, so that its colours change smoothly along it."""
+        ends = self.values[self.quantity]
+        uneven = np.abs(ends[:, 0] - ends[:, 1]).max(initial=0.0)
+        return PIECES if uneven > _EVEN * self.largest else 1
+
+    @property
+    def has_diagram(self) -> bool:
+        """Whether it is a bending moment."""
+        return self.quantity in _OFF
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest value of a member's diagram: where the outline is there, and its foot."""
+
+    place: tuple[float, float, float]
+    foot: tuple[float, float, float]
+    value: float
+
+
+def stress_of(values: Resultants, quantity: str | None) -> Stress:
+    """One quantity of resultants, by default the dominant one."""
+    chosen = quantity or values.dominant
+    return Stress(values, chosen, values.largest(chosen))
+
+
+def add_diagrams(drawing: Drawing, scene: Scene, stress: Stress) -> list[Peak]:
+    """Draw bending diagrams beside the members; where their peaks are.
+
+    The diagram stands off the axis in the plane of bending, on the side of the local axis where
+    the moment is positive.
+    """
+    if not stress.has_diagram or not stress.largest > 0.0:
+        return []
+    peaks: list[Peak] = []
+    column, height = _OFF[stress.quantity], _HEIGHT * scene.size / stress.largest
+    for strip in stations(scene.members, scene.reference, PIECES):
+        value = stress.values.along(stress.quantity, strip.member, strip.at)
+        rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
+        if not rows.size:
+            continue
+        at = strip.at if strip.at.size > 2 else np.linspace(0.0, 1.0, PIECES + 1)
+        centre = _finer(strip.centre[rows], at)
+        off = _finer(strip.frame[rows][..., column], at)
+        value = stress.values.along(stress.quantity, strip.member[rows], at)
+        tops = centre + height * value[..., None] * off
+        colour = stress.colours(strip.member[rows], at)
+        _add_outlined(drawing, centre, tops, colour, _ABOVE * scene.size)
+        for row, peak in enumerate(np.abs(value).argmax(axis=1).tolist()):
+            place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
+            peaks.append(Peak(place, foot, float(value[row, peak])))
+    return _to_be_named(peaks, stress.largest)
+
+
+def _finer(points: FloatArray, at: FloatArray) -> FloatArray:
+    """(k, s, 3) values at stations (s,), of as many or of the two ends."""
+    if points.shape[1] == at.size:
+        return points
+    share = at[None, :, None]
+    return np.asarray((1 - share) * points[:, :1] + share * points[:, 1:])
+
+
+def _add_outlined(
+    drawing: Drawing,
+    centre: FloatArray,
+    tops: FloatArray,
+    colour: FloatArray,
+    above: float,
+) -> None:
+    """Strips between an axis and the tops, with their outlines."""
+    quads = np.stack((centre[:, :-1], centre[:, 1:], tops[:, 1:], tops[:, :-1]), axis=2)
+    pale = 0.55 + 0.45 * colour.reshape(-1, 3)
+    drawing.polygons(quads.reshape(-1, 4, 3), pale, nearer=above)
+    ink = np.array(OUTLINE)
+    ribs = np.stack((centre, tops), axis=2)[:, ::4]
+    drawing.lines(ribs.reshape(-1, 2, 3), ink, 0.3, nearer=above)
+    for line, width in ((centre, 0.5), (tops, 1.1)):
+        pieces = np.stack((line[:, :-1], line[:, 1:]), axis=2).reshape(-1, 2, 3)
+        drawing.lines(pieces, ink, width, nearer=above)
+    sides = np.stack((centre[:, [0, -1]], tops[:, [0, -1]]), axis=2).reshape(-1, 2, 3)
+    drawing.lines(sides, ink, 1.1, nearer=above)
+
+
+def _to_be_named(peaks: list[Peak], largest: float) -> list[Peak]:
+    """The peaks whose values are told; of many, each value once."""
+    peaks = [peak for peak in peaks if abs(peak.value) >= _NAMED * largest]
+    if len(peaks) > _MOST_NAMED // 2:
+        peaks = list({f"{peak.value:.2g}": peak for peak in peaks}.values())
+    return peaks if len(peaks) <= _MOST_NAMED else []

@@ -1,0 +1,136 @@
+"""What a picture shows: the scene, a motion, a degree of freedom, or a self-stress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..batch import BatchError
+from ..rendering import harmless
+from ..scene import QUANTITIES, Movement, Scene, move, resultants
+from ..shown import Shown, chosen_motion, require_there
+from .stress import Stress, stress_of
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+
+
+class SubjectError(BatchError):
+    """A combination of subjects that makes no picture."""
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What one panel shows; a scene alone has neither movement nor stress.
+
+    Attributes:
+        title: Above it.
+        movement: A motion as it is drawn.
+        stress: A self-stress as it is drawn.
+    """
+
+    title: str = "Reference shape"
+    movement: Movement | None = None
+    stress: Stress | None = None
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What was asked for; numbers from 1."""
+
+    motion: int | None = None
+    freedom: int | None = None
+    stress: int | None = None
+    quantity: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check what can be checked without an analysis."""
+        if self.quantity is not None and self.quantity not in QUANTITIES:
+            raise SubjectError(
+                f"there is no quantity {self.quantity!r}: it is one of {', '.join(QUANTITIES)}"
+            )
+        shows_no_stress = self.stress is None and (self.motion or self.freedom) is not None
+        if self.quantity is not None and shows_no_stress:
+            raise SubjectError("a quantity is of a self-stress; there is none in this picture")
+
+    @property
+    def moves(self) -> bool:
+        """Whether a motion was asked for."""
+        return (self.motion or self.freedom) is not None
+
+    @property
+    def is_stressed(self) -> bool:
+        """Whether a self-stress was asked for."""
+        return (self.stress or self.quantity) is not None
+
+
+def subjects_of(analysis: Analysis, scene: Scene, chosen: Chosen) -> list[Subject]:
+    """What a still picture shows, a panel each.
+
+    What was chosen; else the first motion and the first self-stress, those that there are; else
+    the first degree of freedom that moves; else the scene.
+
+    Raises:
+        NotThereError: Something chosen is not there.
+    """
+    if chosen.moves or chosen.is_stressed:
+        return _asked_for(analysis, scene, chosen)
+    made = []
+    if len(analysis.motions) or not len(analysis.self_stresses):
+        made += _moving(scene, chosen_motion(analysis))
+    if len(analysis.self_stresses):
+        made.append(_stressed(analysis, scene, 1, None))
+    return made or [Subject()]
+
+
+def moving_subject(analysis: Analysis, scene: Scene, chosen: Chosen) -> Subject:
+    """What an animation shows.
+
+    What was chosen; else the first motion, the first degree of freedom that moves, the first
+    self-stress or the scene, of which the last two do not move.
+
+    Raises:
+        NotThereError: What was chosen is not there.
+        SubjectError: Several were chosen.
+    """
+    if chosen.moves or chosen.is_stressed:
+        made = _asked_for(analysis, scene, chosen)
+        if len(made) > 1:
+            raise SubjectError(
+                "an animation shows one of them: a motion, a degree of freedom or a self-stress"
+            )
+        return made[0]
+    made = _moving(scene, chosen_motion(analysis))
+    if not made and len(analysis.self_stresses):
+        made.append(_stressed(analysis, scene, 1, None))
+    return made[0] if made else Subject()
+
+
+def _asked_for(analysis: Analysis, scene: Scene, chosen: Chosen) -> list[Subject]:
+    made = []
+    if chosen.motion is not None:
+        made += _moving(scene, chosen_motion(analysis, motion=chosen.motion))
+    if chosen.freedom is not None:
+        made += _moving(scene, chosen_motion(analysis, freedom=chosen.freedom))
+    if chosen.is_stressed:
+        number = 1 if chosen.stress is None else chosen.stress
+        made.append(_stressed(analysis, scene, number, chosen.quantity))
+    return made
+
+
+def _moving(scene: Scene, shown: Shown | None) -> list[Subject]:
+    if shown is None:
+        return []
+    return [Subject(_heading(shown.words), movement=move(scene, shown.motion))]
+
+
+def _stressed(analysis: Analysis, scene: Scene, number: int, quantity: str | None) -> Subject:
+    stresses = analysis.self_stresses
+    require_there(number, len(stresses), "self-stress", "self-stresses")
+    values = resultants(scene, stresses[number - 1])
+    words = f"self-stress {number} of {analysis.over_constrained}"
+    return Subject(_heading(words), stress=stress_of(values, quantity))
+
+
+def _heading(words: str) -> str:
+    return harmless(words[:1].upper() + words[1:])

@@ -1,0 +1,370 @@
+"""Pictures: what stands where in them, and in which colour.
+
+Points of the scenes are projected here, and the pixels there are looked at.
+"""
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pictures import COLLINEAR, SWINGING, VIEW, Pixels, deck, hue, of_text
+from small_decks import DECKS, TRIANGLE
+
+import flexact
+from flexact.scene import scene_of
+from flexact.shown import NotThereError
+
+pytest.importorskip("matplotlib")
+pytest.importorskip("PIL")
+
+from flexact.picture import PictureError, SubjectError, ViewError, draw, picture_bytes
+
+#: What stands before the statements of the picture block.
+BLOCKS = "END\nHALT\n\nEND\n\nVISUALIZATION\n"
+#: The pale grey of the reference shape.
+GHOST = np.array((0.8936, 0.9012, 0.9126))
+ARROW, FREEDOM = (0.85, 0.37, 0.01), (0.11, 0.55, 0.38)
+
+
+def positions(analysis: flexact.Analysis) -> dict[int, np.ndarray]:
+    arrays = analysis.data.arrays
+    return dict(zip(arrays.node_number.tolist(), arrays.node_value[:3].T, strict=True))
+
+
+# Self-stress
+
+
+def test_twelve_trusses_are_half_red_and_half_blue() -> None:
+    """Fig. 2(a): tension and compression, each bar as its own force has it."""
+    analysis = deck("paper/twelve_trusses")
+    pixels = Pixels(draw(analysis, stress=1, view=VIEW))
+    forces = analysis.self_stresses[0].forces[:, 0]
+    assert np.sum(forces > 0) == np.sum(forces < 0) == 6
+    place = positions(analysis)
+    numbers = analysis.data.arrays.node_number
+    for element, force in zip(analysis.data.arrays.element_node.T, forces, strict=True):
+        first, last = (place[int(numbers[k - 1])] for k in (element[0], element[2]))
+        # At a crossing another bar may be in front.
+        seen = [
+            hue(pixels.at(first + share * (last - first))) for share in (0.2, 0.35, 0.5, 0.65, 0.8)
+        ]
+        assert sum(seen) * np.sign(force) >= 3
+
+
+def test_clamped_ends_of_a_folded_sheet_are_opposite() -> None:
+    """Fig. 4(c): bending in the plane of the sheets, of opposite signs at the clamped ends."""
+    analysis = deck("paper/folded_sheet_clamped")
+    pixels = Pixels(draw(analysis, stress=1, view=VIEW))
+    scene = scene_of(analysis.data)
+    hues = []
+    clamped = set(scene.supports.node.tolist())
+    for row in range(2):
+        p, _, q, _ = scene.members.nodes[row]
+        near, far = (p, q) if p in clamped else (q, p)
+        start, end = scene.reference.position[[near, far]]
+        width = scene.members.section[row, 1] * scene.members.frame[row, :, 2]
+        # Beside the diagram, which is on one side of the axis.
+        sides = [hue(pixels.at(0.93 * start + 0.07 * end + s * width)) for s in (-0.4, 0.4)]
+        assert sides[0] == sides[1] != 0
+        hues.append(sides[0])
+        middle = [hue(pixels.at(0.03 * start + 0.97 * end + s * width)) for s in (-0.4, 0.4)]
+        assert middle == [0, 0]
+    assert sorted(hues) == [-1, 1]
+
+
+def test_six_folded_sheets_alternate() -> None:
+    """Fig. 6: twelve equal moments, at the ground of one sign above and of the other below."""
+    analysis = deck("paper/six_folded_sheets")
+    moments = np.abs(analysis.self_stresses[0].moments[:, 2:4]).max(axis=1)[:12]
+    np.testing.assert_allclose(moments, moments[0], rtol=1e-9)
+    place = positions(analysis)
+    seen = []
+    # Ground nodes above, then below; each sheet is looked at from outside, where it is in front.
+    for node in (11, 21, 31, 41, 51, 61):
+        start, fold = place[node], place[node + 2]
+        azimuth = float(np.degrees(np.arctan2(start[1], start[0])))
+        figure = draw(analysis, view=f"{azimuth},10")
+        pixels = Pixels(figure, eye=(azimuth, 10.0))
+        along = 0.04 * np.array([-start[1], start[0], 0.0]) / np.hypot(*start[:2])
+        for share, strong in ((0.15, 1), (0.97, 0)):
+            points = [(1 - share) * start + share * fold + s * along for s in (-0.45, 0.45)]
+            seen.append([strong, *(hue(pixels.at(point)) for point in points)])
+    ends = [tuple(row[1:]) for row in seen if row[0]]
+    assert ends in ([(1, 1)] * 3 + [(-1, -1)] * 3, [(-1, -1)] * 3 + [(1, 1)] * 3)
+    assert all(row == [0, 0, 0] for row in seen if not row[0])
+
+
+def test_a_chosen_quantity_colours_the_members() -> None:
+    """The cylinder of six folded sheets carries torsion, the sheets none."""
+    analysis = deck("paper/six_folded_sheets")
+    grey = Pixels(draw(analysis, stress=1, quantity="My", view=VIEW)).at((0.0, 0.0, 0.0))
+    twisted = Pixels(draw(analysis, stress=1, quantity="T", view=VIEW))
+    assert hue(grey) == 0
+    assert hue(twisted.at((0.0, 0.0, 0.0))) != 0
+
+
+def test_a_bending_diagram_has_its_height_and_its_value(tmp_path: Path) -> None:
+    """A cantilever's end moment, clamped at its far end too: 8 % of the size off the axis."""
+    clamped = "PLBEAM 1 1 2 3 4\nX 3 2 0\nFIX 1\nFIX 2\nFIX 3\nFIX 4\n"
+    analysis = of_text(tmp_path, clamped)
+    stresses = analysis.self_stresses
+    number, stress = next(
+        (k, s) for k, s in enumerate(stresses, 1) if np.abs(s.moments).max() > 0.1
+    )
+    largest = np.abs(stress.moments).max()
+    figure = draw(analysis, stress=number, quantity="Mz")
+    paths = figure.axes[0].collections[0].get_paths()
+    heights = np.abs(np.concatenate([path.vertices for path in paths])[:, 1])
+    assert heights.max() == pytest.approx(0.08 * 2.0, rel=1e-6)
+    words = {text.get_text() for text in figure.texts}
+    assert {f"{value:+.3g}" for value in (-largest, largest)} & words
+
+
+def test_the_legend_says_unit_and_that_values_are_relative() -> None:
+    figure = draw(deck("paper/twelve_trusses"), stress=1)
+    words = [text.get_text() for text in figure.texts]
+    assert "normal force N, tension positive [N]" in words
+    assert "Relative values, only their ratios matter." in words
+    largest = np.abs(deck("paper/twelve_trusses").self_stresses[0].forces).max()
+    assert {f"{-largest:+.3g}", "0", f"{largest:+.3g}"} <= set(words)
+
+
+# Motions
+
+
+def test_the_largest_displacement_is_a_tenth_of_the_size(tmp_path: Path) -> None:
+    """Two bars in line, 2 m: the joint between them moves 0.2 m across, either way."""
+    analysis = of_text(tmp_path, COLLINEAR)
+    for phase in (1.0, -1.0, 0.5):
+        figure = draw(analysis, motion=1, phase=phase)
+        pixels = Pixels(figure, planar=True)
+        side = phase * np.sign(analysis.motions[0].displacement[1, 1])
+        bar = 255 * scene_of(analysis.data).members.colour[0]
+        for x in (-0.6, 0.6):
+            moved = pixels.at((x, 0.2 * side * (1 - abs(x)), 0.0))
+            np.testing.assert_allclose(moved, bar, atol=2)
+            ghost = pixels.at((x, 0.0, 0.0))
+            np.testing.assert_allclose(ghost, 255 * GHOST, atol=2)
+        words = " ".join(text.get_text() for text in figure.texts)
+        assert "largest displacement about 10 % of the model's size" in words
+
+
+def test_at_rest_the_shape_hides_its_ghost() -> None:
+    analysis = deck("paper/twelve_trusses")
+    moved = Pixels(draw(analysis, motion=1)).count(GHOST)
+    assert moved > 1000
+    assert Pixels(draw(analysis, motion=1, phase=0.0)).count(GHOST) < moved / 20
+
+
+def test_arrows_stand_at_what_moves(tmp_path: Path) -> None:
+    analysis = of_text(tmp_path, COLLINEAR)
+    pixels = Pixels(draw(analysis, motion=1), planar=True)
+    side = np.sign(analysis.motions[0].displacement[1, 1])
+    np.testing.assert_allclose(pixels.at((0.0, 0.1 * side, 0.0)), 255 * np.array(ARROW), atol=3)
+    assert Pixels(draw(analysis, stress=1), planar=True).count(ARROW) == 0
+
+
+def test_declared_degrees_of_freedom_have_arrows(tmp_path: Path) -> None:
+    bar = "PLTRUSS 1 1 2\nX 2 1 0\nFIX 1\nDYNX 2 2\n"
+    pixels = Pixels(draw(of_text(tmp_path, bar), phase=0.0), planar=True)
+    assert pixels.count(FREEDOM) > 50
+    # Upwards from the node.
+    np.testing.assert_allclose(pixels.at((1.0, 0.02, 0.0)), 255 * np.array(FREEDOM), atol=3)
+    held = "PLTRUSS 1 1 2\nX 2 1 0\nFIX 1\nFIX 2 2\n"
+    plain = draw(of_text(tmp_path, held), plain=True)
+    assert Pixels(plain, planar=True).count(FREEDOM) == 0
+
+
+def test_a_sliding_support_goes_with_its_node(tmp_path: Path) -> None:
+    """A slider on a line of ground; the joint at the other end moves up and down."""
+    rod = "PLTRUSS 1 1 2\nX 1 0 0\nX 2 0.6 0.8\nFIX 1 2\nFIX 2 1\n"
+    analysis = of_text(tmp_path, rod)
+    scene = scene_of(analysis.data)
+    from flexact.scene import move
+
+    moved = move(scene, analysis.motions[0]).pose(1.0).position
+    assert abs(moved[0, 0]) > 0.05
+    pixels = Pixels(draw(analysis, motion=1), planar=True)
+    dark = [
+        int(np.sum(pixels.near(point - (0.0, 0.06, 0.0), 4).min(axis=1) < 90))
+        for point in (moved[0], scene.reference.position[0])
+    ]
+    assert dark[0] > 0
+    assert dark[1] == 0
+
+
+# What is drawn of a scene
+
+
+def test_planar_scenes_are_flat(tmp_path: Path) -> None:
+    """Whatever their direction, bars have one colour; x is to the right and y upwards."""
+    analysis = of_text(tmp_path, TRIANGLE)
+    figure = draw(analysis, view="left")
+    pixels = Pixels(figure, planar=True)
+    bar = np.rint(255 * scene_of(analysis.data).members.colour[0])
+    middles = ((0.25, 0.5, 0.0), (0.75, 0.5, 0.0))
+    for middle in middles:
+        np.testing.assert_allclose(pixels.at(middle), bar, atol=1)
+    left, right = (pixels.place(middle) for middle in middles)
+    assert left[1] < right[1]
+    assert pixels.place((0.5, 1.0, 0.0))[0] < left[0]
+
+
+def test_solids_are_shaded() -> None:
+    """Three sides of a block of ground are seen, each with another brightness."""
+    figure = draw(deck("flexures/sheet_clamped_both_ends"), stress=1, view=VIEW)
+    colours = figure.axes[0].collections[0].get_facecolor()[:, :3]
+    ground = np.array((0.72, 0.73, 0.74))
+    share = colours / ground
+    sides = share[np.ptp(share, axis=1) < 1e-9][:, 0]
+    levels = np.unique(np.round(sides[sides > 0.0], 6))
+    assert len(levels) == 3
+    assert levels.min() >= 0.66
+    assert levels.max() <= 1.0
+    assert np.diff(levels).min() > 0.02
+
+
+def test_supports_stand_below_what_they_hold(tmp_path: Path) -> None:
+    analysis = of_text(tmp_path, TRIANGLE)
+    pixels = Pixels(draw(analysis), planar=True)
+    size = scene_of(analysis.data).size
+    for node, is_held in (((0.0, 0.0), True), ((1.0, 0.0), True), ((0.5, 1.0), False)):
+        below = pixels.near((node[0], node[1] - 0.045 * size, 0.0), 4)
+        assert bool(np.any(below.max(axis=1) < 90)) == is_held
+
+
+def test_hinges_are_cylinders_in_their_colour() -> None:
+    analysis = deck("linkages/sarrus")
+    purple = scene_of(analysis.data).hinges.colour[0]
+    figure = draw(analysis, motion=1, phase=0.0, view=VIEW)
+    rgb = Pixels(figure).rgb / np.maximum(Pixels(figure).rgb.max(axis=-1, keepdims=True), 1)
+    shaded = np.all(np.abs(rgb - purple / purple.max()) < 0.03, axis=-1)
+    assert shaded.sum() > 300
+
+
+@pytest.mark.parametrize("given", ["RED 1", "0.2 0.9 0.1"])
+def test_a_deck_may_choose_the_colour(given: str, tmp_path: Path) -> None:
+    colour = (1.0, 0.0, 0.0) if given.startswith("RED") else (0.2, 0.9, 0.1)
+    words = " ".join(map(str, colour))
+    text = f"{TRIANGLE}{BLOCKS}BEAMPROPS 1\nGRAPHICS 1\nFACECOLOR {words}\n"
+    pixels = Pixels(draw(of_text(tmp_path, text)), planar=True)
+    np.testing.assert_allclose(pixels.at((0.25, 0.5, 0.0)), 255 * np.array(colour), atol=2)
+    assert not np.allclose(pixels.at((0.75, 0.5, 0.0)), 255 * np.array(colour), atol=40)
+
+
+def test_what_is_not_drawn_leaves_no_trace(tmp_path: Path) -> None:
+    text = f"{TRIANGLE}{BLOCKS}BEAMPROPS 1\nDONOTDRAW 1\n"
+    pixels = Pixels(draw(of_text(tmp_path, text)), planar=True)
+    assert pixels.at((0.25, 0.5, 0.0)).tolist() == [255, 255, 255]
+    assert pixels.at((0.75, 0.5, 0.0)).tolist() != [255, 255, 255]
+
+
+def test_a_scene_of_which_nothing_is_drawn_makes_a_picture(tmp_path: Path) -> None:
+    text = f"{TRIANGLE}{BLOCKS}BEAMPROPS 1 2\nDONOTDRAW 1 2\n"
+    assert picture_bytes(of_text(tmp_path, text), ".png").startswith(b"\x89PNG")
+
+
+# What is shown, and from where
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_panels_without_a_choice(name: str, decks: Path) -> None:
+    """The first motion and the first self-stress, side by side where both exist."""
+    figure = draw(flexact.analyse(decks / f"{name}.dat"))
+    words = " ".join(text.get_text() for text in figure.texts)
+    assert ("Motion 1 of 1" in words) == (name in ("under", "both"))
+    assert ("Self-stress 1 of 1" in words) == (name in ("over", "both"))
+    assert ("Reference shape" in words) == (name == "exact")
+    width, height = figure.get_size_inches() * figure.dpi
+    assert round(width / height, 1) == (2.4 if name == "both" else 1.2)
+
+
+def test_the_verdict_is_the_title() -> None:
+    figure = draw(deck("paper/five_wires"))
+    words = " ".join(text.get_text() for text in figure.texts)
+    assert words.startswith("five_wires.dat Exactly constrained: every motion is held once")
+    assert "Degree of freedom 1" in words
+
+
+def test_what_is_not_there_is_told() -> None:
+    analysis = deck("paper/twelve_trusses")
+    with pytest.raises(NotThereError, match=r"no motion 2: the analysis gives 1 motion$"):
+        draw(analysis, motion=2)
+    with pytest.raises(NotThereError, match=r"self-stress 3: the analysis gives 1 self-stress$"):
+        draw(analysis, stress=3)
+    with pytest.raises(NotThereError, match="no degree of freedom 1"):
+        draw(analysis, freedom=1)
+    with pytest.raises(SubjectError, match="one of N, T, My, Mz"):
+        draw(analysis, quantity="Q")
+    with pytest.raises(SubjectError, match="is of a self-stress"):
+        draw(analysis, motion=1, quantity="N")
+    with pytest.raises(SubjectError, match="one of them"):
+        picture_bytes(analysis, ".gif", motion=1, stress=1)
+    with pytest.raises(PictureError, match="png, gif, svg"):
+        picture_bytes(analysis, ".jpg")
+
+
+@pytest.mark.parametrize("view", ["side", "1", "1,2,3", "a,b", "10,95", "nan,0", "inf,0"])
+def test_views_that_are_not_known(view: str) -> None:
+    with pytest.raises(ViewError, match="iso, front, back, left, right, top, bottom"):
+        draw(deck("paper/twelve_trusses"), view=view)
+
+
+def test_named_views_look_along_the_axes() -> None:
+    """Of a long bar along x, y and z, what lies along the eye is short."""
+    analysis = deck("paper/twelve_trusses")
+    # Extents of the nodes: 2, 2 and 1 m.
+    expected = {
+        "front": 2.0 / 1.0,
+        "back": 2.0 / 1.0,
+        "left": 2.0 / 1.0,
+        "right": 2.0 / 1.0,
+        "top": 2.0 / 2.0,
+        "bottom": 2.0 / 2.0,
+    }
+    from flexact.picture.view import view_of
+
+    scene = scene_of(analysis.data)
+    for name, quotient in expected.items():
+        view = view_of(name, scene)
+        np.testing.assert_allclose(view.axes @ view.axes.T, np.eye(3), atol=1e-15)
+        assert np.linalg.det(view.axes) == pytest.approx(1.0)
+        flat = view.project(scene.reference.position)
+        across, up = np.ptp(flat[:, 0]), np.ptp(flat[:, 1])
+        assert across / up == pytest.approx(quotient)
+    for first, second in itertools.pairwise(("front", "back")):
+        x = [view_of(name, scene).project(np.array([1.0, 0.0, 0.0]))[0] for name in (first, second)]
+        assert x == pytest.approx([1.0, -1.0])
+
+
+def test_the_view_that_is_chosen_shows_sheets_from_no_edge() -> None:
+    """Two sheets at right angles, one of them edge-on from any side along the axes."""
+    from flexact.picture.view import view_of
+
+    for name in ("paper/folded_sheet_clamped", "paper/six_folded_sheets", "flexures/cross_hinge"):
+        scene = scene_of(deck(name).data)
+        towards = view_of(None, scene).axes[2]
+        sheets = scene.members.frame[scene.members.form == 1]
+        facing = np.abs(
+            np.max(np.abs(np.stack([sheets[..., 1] @ towards, sheets[..., 2] @ towards])), axis=0)
+        )
+        assert facing.mean() > 0.3
+
+
+def test_plain_pictures_have_no_words() -> None:
+    analysis = deck("paper/twelve_trusses")
+    figure = draw(analysis, size=(240, 180), plain=True)
+    assert figure.texts == []
+    assert (figure.get_size_inches() * figure.dpi).tolist() == [240, 180]
+    assert Pixels(figure).rgb.min() < 120
+
+
+def test_a_spatial_bar_swings(tmp_path: Path) -> None:
+    """Its free end moves along y, the only direction that is neither fixed nor held."""
+    analysis = of_text(tmp_path, SWINGING)
+    pixels = Pixels(draw(analysis, motion=1, view=VIEW))
+    end = 0.1 * np.sign(analysis.motions[0].displacement[1, 1])
+    moved, rest = pixels.at((0.0, 0.5 * end, 0.5)), pixels.at((0.0, 0.02 * end, 0.5))
+    assert abs(int(moved[0]) - int(moved[2])) > 10
+    np.testing.assert_allclose(rest, 255 * GHOST, atol=4)
