@@ -1,7 +1,8 @@
 # make demo and make test work from a clean clone; PYTHON=... chooses the Python.
 PYTHON ?= python3
 SOURCES := meson.build meson.options pyproject.toml tools/setup.sh \
-           $(shell find fortran python -name '*.f90' -o -name '*.py' -o -name meson.build)
+           $(shell find fortran python -name '*.f90' -o -name '*.py' -o -name '*.js' -o -name '*.css' \
+             -o -name '*.html' -o -name meson.build)
 BIN := .venv/bin
 
 .PHONY: demo test core-test lint bench clean

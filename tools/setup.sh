@@ -36,6 +36,18 @@ sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.
 PYTHON
 }
 
+# Only tests of pages need it, and they are skipped without it.
+has_browser() {
+    for browser in chromium chromium-browser; do
+        # Ubuntu's is a stub that asks for a snap.
+        if "$browser" --version >/dev/null 2>&1; then
+            chromedriver --version >/dev/null 2>&1
+            return
+        fi
+    done
+    return 1
+}
+
 # What is missing of the system, as names of Debian's packages.
 missing_packages() {
     has_command gfortran || echo gfortran libc6-dev
@@ -73,9 +85,15 @@ still=$(missing_packages | tr '\n' ' ')
 [ -z "$still" ] || fail "Still missing after the installation: $still" \
     "Headers and venv must belong to $python ($("$python" -V 2>&1))."
 
+if [ "$purpose" = test ] && ! has_browser; then
+    # In a shell of its own, which may fail.
+    (install_packages chromium chromium-driver) || true
+    has_browser || echo "There is no working Chromium with chromedriver: the tests of pages in a browser will be skipped." >&2
+fi
+
 [ -x .venv/bin/python ] || "$python" -m venv .venv
-requirements="pip>=23.1 meson-python>=0.17 meson ninja numpy meshio tqdm"
-[ "$purpose" = run ] || requirements="$requirements pytest hypothesis mpmath ruff mypy fprettify"
+requirements="pip>=23.1 meson-python>=0.17 meson ninja numpy meshio tqdm matplotlib pillow"
+[ "$purpose" = run ] || requirements="$requirements pytest hypothesis mpmath selenium vtk ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086
 .venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||

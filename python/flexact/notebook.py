@@ -1,4 +1,4 @@
-"""The result as HTML for notebooks."""
+"""The result as HTML for notebooks: the page in a frame, and the words below it."""
 
 from __future__ import annotations
 
@@ -10,28 +10,26 @@ from .words import MOST_MODES, describe, sentence
 if TYPE_CHECKING:
     from .analysis import Analysis
 
-_COLOURS = {(False, False): "#2e7d32", (True, False): "#b26a00", (False, True): "#b26a00"}
-_WORST = "#b00020"
+_COLOURS = {(False, False): "#15774a", (True, False): "#b25406", (False, True): "#b3261e"}
+_BOTH = "#93205e"
+_HEIGHT = 860
 
 
 def html_of(analysis: Analysis) -> str:
-    """Verdict, counts as a table, and the words behind them to open."""
+    """The page of a result in a frame of its own, and the words to open.
+
+    Where a notebook that is not trusted takes frames out, verdict and words are left.
+    """
+    from .report import page
+    from .report.markup import text
+
     state = analysis.under_constrained > 0, analysis.over_constrained > 0
-    colour = _COLOURS.get(state, _WORST)
-    rows = "".join(
-        f"<tr><th style='text-align:left'>{name}</th>"
-        + "".join(f"<td>{value}</td>" for value in part)
-        + "</tr>"
-        for name, part in analysis.counts._asdict().items()
-    )
-    heads = "".join(f"<th>{word}</th>" for word in analysis.counts.coordinates._fields)
+    colour = _COLOURS.get(state, _BOTH)
+    head = text(" ".join(sentence(analysis).split()))
     words = describe(analysis, most=MOST_MODES)
     return (
-        f"<div><p style='border-left:4px solid {colour};padding-left:8px'>"
-        f"<b>{escape(sentence(analysis))}</b></p>"
-        f"<table><tr><th></th>{heads}</tr>{rows}</table>"
-        f"<p>D(c): {analysis.rows} rows, {analysis.columns} columns, rank {analysis.rank}; "
-        f"degrees of freedom: {analysis.degrees_of_freedom}</p>"
-        f"<details><summary>in words</summary><pre>{escape(words)}</pre></details>"
-        "</div>"
+        f'<div><iframe sandbox="allow-scripts" title="{text(analysis.name or "result")}" '
+        f'style="width:100%;height:{_HEIGHT}px;border:0" srcdoc="{escape(page(analysis))}">'
+        f"</iframe><details style='border-left:4px solid {colour};padding-left:8px'>"
+        f"<summary><b>{head}</b></summary><pre>{escape(words)}</pre></details></div>"
     )

@@ -211,7 +211,7 @@ def remedies_of_motions(analysis: Analysis) -> Iterator[str]:
         operands = _operands(analysis, *changed[0])
         yield _listed(
             "Or declare or hold one of these released deformations: ",
-            (deformation_name(analysis, *place) for place in changed),
+            (_deformation(analysis, *place) for place in changed),
             note=f"(DYNE {operands} instead of RLSE {operands})",
         )
     if 1 < count <= MOST_MODES:
@@ -233,7 +233,7 @@ def _self_stresses(analysis: Analysis, most: int | None) -> Iterator[str]:
     index_of = analysis.data.element_index
     for number, stress in enumerate(analysis.self_stresses[:most], start=1):
         parts = (
-            f"{deformation_name(analysis, index_of[element], mode)} {value:.4g} "
+            f"{_deformation(analysis, index_of[element], mode)} {value:.4g} "
             f"{unit_of(analysis, index_of[element], mode)}"
             for element, mode, value in stress.largest(_PARTS + 1)
         )
@@ -249,12 +249,12 @@ def remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
     able = _rows(analysis, remedies.releases(analysis)[: _PARTS + 1])
     driven = remedies.driven_deformations(analysis)
     moved, held = remedies.driven_coordinates(analysis), remedies.supports(analysis)
-    declared = [deformation_name(analysis, *place) for place in driven[: _PARTS + 1]]
+    declared = [_deformation(analysis, *place) for place in driven[: _PARTS + 1]]
     declared += [_coordinate(analysis, *place) for place in moved[: _PARTS + 1]]
     release = f"(RLSE {_operands(analysis, *able[0])})" if able else ""
     instead = f"(RLSE {_operands(analysis, *driven[0])} instead)" if driven else ""
     offers = (
-        ("release one of: ", [deformation_name(analysis, *p) for p in able], release, _PARTS),
+        ("release one of: ", [_deformation(analysis, *p) for p in able], release, _PARTS),
         ("take a declaration away (driven against a constraint): ", declared, instead, _PARTS),
         (
             "free a support: ",
@@ -272,7 +272,7 @@ def remedies_of_self_stresses(analysis: Analysis) -> Iterator[str]:
     if len(chosen) == count > 1:
         yield _listed(
             f"To remove {_all(count)}, release all of: ",
-            (deformation_name(analysis, *p) for p in _rows(analysis, chosen)),
+            (_deformation(analysis, *p) for p in _rows(analysis, chosen)),
             most=count,
         )
 
@@ -326,8 +326,7 @@ def _operands(analysis: Analysis, index: int, mode: int) -> str:
     return f"{analysis.data.arrays.element_number[index]} {mode}"
 
 
-def deformation_name(analysis: Analysis, index: int, mode: int) -> str:
-    """A deformation of an element, given by its index from 0, in words."""
+def _deformation(analysis: Analysis, index: int, mode: int) -> str:
     arrays = analysis.data.arrays
     name = harmless(analysis.data.element_names[index])
     called = f" ({name})" if name else ""

@@ -4,12 +4,12 @@ import re
 from pathlib import Path
 
 PYTHON = Path(__file__).resolve().parents[2] / "python"
-KINDS = {".py", ".pyi", ".typed"}
+KINDS = {".py", ".pyi", ".typed", ".js", ".css", ".html"}
 
 
 def test_the_build_names_every_source() -> None:
     """A source that is missing in python/meson.build would not be installed."""
-    named = re.findall(r"'(flexact/[\w/]+\.\w+)'", (PYTHON / "meson.build").read_text())
+    named = re.findall(r"'(flexact/[\w/.]+\.\w+)'", (PYTHON / "meson.build").read_text())
     there = {
         str(path.relative_to(PYTHON).as_posix())
         for path in (PYTHON / "flexact").rglob("*")

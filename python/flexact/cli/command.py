@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from flexact import __version__
 from flexact.batch import BatchError, ExitCode
-from flexact.cli import analyse, check, regress
+from flexact.cli import analyse, check, export, picture, regress, report
 from flexact.cli.terminal import (
     ResultsError,
     accept_every_character,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
 EPILOG = """\
 exit codes:
-  0  analysed (or checked, compared, stored)
+  0  analysed (or checked, compared, stored, drawn, written)
   1  anything that is not below: wrong usage, output that cannot be written, ...
   2  a deck has errors, or cannot be read
   3  the verdict is not the expected one, or an answer differs from the stored one
@@ -75,7 +75,7 @@ def make_parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(
         title="commands", metavar="COMMAND", prog="flexact", required=True
     )
-    for verb in (analyse, check, regress):
+    for verb in (analyse, check, regress, picture, export, report):
         verb.add_parser(verbs)
     return parser
 

@@ -1,0 +1,156 @@
+"""``flexact report``: a page to open in a browser and to mail, and an index of several."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import flexact
+from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
+from flexact.cli import failures, remarks
+from flexact.cli.analysed import add_decision, analysed, opened
+from flexact.cli.bar import Bar
+from flexact.cli.decks import add_decks, take
+from flexact.cli.terminal import complain, say
+from flexact.diagnostics import ProblemsError
+from flexact.interruption import unwinding
+from flexact.outputs import OutputError, plan_file, plan_files, write_together
+from flexact.rendering import harmless
+
+#: What an output is called that is a page, not a folder.
+PAGES = (".html", ".htm")
+#: What the index takes the place of among the decks.
+_INDEX = DeckFile("the index", Path("index"))
+_WITHOUT_PICTURES = (
+    "without the package matplotlib there are no still pictures, for browsers without WebGL and "
+    "in the index: pip install 'flexact[pictures]'"
+)
+
+
+def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add this verb to the command's parser."""
+    parser = verbs.add_parser(
+        "report",
+        help="a page of each deck, to open in a browser and to mail",
+        description="Write the result of a deck as one HTML page that opens without a network: "
+        "verdict, scene in motion, self-stresses in colour, tables, deck. A deck with errors "
+        "gives a page with its diagnostics, and exit code 2.",
+        allow_abbrev=False,
+    )
+    add_decks(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="PAGE",
+        required=True,
+        help="the page, NAME.html; or a folder for a page of each deck and index.html",
+    )
+    add_decision(parser)
+    parser.set_defaults(run=report_decks)
+
+
+def report_decks(chosen: argparse.Namespace) -> ExitCode:
+    """Write the pages of the decks that were asked for."""
+    decks = find_decks(chosen.decks)
+    work = _Work(chosen, decks)
+    code = take(decks, work.step)
+    work.finish()
+    return code
+
+
+class _Work:
+    """One run of the verb: where each deck's page goes, and what the index will say."""
+
+    def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
+        from flexact.report import Entry
+        from flexact.report.still import has_pictures
+
+        self.chosen, self.decks = chosen, decks
+        output: Path = chosen.output
+        self.index: Path | None = None
+        if output.suffix.lower() in PAGES and not output.is_dir():
+            if len(decks) > 1:
+                raise BatchError(f"-o {output} is one page; of {len(decks)} decks name a folder")
+            self.plan = plan_file(decks[0], output)
+        else:
+            self.plan = plan_files((*decks, _INDEX), output, (".html",))
+            self.index = self.plan[_INDEX.path][0]
+        self.entries: dict[str, Entry] = {}
+        self.pictures = has_pictures()
+        if not self.pictures:
+            complain(_WITHOUT_PICTURES)
+
+    def step(self, deck: DeckFile) -> Outcome:
+        """Analyse one deck and write its page."""
+        try:
+            with Bar(deck.name, deck.path) as bar:
+                model = opened(deck, bar)
+                remarks.tell_problems(model)
+                analysis = analysed(deck, model, self.chosen, bar)
+                bar.show("writing")
+                self._write(deck, analysis)
+        except (flexact.DeckError, flexact.AnalysisError) as error:
+            self._write_broken(deck, error)
+            raise
+        target = self.plan[deck.path][0]
+        say(f"{harmless(deck.name)}: {analysis.verdict.value}; page in {harmless(str(target))}")
+        return Outcome(deck.name, ExitCode.ANALYSED, analysis.verdict.value)
+
+    def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> None:
+        from flexact.report import page
+        from flexact.report.still import small, still
+        from flexact.words import sentence
+
+        with unwinding():
+            picture = still(analysis) if self.pictures else None
+            self._put(deck, page(analysis, picture))
+            if self.index is None:
+                return
+            thumb = small(analysis) if self.pictures else None
+        words = " ".join(sentence(analysis).split()).partition(":")[0]
+        self._enter(deck, analysis.verdict, words, thumb)
+
+    def _write_broken(self, deck: DeckFile, error: Exception) -> None:
+        from flexact.report import broken_page, reason_in_words
+
+        if isinstance(error, ProblemsError):
+            codes = {item.code for item in error.diagnostics}
+            if codes & failures.NOT_READ:
+                return
+        try:
+            self._put(deck, broken_page(error, deck.name))
+        except OutputError:
+            failures.tell_people(deck, error)
+            raise
+        self._enter(deck, None, f"Cannot be analysed: {reason_in_words(error)}")
+
+    def _put(self, deck: DeckFile, text: str) -> None:
+        write_together({self.plan[deck.path][0]: text.encode("utf-8", "backslashreplace")})
+
+    def _enter(
+        self,
+        deck: DeckFile,
+        verdict: flexact.Verdict | None,
+        words: str,
+        picture: bytes | None = None,
+    ) -> None:
+        from flexact.report import Entry
+
+        place = deck.relative.as_posix()
+        self.entries[deck.path] = Entry(place, f"{place}.html", verdict, words, picture)
+
+    def finish(self) -> None:
+        """Write the index, if there is to be one."""
+        from flexact.report import Entry, index_page
+
+        if self.index is None:
+            return
+        nothing = "Cannot be read"
+        entries = [
+            self.entries.get(deck.path, Entry(deck.relative.as_posix(), "", None, nothing))
+            for deck in self.decks
+        ]
+        with unwinding():
+            write_together({self.index: index_page(entries).encode("utf-8", "backslashreplace")})
+        say(f"index in {harmless(str(self.index))}")

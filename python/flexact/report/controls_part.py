@@ -1,0 +1,141 @@
+"""The scene's place in the page, and the controls beside it."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from .markup import text
+
+_VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right"))
+_QUANTITIES = (("N", "N"), ("T", "T"), ("My", "My"), ("Mz", "Mz"))
+_LAYERS = (
+    ("ghost", "reference as a ghost", True),
+    ("arrows", "arrows of displacements", True),
+    ("symbols", "supports and freedoms", True),
+    ("diagram", "bending diagram", False),
+    ("elements", "element numbers", False),
+    ("nodes", "node numbers", False),
+)
+_KEYS = (
+    "Arrow keys turn the scene, with Shift they move it; + and \N{MINUS SIGN} zoom, "
+    "0 starts again, the space bar plays and pauses."
+)
+
+
+def scene_part(data: dict[str, Any], still: bytes | None, words: str, left_out: str) -> str:
+    """The scene: live where the browser can, else a still picture and words.
+
+    Args:
+        data: The scene's data.
+        still: A picture as PNG, if there is one.
+        words: What the picture shows.
+        left_out: Sentences about what is not in the page; may be empty.
+    """
+    planar = bool(data["planar"])
+    keys = _KEYS.replace("turn the scene, with Shift they move it", "move the scene")
+    note = f'<p class="note">{text(left_out)}</p>' if left_out else ""
+    return (
+        '<section id="scene" aria-label="Scene">'
+        f'<div id="still">{_still(still, words)}</div>'
+        '<div id="live" hidden>'
+        '<div class="stage"><canvas id="canvas" tabindex="0" role="application" '
+        f'aria-label="Scene. {text(keys if planar else _KEYS)}" aria-describedby="shown"></canvas>'
+        '<canvas id="overlay" aria-hidden="true"></canvas>'
+        '<canvas id="print" aria-hidden="true"></canvas>'
+        '<div id="tip" role="tooltip" hidden></div></div>'
+        '<div class="told-below"><p id="shown" role="status" aria-live="polite"></p>'
+        f"{_LEGEND}</div>"
+        f"{_toolbar(planar)}"
+        f'<p class="keys">{text(keys if planar else _KEYS)}</p>'
+        f"</div>{note}</section>"
+    )
+
+
+_LEGEND = (
+    '<div id="legend" hidden><span id="legend-name"></span><span id="legend-bar"></span>'
+    '<span class="ticks"><span id="legend-low"></span><span>0</span>'
+    '<span id="legend-high"></span></span><span id="legend-note"></span></div>'
+)
+
+
+def _still(still: bytes | None, words: str) -> str:
+    if still is None:
+        return f'<p class="note">{text(words)} {text(_WITHOUT)}</p>'
+    source = base64.b64encode(still).decode()
+    return (
+        f'<img src="data:image/png;base64,{source}" alt="{text(words)}">'
+        f'<p class="note">{text(_WITHOUT)}</p>'
+    )
+
+
+_WITHOUT = "A browser with scripts and WebGL shows the scene here, to turn, to play and to colour."
+
+
+def _toolbar(planar: bool) -> str:
+    views = "".join(
+        f'<button type="button" data-view="{view}">{name}</button>'
+        for view, name in (() if planar else _VIEWS)
+    )
+    return (
+        '<div class="toolbar"><div class="group" role="group" aria-label="Movement">'
+        '<button type="button" id="play">Play</button>'
+        '<label>size <input type="range" id="amplitude" min="0" max="100" value="100"></label>'
+        '<label>speed <input type="range" id="speed" min="0.1" max="1.5" step="0.1" value="0.5">'
+        '</label></div><div class="group" role="group" aria-label="View">'
+        f'{views}<button type="button" id="fit">Fit</button></div></div>'
+    )
+
+
+def choices_part(data: dict[str, Any]) -> str:
+    """What is shown: a movement, a self-stress and its quantity, and layers."""
+    stresses = [stress["title"] for stress in data["stresses"]]
+    return (
+        '<section id="choices" class="choices" aria-label="What is shown" hidden>'
+        + _movements(data["movements"])
+        + (_radios("stress", "Self-stress", _numbered(stresses), "None") if stresses else "")
+        + (_radios("quantity", "Coloured by", _QUANTITIES) if stresses else "")
+        + _layers(bool(data["movements"]), bool(stresses))
+        + "</section>"
+    )
+
+
+def _movements(movements: Sequence[dict[str, Any]]) -> str:
+    """Motions and declared degrees of freedom: one choice, under two headings."""
+    none, made = "None", ""
+    for kind, legend in (("motion", "Motions"), ("freedom", "Declared degrees of freedom")):
+        chosen = [
+            (str(index), movement["label"])
+            for index, movement in enumerate(movements)
+            if movement["kind"] == kind
+        ]
+        if chosen:
+            made += _radios("movement", legend, chosen, none)
+            none = ""
+    return made
+
+
+def _numbered(titles: Sequence[str]) -> list[tuple[str, str]]:
+    return [(str(index), title) for index, title in enumerate(titles)]
+
+
+def _radios(name: str, legend: str, choices: Iterable[tuple[str, str]], none: str = "") -> str:
+    every = ([("", none)] if none else []) + list(choices)
+    made = "".join(
+        f'<label class="chip"><input type="radio" name="{name}" value="{value}"'
+        f"{' checked' if none and not value else ''}><span>{text(words)}</span></label>"
+        for value, words in every
+    )
+    return f"<fieldset><legend>{legend}</legend>{made}</fieldset>"
+
+
+def _layers(moves: bool, stressed: bool) -> str:
+    lacking = {"ghost": not moves, "arrows": not moves, "diagram": not stressed}
+    made = "".join(
+        f'<label class="check"><input type="checkbox" data-layer="{layer}"'
+        f"{' checked' if on else ''}>{words}</label>"
+        for layer, words, on in _LAYERS
+        if not lacking.get(layer)
+    )
+    return f"<fieldset><legend>Also drawn</legend>{made}</fieldset>"

@@ -1,0 +1,149 @@
+"""The page of a deck: whole, as text."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from html import escape
+from string import Template
+from typing import TYPE_CHECKING, Any
+
+from ..diagnostics import ProblemsError
+from ..rendering import harmless
+from ..scene import scene_of
+from ..words import sentence
+from .assets import PLAIN_SCRIPTS, SCRIPTS, asset, policy, script_elements, style
+from .controls_part import choices_part, scene_part
+from .deck_part import deck_of_model, deck_part
+from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES
+from .markup import flowing, section, text
+from .modes_data import movements, stresses
+from .modes_part import motions_part, stresses_part
+from .origin_part import origin_part
+from .packing import json_for_script
+from .scene_data import frame_of, static_data
+from .verdict_part import BROKEN, decision_part, head, verdict
+
+if TYPE_CHECKING:
+    from ..analysis import Analysis
+
+
+def page(analysis: Analysis, still: bytes | None = None) -> str:
+    """The page of a result.
+
+    Args:
+        analysis: The result.
+        still: A picture of it, as PNG, for browsers without scripts or WebGL.
+    """
+    data = _data(analysis)
+    name = _file_name(analysis.name)
+    raw, is_written = deck_of_model(analysis.data)
+    drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
+    warnings = [item for item in analysis.warnings if item.line == 0]
+    in_deck = [item for item in analysis.warnings if item.line > 0]
+    words = " ".join(sentence(analysis).split())
+    left_out = " ".join(_left_out(analysis, data))
+    body = (
+        verdict(analysis, name),
+        "<main>",
+        scene_part(data, still, words, left_out),
+        '<div class="side">',
+        choices_part(data),
+        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
+        motions_part(analysis, drawn),
+        stresses_part(analysis),
+        decision_part(analysis),
+        "</div>",
+        '<div class="below">',
+        deck_part(raw, in_deck, is_written),
+        origin_part(raw, name, analysis, is_written),
+        "</div></main>",
+    )
+    held = f'<script type="application/json" id="scene-data">{json_for_script(data)}</script>\n'
+    title = f"{name or 'model'}: {analysis.verdict.value}"
+    return _filled(title, "\n".join(body), SCRIPTS, held)
+
+
+def broken_page(error: Exception, name: str) -> str:
+    """The page of a deck that cannot be analysed; it says why.
+
+    Args:
+        error: Why: with diagnostics, or a sentence.
+        name: The deck's file name.
+    """
+    name = _file_name(name)
+    words = reason_in_words(error)
+    raw, told = b"", ""
+    if isinstance(error, ProblemsError):
+        raw = error.source.text if error.source is not None else b""
+        told = deck_part(raw, error.diagnostics)
+    body = (
+        head(*BROKEN, f"Cannot be analysed: {words}", f'<span class="name">{text(name)}</span>'),
+        '<main class="plain">',
+        told,
+        origin_part(raw, name, None, False) if raw else "",
+        "</main>",
+    )
+    return _filled(f"{name}: cannot be analysed", "\n".join(body), PLAIN_SCRIPTS, "")
+
+
+def reason_in_words(error: Exception) -> str:
+    """Why a deck cannot be analysed, in a few words."""
+    if isinstance(error, ProblemsError):
+        count = error.problems.errors
+        return f"{count} error{'s' * (count != 1)}"
+    return str(error) or "not enough memory"
+
+
+def _data(analysis: Analysis) -> dict[str, Any]:
+    frame = frame_of(scene_of(analysis.data))
+    return {
+        **static_data(analysis, frame),
+        "motions": analysis.under_constrained,
+        "movements": movements(analysis, frame),
+        "stresses": stresses(analysis, frame),
+    }
+
+
+def _left_out(analysis: Analysis, data: dict[str, Any]) -> Iterator[str]:
+    """What of a large result is not in the scene."""
+    members = int((analysis.data.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
+    if members > MOST_MEMBERS:
+        yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
+    kinds = [movement["kind"] for movement in data["movements"]]
+    moved = kinds.count("motion")
+    if moved < analysis.under_constrained:
+        yield f"Of {analysis.under_constrained} motions the first {moved} can be shown."
+    if (shown := len(data["stresses"])) < analysis.over_constrained:
+        yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
+    freedom, free = analysis.degrees_of_freedom, kinds.count("freedom")
+    if free < freedom and _most_freedoms(analysis) < freedom:
+        yield f"Of {freedom} declared degrees of freedom {free} can be shown."
+
+
+def _most_freedoms(analysis: Analysis) -> int:
+    return 0 if analysis.data.arrays.element_number.size > MOST_ELEMENTS else MOST_MODES
+
+
+def _note(item: Any) -> str:
+    hint = f" {flowing(item.help)}" if item.help else ""
+    return f"<b>{item.severity}</b>: {flowing(item.message)}{'.' if hint else ''}{hint}"
+
+
+def _file_name(name: str) -> str:
+    """The last part of a path: where the deck lies is nobody's concern."""
+    return os.path.basename(name.replace("\\", "/")) if name else ""
+
+
+def _filled(title: str, body: str, scripts: tuple[str, ...], data: str) -> str:
+    from .. import __version__
+
+    return Template(asset("template.html")).substitute(
+        title=escape(harmless(title)),
+        version=__version__,
+        policy=escape(policy(scripts)),
+        style=style(),
+        body=body,
+        data=data,
+        scripts=script_elements(scripts),
+    )

@@ -1,0 +1,5 @@
+"use strict";
+// Starts a page without a scene.
+
+Theme.listen(() => {});
+Printing.listen(null);

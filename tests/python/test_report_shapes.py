@@ -1,0 +1,86 @@
+"""The viewer's own shapes of members against those of `flexact.scene`, in a browser."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from browser import Browser, browser, chromium
+from reference_decks import ROOT
+
+import flexact
+from flexact.scene import QUANTITIES, Scene, move, resultants, scene_of, solid, stations
+
+__all__ = ["browser", "chromium"]
+
+#: Sheets, wires, bars, rigid links, hinges; in space and in the plane; on paths and on screws.
+DECKS = (
+    "paper/six_folded_sheets",
+    "paper/five_folded_sheets_symmetric",
+    "paper/five_wires",
+    "paper/twelve_trusses",
+    "paper/folded_sheet_free",
+    "flexures/planar_parallel_guide",
+    "linkages/bennett",
+    "linkages/slider_crank_planar",
+)
+PHASES = (-1.0, -0.37, 0.0, 0.5, 0.93)
+
+
+def moving(analysis: flexact.Analysis) -> list[Any]:
+    """What the page can move, in its order."""
+    freedoms = [freedom.motion for freedom in analysis.freedoms]
+    return [*analysis.motions, *(motion for motion in freedoms if motion is not None)]
+
+
+def corners(scene: Scene, pose: Any, plan: dict[str, Any]) -> np.ndarray:
+    """All corners as the page orders them, in parts of the scene's size."""
+    made = np.full((plan["vertex"][-1], 3), np.nan)
+    for strip in stations(scene.members, pose, plan["segments"]):
+        for part in solid(strip, scene.members, scene.planar):
+            for member, points in zip(part.member.tolist(), part.points, strict=True):
+                first, last = plan["vertex"][member : member + 2]
+                made[first:last] = points.reshape(-1, 3)
+    return (made - scene.centre) / scene.size
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_the_page_computes_the_shapes_of_python(
+    name: str, browser: Browser, tmp_path: Path
+) -> None:
+    analysis = browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
+    scene = scene_of(analysis.data)
+    plan = browser.run(
+        "const p = flexact.members.plan;return {segments: p.segments, vertex: Array.from(p.vertex)}"
+    )
+    motions = moving(analysis)
+    assert browser.run("return flexact.data.movements.length") == len(motions) > 0
+    for number, motion in enumerate(motions):
+        movement = move(scene, motion)
+        browser.run("flexact.showMovement(arguments[0])", number)
+        for phase in PHASES:
+            found = browser.run(
+                "flexact.movePhase(arguments[0]); return Array.from(flexact.members.shape.corner)",
+                phase,
+            )
+            expected = corners(scene, movement.pose(phase), plan)
+            assert np.allclose(np.reshape(found, (-1, 3)), expected, rtol=0, atol=1e-5)
+
+
+def test_the_page_has_the_resultants_of_python(browser: Browser, tmp_path: Path) -> None:
+    analysis = browser.show(ROOT / "input_decks" / "linkages" / "bennett.dat", tmp_path)
+    scene = scene_of(analysis.data)
+    for number, stress in enumerate(analysis.self_stresses):
+        expected = resultants(scene, stress)
+        for kind, values in (("members", expected.members), ("hinges", expected.hinges)):
+            found = browser.run(
+                "const s = flexact.data.stresses[arguments[0]][arguments[1]];"
+                "return Object.fromEntries(Object.entries(s).map("
+                "([q, v]) => [q, Array.from(SceneData.array(v))]))",
+                number,
+                kind,
+            )
+            for column, quantity in enumerate(QUANTITIES):
+                given = np.ravel(found.get(quantity, np.zeros(values[:, column].size)))
+                scale = np.abs(values).max() or 1.0
+                assert np.allclose(given, values[:, column].ravel(), rtol=0, atol=1e-6 * scale)
