@@ -9,6 +9,7 @@ BIN := .venv/bin
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
+	$(BIN)/flexact report input_decks/paper/six_folded_sheets.dat -o results/six_folded_sheets.html
 	@echo
 	@echo "Written to the folder results:"
 	@ls results
