@@ -29,7 +29,6 @@ lint: .venv/ready-to-test
 
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test
-	$(BIN)/python -c 'import matplotlib' 2>/dev/null || $(BIN)/python -m pip install -q 'matplotlib>=3.8'
 	$(BIN)/python tests/benchmarks/run.py
 
 clean:

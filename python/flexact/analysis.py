@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _boundary, memory, remedies
@@ -352,6 +353,43 @@ class Analysis(Frozen):
         from .mesh import to_meshio
 
         return to_meshio(self)
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        motion: int | None = None,
+        freedom: int | None = None,
+        stress: int | None = None,
+        quantity: str | None = None,
+        view: str | None = None,
+    ) -> None:
+        """Write the result to a file, whole or not at all.
+
+        Args:
+            path: Its suffix says what it is to be: a picture (.png, .svg, or .gif, which moves;
+                `flexact.picture`), a page (.html; `flexact.report`), a cycle for ParaView (.pvd),
+                or a mesh (.vtu, .vtp, .vtk, .xdmf, ...; `flexact.mesh`).
+            motion: Number of the motion that is shown, from 1; of pictures and meshes.
+            freedom: Number of the declared degree of freedom that is shown, likewise.
+            stress: Number of the self-stress that is shown, of pictures.
+            quantity: `N`, `T`, `My` or `Mz` of the self-stress, of pictures.
+            view: From where, of pictures; see `flexact.picture.draw`.
+
+        Raises:
+            FlexactError: Something chosen is not there, there is no such kind of file, a
+                package is missing, or the file cannot be written.
+        """
+        from .saving import save
+
+        choice = {
+            "motion": motion,
+            "freedom": freedom,
+            "stress": stress,
+            "quantity": quantity,
+            "view": view,
+        }
+        save(self, Path(path), choice)
 
     def describe(self) -> str:
         """The result in plain English: verdict, counts, decision, motions and self-stresses."""

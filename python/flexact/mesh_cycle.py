@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .analysis import Analysis
     from .scene import Moving
 
+SUFFIX = ".pvd"
 #: Time steps of a cycle, from time 0 to time 1; the last is as the first.
 STEPS = 24
 #: Names of the meshes: this, and one of these each.

@@ -10,8 +10,6 @@ from .words import MOST_MODES, describe, sentence
 if TYPE_CHECKING:
     from .analysis import Analysis
 
-_COLOURS = {(False, False): "#15774a", (True, False): "#b25406", (False, True): "#b3261e"}
-_BOTH = "#93205e"
 _HEIGHT = 860
 
 
@@ -23,8 +21,7 @@ def html_of(analysis: Analysis) -> str:
     from .report import page
     from .report.markup import text
 
-    state = analysis.under_constrained > 0, analysis.over_constrained > 0
-    colour = _COLOURS.get(state, _BOTH)
+    colour = analysis.verdict.colour
     head = text(" ".join(sentence(analysis).split()))
     words = describe(analysis, most=MOST_MODES)
     return (

@@ -18,6 +18,19 @@ class Verdict(str, Enum):
         """The words themselves."""
         return self.value
 
+    @property
+    def colour(self) -> str:
+        """In pictures and pages on white, as #rrggbb; the words always stand beside it."""
+        return _COLOURS[self]
+
+
+_COLOURS = {
+    Verdict.EXACT: "#15774a",
+    Verdict.UNDER: "#b25406",
+    Verdict.OVER: "#b3261e",
+    Verdict.BOTH: "#93205e",
+}
+
 
 class ClassCounts(NamedTuple):
     """How many coordinates or deformations there are of each class, eq. (7)."""

@@ -299,3 +299,12 @@ def test_a_notebook_shows_the_page_and_words() -> None:
 
 def test_every_script_is_embedded() -> None:
     assert {path.name for path in REPORT.glob("*.js")} == {*SCRIPTS, "plain.js"}
+
+
+def test_verdicts_have_one_colour_in_pages_and_pictures() -> None:
+    light = asset("style.css").split("}")[0]
+    found = dict(re.findall(r"--(\w+): (#\w+);", light))
+    kinds = {"exact": "EXACT", "under": "UNDER", "over": "OVER", "both": "BOTH"}
+    assert {found[kind] for kind in kinds} == {verdict.colour for verdict in flexact.Verdict}
+    for kind, name in kinds.items():
+        assert found[kind] == flexact.Verdict[name].colour

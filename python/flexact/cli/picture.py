@@ -84,5 +84,6 @@ def _check(chosen: argparse.Namespace) -> None:
     """Find out what is wrong with the choice before anything is analysed."""
     from flexact.picture import check_packages, check_suffix, check_view
 
-    check_packages(check_suffix(chosen.output.suffix))
+    check_suffix(chosen.output.suffix)
+    check_packages()
     check_view(chosen.view)

@@ -16,9 +16,8 @@ from flexact.diagnostics import ProblemsError
 from flexact.interruption import unwinding
 from flexact.outputs import OutputError, plan_file, plan_files, write_together
 from flexact.rendering import harmless
+from flexact.saving import PAGES, as_bytes
 
-#: What an output is called that is a page, not a folder.
-PAGES = (".html", ".htm")
 #: What the index takes the place of among the decks.
 _INDEX = DeckFile("the index", Path("index"))
 _WITHOUT_PICTURES = (
@@ -98,13 +97,12 @@ class _Work:
         return Outcome(deck.name, ExitCode.ANALYSED, analysis.verdict.value)
 
     def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> None:
-        from flexact.report import page
-        from flexact.report.still import small, still
+        from flexact.report.still import small
+        from flexact.saving import page_bytes
         from flexact.words import sentence
 
         with unwinding():
-            picture = still(analysis) if self.pictures else None
-            self._put(deck, page(analysis, picture))
+            self._put(deck, page_bytes(analysis))
             if self.index is None:
                 return
             thumb = small(analysis) if self.pictures else None
@@ -119,14 +117,14 @@ class _Work:
             if codes & failures.NOT_READ:
                 return
         try:
-            self._put(deck, broken_page(error, deck.name))
+            self._put(deck, as_bytes(broken_page(error, deck.name)))
         except OutputError:
             failures.tell_people(deck, error)
             raise
         self._enter(deck, None, f"Cannot be analysed: {reason_in_words(error)}")
 
-    def _put(self, deck: DeckFile, text: str) -> None:
-        write_together({self.plan[deck.path][0]: text.encode("utf-8", "backslashreplace")})
+    def _put(self, deck: DeckFile, content: bytes) -> None:
+        write_together({self.plan[deck.path][0]: content})
 
     def _enter(
         self,
@@ -152,5 +150,5 @@ class _Work:
             for deck in self.decks
         ]
         with unwinding():
-            write_together({self.index: index_page(entries).encode("utf-8", "backslashreplace")})
+            write_together({self.index: as_bytes(index_page(entries))})
         say(f"index in {harmless(str(self.index))}")

@@ -31,8 +31,6 @@ DPI = 100
 PANEL = (900, 760)
 _INK = (0.13, 0.15, 0.18)
 _FAINT = (0.38, 0.40, 0.43)
-#: Colour of the verdict's mark: exactly constrained, else.
-_RIGHT, _WRONG = (0.11, 0.55, 0.38), (0.80, 0.32, 0.02)
 _SIZES = {"name": 11.5, "title": 14.0, "panel": 12.0, "caption": 10.5, "legend": 10.0}
 #: Parts of a panel's width at each side, and of its height, that stay free.
 _MARGIN = 0.05
@@ -125,11 +123,9 @@ def _add_verdict(frame: _Frame, analysis: Analysis) -> float:
     if name:
         frame.text(left, y, _cut(name, frame, "name"), "name", color=_FAINT)
         y += frame.line("name")
-    exact = not analysis.under_constrained and not analysis.over_constrained
     words = " ".join(sentence(analysis).split())
     for line in _balanced(words, _letters(frame, "title")):
-        colour = _RIGHT if exact else _WRONG
-        frame.text(left, y, line, "title", color=colour, weight="bold")
+        frame.text(left, y, line, "title", color=analysis.verdict.colour, weight="bold")
         y += frame.line("title")
     return y + 4 * frame.scale
 
@@ -214,11 +210,9 @@ def _about(scene: Scene, subject: Subject) -> str:
     if movement is None:
         return "Arrows: declared degrees of freedom." if len(scene.arrows) else ""
     part = largest_displacement(scene, subject)
-    near = abs(part / AMPLITUDE - 1) < 0.25
-    words = "about 10 %" if near else f"{100 * part:.0f} %"
-    size = f"largest displacement {words} of the model's size"
+    size = f"largest displacement {100 * part:.0f} % of the model's size"
     turned = _largest_rotation(movement.pose(1.0))
-    if not near and turned > _TURNED:
+    if turned > _TURNED and part < AMPLITUDE * 0.95:
         size = f"{size}, largest rotation {turned:.1f} rad"
     return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
 

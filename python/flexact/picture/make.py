@@ -42,8 +42,8 @@ def check_suffix(suffix: str) -> str:
     return suffix.lower()
 
 
-def check_packages(suffix: str) -> None:
-    """Find out whether what is needed for such a file is installed.
+def check_packages() -> None:
+    """Find out whether what is needed for pictures is installed.
 
     Raises:
         PictureError: It is not.
@@ -96,7 +96,7 @@ def draw(
     """
     from .figure import compose
 
-    check_packages(".png")
+    check_packages()
     chosen = Chosen(motion, freedom, stress, quantity)
     scene = scene_of(analysis.data)
     subjects = subjects_of(analysis, scene, chosen)
@@ -135,7 +135,7 @@ def picture_bytes(
         PictureError: There is no such kind of picture, or a package is missing; else as `draw`.
     """
     kind = check_suffix(suffix)
-    check_packages(kind)
+    check_packages()
     chosen = Chosen(motion, freedom, stress, quantity)
     with _quiet():
         if kind == ".gif":

@@ -1,0 +1,56 @@
+"""Meshes to files of any kind: which kind a file's suffix means, and what writes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import mesh_cycle, mesh_polydata
+from .mesh import mesh_of
+from .mesh_file import MeshFormatError, find_format
+from .mesh_names import named_bytes
+from .outputs import OutputError, write_together
+
+if TYPE_CHECKING:
+    from .analysis import Analysis
+    from .scene import Moving
+
+    Write = Callable[[Analysis, Moving | None, Path], None]
+
+
+def mesh_writer(target: Path) -> Write:
+    """What writes an analysis, and the motion that is shown, to a file with this suffix.
+
+    Raises:
+        OutputError: There is nothing, or a package is missing.
+    """
+    suffix = target.suffix.lower()
+    if not suffix:
+        raise OutputError(f"the suffix of {target} is to say what to write: .vtu, .pvd, ...")
+    if suffix == mesh_cycle.SUFFIX:
+        return _write_cycle
+    if suffix == ".vtp":
+        mesh_polydata.require()
+        return _write_polydata
+    return _meshio_writer(suffix)
+
+
+def _meshio_writer(suffix: str) -> Write:
+    try:
+        form = find_format(suffix)
+    except MeshFormatError as error:
+        raise MeshFormatError(f"{error}; and so will pvd, which plays, or vtp") from error
+
+    def write(analysis: Analysis, shown: Moving | None, target: Path) -> None:
+        write_together({target: named_bytes(mesh_of(analysis, shown), form)})
+
+    return write
+
+
+def _write_polydata(analysis: Analysis, shown: Moving | None, target: Path) -> None:
+    write_together({target: mesh_polydata.polydata_bytes(mesh_of(analysis, shown))})
+
+
+def _write_cycle(analysis: Analysis, shown: Moving | None, target: Path) -> None:
+    mesh_cycle.write_cycle(mesh_cycle.Cycle(analysis, shown, target))
