@@ -40,6 +40,19 @@ def test_readme_shows_what_the_command_says(
         assert like(out + err) == like(expected)
 
 
+def test_readme_shows_commands_that_write_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    lines = re.findall(r"^    \.venv/bin/flexact ((?:report|picture|export) .*)$", README, re.M)
+    assert [line.split()[0] for line in lines] == ["report", "picture", "export"]
+    for line in lines:
+        words = line.split()
+        target = tmp_path / words[-1]
+        assert main([*words[:-1], str(target)]) == 0
+        assert target.stat().st_size > 1000
+
+
 def test_readme_example_prints_what_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     code = README.split("```python\n")[1].split("```")[0]
     exec(compile(code, "README.md", "exec"), {})
