@@ -9,7 +9,8 @@ from .forms import Form
 from .hinges import Hinges
 from .joints import joints_of
 from .members import Members, frames_along
-from .movement import Movement, Moving, move
+from .movement import Movement, move
+from .moving import Moving
 from .pose import Pose, reference_pose
 from .resultants import Resultants, resultants
 from .scene import Scene, scene_of

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
 from ..exchange import FloatArray
 from ..frozen import Frozen
-from ..model_data import ModelData
 from .field import field_along
+from .moving import Moving
 from .path import follow, is_followed
 from .pose import Pose, reference_pose
 from .rotations import between, vector_of
@@ -31,22 +30,6 @@ _UNSEEN = 1.0e-3
 #: How well the farthest displacement is to fit, and how often it is tried.
 _FITS = 2.0e-3
 _MOST_FITS = 6
-
-
-class Moving(Protocol):
-    """A motion at the nodes: of an analysis, or of a declared degree of freedom."""
-
-    @property
-    def data(self) -> ModelData:
-        """The model in which it is a motion that nothing determines."""
-
-    @property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) [m]."""
-
-    @property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) [rad]."""
 
 
 @dataclass(frozen=True, eq=False)

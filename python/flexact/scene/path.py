@@ -8,7 +8,6 @@ at the least deformations.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,10 +17,8 @@ from ..elements import Class, Dual, NodeKind, dual_table
 from ..exchange import FloatArray
 from ..frozen import Frozen
 from ..model_data import ModelData
+from .moving import Moving
 from .pose import Pose, pose_of
-
-if TYPE_CHECKING:
-    from .movement import Moving
 
 #: More coordinates than these are not followed: each step solves a dense system.
 _MOST_COORDINATES = 300

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ..elements import NodeKind
 from ..exchange import ModelArrays
 from .forms import BEAMS, LINKS, all_held, is_one_of
+from .moving import Moving
 from .places import slots_of
 from .pose import Pose, reference_pose
 from .rotations import matrix_of, screw_matrix
-
-if TYPE_CHECKING:
-    from .movement import Moving
 
 
 def moved_by_screws(motion: Moving, share: float) -> Pose:
