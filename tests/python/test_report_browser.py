@@ -211,6 +211,94 @@ def test_keys_of_the_canvas(browser: Browser, tmp_path: Path) -> None:
     assert browser.run("return flexact.player.playing")
 
 
+VIEWED = ("paper/six_folded_sheets", "linkages/bennett", "flexures/planar_parallel_guide")
+
+
+def free_room(browser: Browser) -> np.ndarray:
+    """Pixels left free at the left, right, top and bottom, in the whole cycle."""
+    browser.run("document.querySelector('#overlay').hidden = true; flexact.play(false)")
+    inked = np.False_
+    for phase in (-1, 0, 1):
+        browser.run("flexact.movePhase(arguments[0])", phase)
+        browser.drawn()
+        pixels = browser.pixels()[4:-4, 4:-4].astype(int)
+        inked = inked | (np.abs(pixels - pixels[0, 0]).max(axis=2) > 12)
+    rows, columns = np.flatnonzero(inked.any(axis=1)), np.flatnonzero(inked.any(axis=0))
+    height, width = inked.shape
+    room = (columns[0], width - 1 - columns[-1], rows[0], height - 1 - rows[-1])
+    return np.array(room) + 4
+
+
+@pytest.mark.parametrize("name", VIEWED)
+@pytest.mark.parametrize("width", [360, 1280])
+def test_views_are_filled_by_what_is_drawn(
+    name: str, width: int, browser: Browser, tmp_path: Path
+) -> None:
+    browser.resize(width, 900)
+    browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
+    views = browser.run(
+        "return Array.from(document.querySelectorAll('[data-view]'),b => b.dataset.view)"
+    )
+    for view in (None, *views):
+        if view:
+            browser.press(f'[data-view="{view}"]')
+        left, right, top, bottom = free_room(browser)
+        # Boxes round hinges and arrows are a little larger than these are.
+        assert min(left, right, top) >= 10 and bottom >= 30, view
+        assert max(left, right) <= 24 or (top <= 24 and bottom <= 46), view
+        assert abs(left - right) <= 12 and abs(bottom - 20 - top) <= 12, view
+
+
+def test_fit_comes_back_and_turning_does_not_jump(browser: Browser, tmp_path: Path) -> None:
+    browser.show(ROOT / "input_decks/paper/six_folded_sheets.dat", tmp_path)
+    state = (
+        "const {camera, controls} = flexact.stage;"
+        "return [...camera.position.toArray(), ...controls.target.toArray(), camera.zoom]"
+    )
+    start = browser.run(state)
+    browser.run("flexact.stage.turn(0.01, 0.01)")
+    turned = browser.run(state)
+    assert np.allclose(turned[3:], start[3:], atol=1e-9), "target and zoom stay"
+    assert 0 < np.linalg.norm(np.subtract(turned[:3], start[:3])) < 0.2
+    browser.press('[name="movement"][value="0"]')
+    browser.resize(1000, 700)
+    assert np.allclose(browser.run(state)[3:], start[3:], atol=1e-9), "a chosen view stays"
+    browser.press("#fit")
+    browser.resize(1280, 900)
+    fitted = browser.run(state)
+    browser.run("flexact.stage.shift(0.3, 0.2); flexact.stage.zoom(2)")
+    browser.press("#fit")
+    assert np.allclose(browser.run(state), fitted, atol=1e-6), "a fitted one follows the window"
+
+
+def test_the_caption_says_how_far_it_is_drawn(browser: Browser, tmp_path: Path) -> None:
+    """A rotation of 1 rad limits bending at a fold and torsion, else it is a tenth of the size."""
+    reach = (
+        "const at = () => [...flexact.pose.position, ...flexact.members.shape.centre];"
+        "flexact.movePhase(0); const start = at(); let far = 0;"
+        "for (const phase of [-1, 1]) { flexact.movePhase(phase); const end = at();"
+        "for (let i = 0; i < end.length; i += 3) far = Math.max(far, Math.hypot("
+        "end[i] - start[i], end[i + 1] - start[i + 1], end[i + 2] - start[i + 2])); }"
+        "return 100 * far"
+    )
+    for name, movement, known in (
+        ("paper/six_folded_sheets", 0, (9.9, 10.1)),
+        ("paper/six_folded_sheets", 1, (1, 9)),
+        ("paper/folded_sheet_free", 5, (0, 0)),
+    ):
+        browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
+        browser.press(f'[name="movement"][value="{movement}"]')
+        caption = browser.run("return document.querySelector('#shown').innerText")
+        told = re.search(
+            r"with (?:no displacements|displacements up to (\S+)\s% of the model's size)", caption
+        )
+        assert told, caption
+        share = float(told[1] or 0)
+        assert known[0] <= share <= known[1]
+        assert share == pytest.approx(browser.run(reach), rel=0.05, abs=1e-3)
+        assert ("rotations up to 1\N{NO-BREAK SPACE}rad." in caption) == (movement > 0)
+
+
 def test_the_plane_stays_the_plane(browser: Browser, tmp_path: Path) -> None:
     browser.show(ROOT / "input_decks/flexures/planar_parallel_guide.dat", tmp_path)
     assert browser.run("return document.querySelectorAll('[data-view]').length") == 0

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ill_conditioned_models import two_wires
 from known_models import folded_sheet, twelve_trusses
 from reference_decks import ROOT
 
@@ -155,6 +156,73 @@ def test_verdict_counts_decision_and_remedies_are_told() -> None:
         "To remove it, release one of:",
     ):
         assert told in words, told
+
+
+def head_of(text: str) -> str:
+    found = re.search(r"<header.*?</header>", text, re.DOTALL)
+    assert found
+    return words_of(found[0])
+
+
+def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
+    head = head_of(page(flexact.analyse(CLAMPED)))
+    for told in (
+        "self-stress can exist without any load. Certain.",
+        "Motion: If this motion is wanted, declare one of these independent; if not, hold (fix) "
+        "it: node 4 ry (DYNX 4 3 or FIX 4 3)",
+        "Self-stress: To remove it, release one of: element 1 (first sheet, ground to fold) e3 "
+        "bending at p in the local xz plane (RLSE 1 3); element 2 (second sheet",
+    ):
+        assert told in head, told
+    over = head_of(page(flexact.analyse(CLAMPED.with_name("six_folded_sheets.dat"))))
+    assert "(RLSE 21 2); element 1 (upper 90, ground to fold)" in over
+    assert over.count("element") == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
+    exact = head_of(page(flexact.analyse(CLAMPED.with_name("five_wires.dat"))))
+    assert "Certain." in exact and "remove" not in exact
+
+
+def test_a_doubtful_decision_is_doubted_in_the_first_line() -> None:
+    analysis = flexact.analyse(two_wires(1e-13))
+    assert analysis.verdict is flexact.Verdict.EXACT and analysis.nearly == (1, 1)
+    text = page(analysis)
+    head = head_of(text)
+    assert "Nearly certain only: there may be 1 motion and 1 self-stress." in head
+    assert "Certain." not in head
+    assert re.search(r'<span class="sign"[^>]*>[^<]+\?</span>', text)
+    assert 'href="#decision"' in text and 'id="decision"' in text
+    same = flexact.analyse(two_wires(1e-16))
+    assert same.nearly == (same.under_constrained, same.over_constrained)
+    assert "Nearly certain only." in head_of(page(same))
+
+
+def test_degrees_of_freedom_are_told_in_words() -> None:
+    deck = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
+    movements = data_of(page(flexact.analyse(deck)))["movements"]
+    assert [movement["label"] for movement in movements[:2]] == ["node 1 z", "element 1 e6"]
+    assert [movement["title"] for movement in movements[:2]] == [
+        "Degree of freedom: displacement along z of node 1",
+        "Degree of freedom: bending at q in the local xy plane of element 1 "
+        "(upper 90, ground to fold)",
+    ]
+    deck = ROOT / "input_decks" / "flexures" / "cross_hinge_sheet_and_wires.dat"
+    text = page(flexact.analyse(deck))
+    titles = [attributes.get("title") for tag, attributes in Elements(text).tags if tag == "input"]
+    assert "Degree of freedom: rotation about y of node 14" in titles
+
+
+def test_degrees_of_freedom_that_cannot_move_are_told() -> None:
+    deck = ROOT / "input_decks" / "flexures" / "folded_sheet_clamped_trap.dat"
+    words = words_of(page(flexact.analyse(deck)))
+    assert "Declared, but a self-stress stops it: element 1 e5" in words
+    assert "Declared, but" not in words_of(page(flexact.analyse(CLAMPED)))
+
+
+def test_only_quantities_that_there_are_can_be_chosen() -> None:
+    for deck, expected in (("six_folded_sheets", ["T", "My"]), ("twelve_trusses", ["N"])):
+        text = page(flexact.analyse(CLAMPED.with_name(f"{deck}.dat")))
+        inputs = [attributes for tag, attributes in Elements(text).tags if tag == "input"]
+        chosen = [each["value"] for each in inputs if each.get("name") == "quantity"]
+        assert chosen == expected
 
 
 def test_verdicts_differ_by_sign_and_word_not_by_colour_alone() -> None:

@@ -37,11 +37,22 @@ def corners(scene: Scene, pose: Any, plan: dict[str, Any]) -> np.ndarray:
     """All corners as the page orders them, in parts of the scene's size."""
     made = np.full((plan["vertex"][-1], 3), np.nan)
     for strip in stations(scene.members, pose, plan["segments"]):
-        for part in solid(strip, scene.members, scene.planar):
-            for member, points in zip(part.member.tolist(), part.points, strict=True):
-                first, last = plan["vertex"][member : member + 2]
-                made[first:last] = points.reshape(-1, 3)
+        for count in set(plan["corners"]):
+            for part in solid(strip, scene.members, scene.planar, max(count, 8)):
+                for member, points in zip(part.member.tolist(), part.points, strict=True):
+                    first, last = plan["vertex"][member : member + 2]
+                    if plan["corners"][member] == count:
+                        made[first:last] = points.reshape(-1, 3)
     return (made - scene.centre) / scene.size
+
+
+def plan_of(browser: Browser) -> dict[str, Any]:
+    """How many pieces bent members have, and where the corners of each member are."""
+    plan: dict[str, Any] = browser.run(
+        "const {segments, vertex, corners, smooth} = flexact.members.plan;"
+        "return {segments, smooth, vertex: Array.from(vertex), corners: Array.from(corners)}"
+    )
+    return plan
 
 
 @pytest.mark.parametrize("name", DECKS)
@@ -50,9 +61,7 @@ def test_the_page_computes_the_shapes_of_python(
 ) -> None:
     analysis = browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
     scene = scene_of(analysis.data)
-    plan = browser.run(
-        "const p = flexact.members.plan;return {segments: p.segments, vertex: Array.from(p.vertex)}"
-    )
+    plan = plan_of(browser)
     motions = moving(analysis)
     assert browser.run("return flexact.data.movements.length") == len(motions) > 0
     for number, motion in enumerate(motions):
@@ -65,6 +74,41 @@ def test_the_page_computes_the_shapes_of_python(
             )
             expected = corners(scene, movement.pose(phase), plan)
             assert np.allclose(np.reshape(found, (-1, 3)), expected, rtol=0, atol=1e-5)
+
+
+@pytest.mark.parametrize("name", ["paper/six_folded_sheets", "paper/five_wires"])
+def test_round_members_look_round(name: str, browser: Browser, tmp_path: Path) -> None:
+    """Normals point away from the axis, in a pose as well."""
+    analysis = browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
+    scene, plan = scene_of(analysis.data), plan_of(browser)
+    movement = move(scene, moving(analysis)[0])
+    browser.run("flexact.showMovement(0); flexact.movePhase(0.5)")
+    found = np.reshape(browser.run("return Array.from(flexact.members.shape.normal)"), (-1, 3))
+    strips = list(stations(scene.members, movement.pose(0.5), plan["segments"]))
+    axes = {m: c for strip in strips for m, c in zip(strip.member, strip.centre, strict=True)}
+    made = corners(scene, movement.pose(0.5), plan)
+    rows = np.flatnonzero(scene.members.round)
+    assert rows.size
+    for member in rows.tolist():
+        first, last = plan["vertex"][member : member + 2]
+        axis = (axes[member] - scene.centre) / scene.size
+        away = made[first:last].reshape(len(axis), -1, 3) - axis[:, None]
+        away /= np.linalg.norm(away, axis=2, keepdims=True)
+        assert np.allclose(found[first:last], away.reshape(-1, 3), rtol=0, atol=1e-4)
+    thick = scene.members.section[rows, 0] > 0.015 * scene.size
+    assert [plan["corners"][member] for member in rows] == [24 if each else 8 for each in thick]
+
+
+def test_many_round_members_are_plain(browser: Browser, tmp_path: Path) -> None:
+    model = flexact.Model(name="row")
+    for k in range(401):
+        a, b = model.node(k, 0, 0), model.node(k, 1, 0)
+        model.truss(a, b)
+        model.fix(a)
+    browser.show(model, tmp_path)
+    plan = plan_of(browser)
+    assert not plan["smooth"] and set(plan["corners"]) == {8}
+    assert browser.run("return flexact.members.shape.normal.length") == 0
 
 
 def test_the_page_has_the_resultants_of_python(browser: Browser, tmp_path: Path) -> None:

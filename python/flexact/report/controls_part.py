@@ -6,10 +6,10 @@ import base64
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from .markup import text
+from ..scene import QUANTITIES
+from .markup import flowing, text
 
 _VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right"))
-_QUANTITIES = (("N", "N"), ("T", "T"), ("My", "My"), ("Mz", "Mz"))
 _LAYERS = (
     ("ghost", "reference as a ghost", True),
     ("arrows", "arrows of displacements", True),
@@ -18,10 +18,11 @@ _LAYERS = (
     ("elements", "element numbers", False),
     ("nodes", "node numbers", False),
 )
-_KEYS = (
-    "Arrow keys turn the scene, with Shift they move it; + and \N{MINUS SIGN} zoom, "
-    "0 starts again, the space bar plays and pauses."
-)
+_MORE_KEYS = "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses."
+_KEYS = f"Drag or arrow keys turn the scene, with Shift they move it; the wheel or {_MORE_KEYS}"
+_PLANAR_KEYS = f"Drag or arrow keys move the scene; the wheel or {_MORE_KEYS}"
+_TOUCH = "One finger turns the scene, two move and zoom it; a tap tells what is there."
+_PLANAR_TOUCH = "One finger moves the scene, two zoom it; a tap tells what is there."
 
 
 def scene_part(data: dict[str, Any], still: bytes | None, words: str, left_out: str) -> str:
@@ -34,21 +35,22 @@ def scene_part(data: dict[str, Any], still: bytes | None, words: str, left_out: 
         left_out: Sentences about what is not in the page; may be empty.
     """
     planar = bool(data["planar"])
-    keys = _KEYS.replace("turn the scene, with Shift they move it", "move the scene")
+    keys = _PLANAR_KEYS if planar else _KEYS
+    touch = _PLANAR_TOUCH if planar else _TOUCH
     note = f'<p class="note">{text(left_out)}</p>' if left_out else ""
     return (
         '<section id="scene" aria-label="Scene">'
         f'<div id="still">{_still(still, words)}</div>'
         '<div id="live" hidden>'
         '<div class="stage"><canvas id="canvas" tabindex="0" role="application" '
-        f'aria-label="Scene. {text(keys if planar else _KEYS)}" aria-describedby="shown"></canvas>'
+        f'aria-label="Scene. {text(keys)}" aria-describedby="shown"></canvas>'
         '<canvas id="overlay" aria-hidden="true"></canvas>'
         '<canvas id="print" aria-hidden="true"></canvas>'
         '<div id="tip" role="tooltip" hidden></div></div>'
         '<div class="told-below"><p id="shown" role="status" aria-live="polite"></p>'
         f"{_LEGEND}</div>"
-        f"{_toolbar(planar)}"
-        f'<p class="keys">{text(keys if planar else _KEYS)}</p>'
+        f"{_toolbar(planar, bool(data['movements']))}"
+        f'<p class="keys">{text(keys)}</p><p class="keys touch">{text(touch)}</p>'
         f"</div>{note}</section>"
     )
 
@@ -73,13 +75,14 @@ def _still(still: bytes | None, words: str) -> str:
 _WITHOUT = "A browser with scripts and WebGL shows the scene here, to turn, to play and to colour."
 
 
-def _toolbar(planar: bool) -> str:
+def _toolbar(planar: bool, moves: bool) -> str:
     views = "".join(
         f'<button type="button" data-view="{view}">{name}</button>'
         for view, name in (() if planar else _VIEWS)
     )
     return (
-        '<div class="toolbar"><div class="group" role="group" aria-label="Movement">'
+        '<div class="toolbar"><div class="group" role="group" aria-label="Movement"'
+        f"{'' if moves else ' hidden'}>"
         '<button type="button" id="play">Play</button>'
         '<label>size <input type="range" id="amplitude" min="0" max="100" value="100"></label>'
         '<label>speed <input type="range" id="speed" min="0.1" max="1.5" step="0.1" value="0.5">'
@@ -88,14 +91,22 @@ def _toolbar(planar: bool) -> str:
     )
 
 
-def choices_part(data: dict[str, Any]) -> str:
-    """What is shown: a movement, a self-stress and its quantity, and layers."""
-    stresses = [stress["title"] for stress in data["stresses"]]
+def choices_part(data: dict[str, Any], stuck: Sequence[str]) -> str:
+    """What is shown: a movement, a self-stress and its quantity, and layers.
+
+    Args:
+        data: The scene's data.
+        stuck: The declared degrees of freedom in which the mechanism cannot move.
+    """
+    stresses = [_choice(k, stress) for k, stress in enumerate(data["stresses"])]
+    found = {each for stress in data["stresses"] for each in stress["largest"]}
+    quantities = [(each, each, data["meaning"][each]) for each in QUANTITIES if each in found]
     return (
         '<section id="choices" class="choices" aria-label="What is shown" hidden>'
         + _movements(data["movements"])
-        + (_radios("stress", "Self-stress", _numbered(stresses), "None") if stresses else "")
-        + (_radios("quantity", "Coloured by", _QUANTITIES) if stresses else "")
+        + _immovable(stuck)
+        + (_radios("stress", "Self-stress", stresses, "None") if stresses else "")
+        + (_radios("quantity", "Coloured by", quantities) if quantities else "")
         + _layers(bool(data["movements"]), bool(stresses))
         + "</section>"
     )
@@ -106,7 +117,7 @@ def _movements(movements: Sequence[dict[str, Any]]) -> str:
     none, made = "None", ""
     for kind, legend in (("motion", "Motions"), ("freedom", "Declared degrees of freedom")):
         chosen = [
-            (str(index), movement["label"])
+            _choice(index, movement)
             for index, movement in enumerate(movements)
             if movement["kind"] == kind
         ]
@@ -116,18 +127,34 @@ def _movements(movements: Sequence[dict[str, Any]]) -> str:
     return made
 
 
-def _numbered(titles: Sequence[str]) -> list[tuple[str, str]]:
-    return [(str(index), title) for index, title in enumerate(titles)]
+def _choice(index: int, mode: dict[str, Any]) -> tuple[str, str, str]:
+    """Value, words, and what tells more."""
+    label = mode.get("label", mode["title"])
+    return str(index), label, mode["title"] if mode["title"] != label else ""
 
 
-def _radios(name: str, legend: str, choices: Iterable[tuple[str, str]], none: str = "") -> str:
-    every = ([("", none)] if none else []) + list(choices)
-    made = "".join(
-        f'<label class="chip"><input type="radio" name="{name}" value="{value}"'
-        f"{' checked' if none and not value else ''}><span>{text(words)}</span></label>"
-        for value, words in every
+def _immovable(stuck: Sequence[str]) -> str:
+    if not stuck:
+        return ""
+    return (
+        '<p class="note stuck">Declared, but a self-stress stops it: '
+        f"{flowing('; '.join(stuck))}.</p>"
     )
+
+
+def _radios(name: str, legend: str, choices: Iterable[tuple[str, str, str]], none: str = "") -> str:
+    every = ([("", none, "")] if none else []) + list(choices)
+    made = "".join(_chip(name, *choice, checked=not choice[0]) for choice in every)
     return f"<fieldset><legend>{legend}</legend>{made}</fieldset>"
+
+
+def _chip(name: str, value: str, words: str, more: str, checked: bool) -> str:
+    told = f' title="{text(more)}"' if more else ""
+    state = " checked" if checked else ""
+    return (
+        f'<label class="chip"><input type="radio" name="{name}" value="{value}"{told}{state}>'
+        f"<span>{text(words)}</span></label>"
+    )
 
 
 def _layers(moves: bool, stressed: bool) -> str:

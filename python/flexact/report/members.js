@@ -37,6 +37,7 @@ const Members = (() => {
       this.computed = 0; // times that shapes were computed
       this.group = new THREE.Group();
       this.corner = attribute(this.shape.corner, 3);
+      this.normal = attribute(this.shape.normal, 3);
       this.paint = attribute(new Uint8Array(4 * this.plan.vertex[this.plan.count]), 4, true);
       this.makeSolids();
       this.makeEdges();
@@ -52,24 +53,27 @@ const Members = (() => {
       for (const translucent of [false, true]) {
         const chosen = this.seen.filter((m) => opacity[m] < 1 === translucent);
         if (!chosen.length) continue;
-        const material = new THREE.MeshLambertMaterial({
-          vertexColors: true, flatShading: true,
-          transparent: translucent, depthWrite: !translucent,
-          polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-        });
-        this.solids.push(this.solid(chosen, detail, material, translucent ? 2 : 0));
+        const parts = this.plan.smooth ? [Surfaces.FLAT, Surfaces.ROUND] : [Surfaces.FLAT];
+        for (const part of parts) this.solids.push(this.solid(chosen, detail, part, translucent));
       }
     }
 
-    /** A mesh of some members that can be drawn in detail or lightly. */
-    solid(rows, detail, material, order) {
+    /** A mesh of a part of some members that can be drawn in detail or lightly. */
+    solid(rows, detail, part, translucent) {
+      const flat = part === Surfaces.FLAT;
       const attributes = { position: this.corner, color: this.paint };
+      if (!flat) attributes.normal = this.normal;
       const lighter = detail === Surfaces.PLAIN ? Surfaces.LIGHT : Surfaces.PLAIN;
       const [full, light] = [detail, lighter].map((each) => {
-        const { index, owner } = Surfaces.triangles(this.plan, rows, each);
+        const { index, owner } = Surfaces.triangles(this.plan, rows, each, part);
         return { geometry: indexed(attributes, index), owner };
       });
-      const mesh = added(this.group, new Mesh(full.geometry, material), order);
+      const material = new THREE.MeshLambertMaterial({
+        vertexColors: true, flatShading: flat,
+        transparent: translucent, depthWrite: !translucent,
+        polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      });
+      const mesh = added(this.group, new Mesh(full.geometry, material), translucent ? 2 : 0);
       return Object.assign(mesh, { owner: full.owner, full, light });
     }
 
@@ -129,7 +133,7 @@ const Members = (() => {
     move(pose) {
       Shapes.compute(this.members, this.plan, pose, this.shape);
       this.computed += 1;
-      this.corner.needsUpdate = true;
+      this.corner.needsUpdate = this.normal.needsUpdate = true;
     }
 
     /** Keep the present shapes as the ghost. */

@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..elements import NodeKind
-from ..scene import QUANTITIES, Movement, Moving, Pose, move, resultants
-from ..scene.rotations import euler_of
+from ..deformation_words import deformation_word
+from ..elements import NodeKind, coordinate_name
+from ..freedoms import Freedom
+from ..rendering import harmless
+from ..scene import QUANTITIES, Movement, Moving, Pose, Scene, move, resultants, stations
+from ..scene.rotations import euler_of, vector_of
 from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES, MOST_POSES
 from .packing import floats, integers
 from .scene_data import Frame, hinges_in
@@ -22,37 +25,54 @@ if TYPE_CHECKING:
 _NOTHING = 1.0e-9
 #: A node moves if it leaves its place by this part of the scene's size, or turns by so much.
 _STILL = 1.0e-9
-
-_AT_MOST = "at most 10\N{NO-BREAK SPACE}% of the size"
-_ON_PATH = f"the held deformations stay zero on this path; {_AT_MOST}"
-_ON_SCREWS = f"drawn from velocities, rigid parts on screws; {_AT_MOST}"
+#: Displacements (parts of the scene's size) and rotations [rad] that nobody sees.
+_UNSEEN = 1.0e-5
 
 
 def movements(analysis: Analysis, frame: Frame) -> list[dict[str, Any]]:
     """The motions, then the declared degrees of freedom; as many as fit."""
     made: list[dict[str, Any]] = []
     size = 0
-    for kind, label, motion in chain(_motions(analysis), _freedoms(analysis)):
+    for kind, label, title, motion in chain(_motions(analysis), _freedoms(analysis)):
         data, added = _movement(frame, move(frame.scene, motion))
         size += added
         if made and size > MOST_POSES:
             break
-        title = label if kind == "motion" else f"Degree of freedom {label}"
         made.append({"kind": kind, "label": label, "title": title, **data})
     return made
 
 
-def _motions(analysis: Analysis) -> Iterator[tuple[str, str, Moving]]:
+def _motions(analysis: Analysis) -> Iterator[tuple[str, str, str, Moving]]:
     for number, motion in enumerate(analysis.motions[:MOST_MODES], start=1):
-        yield "motion", f"Motion {number}", motion
+        yield "motion", f"Motion {number}", f"Motion {number}", motion
 
 
-def _freedoms(analysis: Analysis) -> Iterator[tuple[str, str, Moving]]:
-    if analysis.data.arrays.element_number.size > MOST_ELEMENTS:
-        return
-    for freedom in analysis.freedoms[:MOST_MODES]:
+def _freedoms(analysis: Analysis) -> Iterator[tuple[str, str, str, Moving]]:
+    for freedom in looked_at(analysis):
         if (motion := freedom.motion) is not None:
-            yield "freedom", freedom.label, motion
+            yield "freedom", freedom.label, f"Degree of freedom: {_in_words(freedom)}", motion
+
+
+def looked_at(analysis: Analysis) -> tuple[Freedom, ...]:
+    """The declared degrees of freedom whose motions are asked for."""
+    if analysis.data.arrays.element_number.size > MOST_ELEMENTS:
+        return ()
+    return analysis.freedoms[:MOST_MODES]
+
+
+def _in_words(freedom: Freedom) -> str:
+    """Such as "bending at q in the local xy plane of element 1 (upper 90, ground to fold)"."""
+    data, (part, owner) = freedom.analysis.data, freedom.place
+    arrays = data.arrays
+    if freedom.is_coordinate:
+        name = coordinate_name(int(arrays.node_kind[owner]), part)
+        what = (
+            f"rotation about {name[1:]}" if name.startswith("r") else f"displacement along {name}"
+        )
+        return f"{what} of node {arrays.node_number[owner]}"
+    word = deformation_word(int(arrays.element_kind[owner]), part + 1)
+    name = harmless(data.element_names[owner])
+    return f"{word} of element {arrays.element_number[owner]}" + (f" ({name})" if name else "")
 
 
 def _movement(frame: Frame, movement: Movement) -> tuple[dict[str, Any], int]:
@@ -65,7 +85,7 @@ def _movement(frame: Frame, movement: Movement) -> tuple[dict[str, Any], int]:
     moved = np.flatnonzero((np.abs(position - position[still]).max(axis=(0, 2)) > _STILL) & placed)
     turned = np.flatnonzero(np.abs(rotation[..., 1:]).max(axis=(0, 2)) > _STILL)
     data = {
-        "note": _ON_PATH if movement.true_path else _ON_SCREWS,
+        "note": _note(frame.scene, movement),
         "phases": len(movement.poses),
         "moved": integers(moved),
         "position": floats(position[:, moved]),
@@ -73,6 +93,28 @@ def _movement(frame: Frame, movement: Movement) -> tuple[dict[str, Any], int]:
         "rotation": floats(rotation[:, turned]),
     }
     return data, 4 * len(movement.poses) * (3 * moved.size + 4 * turned.size)
+
+
+def _note(scene: Scene, movement: Movement) -> str:
+    """On what the poses lie, and how far they go."""
+    ends = (movement.poses[0], movement.poses[-1])
+    share = max(_displaced(scene, pose) for pose in ends) / scene.size
+    angle = max(float(np.linalg.norm(vector_of(pose.rotation), axis=1).max()) for pose in ends)
+    far = "no displacements"
+    if share > _UNSEEN:
+        far = f"displacements up to {100 * share:.2g}\N{NO-BREAK SPACE}% of the model's size"
+    turned = f" and rotations up to {angle:.2g}\N{NO-BREAK SPACE}rad" * (angle > _UNSEEN)
+    return f"{movement.remark} Drawn with {far}{turned}."
+
+
+def _displaced(scene: Scene, pose: Pose) -> float:
+    """The largest displacement of a node or along a member [m]."""
+    strips = zip(
+        stations(scene.members, pose), stations(scene.members, scene.reference), strict=True
+    )
+    ways = [pose.position - scene.reference.position]
+    ways += [(there.centre - here.centre).reshape(-1, 3) for there, here in strips]
+    return float(np.linalg.norm(np.concatenate(ways), axis=1).max())
 
 
 def _euler(pose: Pose, kept: np.ndarray) -> np.ndarray:

@@ -1,15 +1,14 @@
-"""Motions and self-stresses with their largest parts, and what can be done about them."""
+"""Motions and self-stresses with their largest parts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from ..deformation_words import deformation_word
 from ..modes import Motion, SelfStress
-from ..words import remedies_of_motions, remedies_of_self_stresses, unit_of
+from ..words import unit_of
 from .limits import MOST_MODES, MOST_PARTS
-from .markup import bar, link, number, paragraphs, row, section, table, text
+from .markup import bar, link, number, row, section, table, text
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -30,8 +29,7 @@ def motions_part(analysis: Analysis, drawn: int) -> str:
         analysis.under_constrained, "motions"
     )
     more = _more(analysis.under_constrained, "motion", "s")
-    remedies = _remedies(remedies_of_motions(analysis))
-    return section("motions", "Motions", f'<p class="note">{note}</p>', *parts, more, remedies)
+    return section("motions", "Motions", f'<p class="note">{note}</p>', *parts, more)
 
 
 def stresses_part(analysis: Analysis) -> str:
@@ -46,10 +44,7 @@ def stresses_part(analysis: Analysis) -> str:
         analysis.over_constrained, "self-stresses"
     )
     more = _more(analysis.over_constrained, "self-stress", "es")
-    remedies = _remedies(remedies_of_self_stresses(analysis))
-    return section(
-        "stresses", "Self-stresses", f'<p class="note">{note}</p>', *parts, more, remedies
-    )
+    return section("stresses", "Self-stresses", f'<p class="note">{note}</p>', *parts, more)
 
 
 def _mode(title: str, shown_by: str, content: str, place: int) -> str:
@@ -128,8 +123,3 @@ def _more(count: int, what: str, ending: str) -> str:
     rest = count - MOST_MODES
     words = f"\N{HORIZONTAL ELLIPSIS} and {rest} more {what}{ending * (rest > 1)}."
     return f'<p class="note">{words}</p>'
-
-
-def _remedies(sentences: Iterator[str]) -> str:
-    body = paragraphs(sentence for sentence in sentences if sentence.strip())
-    return f'<div class="remedies"><h3>What can be done</h3>{body}</div>' if body else ""

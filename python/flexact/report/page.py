@@ -15,14 +15,14 @@ from ..words import sentence
 from .assets import PLAIN_SCRIPTS, SCRIPTS, asset, policy, script_elements, style
 from .controls_part import choices_part, scene_part
 from .deck_part import deck_of_model, deck_part
-from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES
+from .limits import MOST_MEMBERS
 from .markup import flowing, section, text
-from .modes_data import movements, stresses
+from .modes_data import looked_at, movements, stresses
 from .modes_part import motions_part, stresses_part
 from .origin_part import origin_part
 from .packing import json_for_script
 from .scene_data import frame_of, static_data
-from .verdict_part import BROKEN, decision_part, head, verdict
+from .verdict_part import BROKEN, decision_part, head, remedies_of, remedies_part, verdict
 
 if TYPE_CHECKING:
     from ..analysis import Analysis
@@ -42,13 +42,16 @@ def page(analysis: Analysis, still: bytes | None = None) -> str:
     warnings = [item for item in analysis.warnings if item.line == 0]
     in_deck = [item for item in analysis.warnings if item.line > 0]
     words = " ".join(sentence(analysis).split())
-    left_out = " ".join(_left_out(analysis, data))
+    remedies = remedies_of(analysis)
+    stuck = [each.label for each in looked_at(analysis) if each.motion is None]
+    left_out = " ".join(_left_out(analysis, data, len(stuck)))
     body = (
-        verdict(analysis, name),
+        verdict(analysis, name, remedies),
         "<main>",
         scene_part(data, still, words, left_out),
         '<div class="side">',
-        choices_part(data),
+        choices_part(data, stuck),
+        remedies_part(remedies),
         section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
         motions_part(analysis, drawn),
         stresses_part(analysis),
@@ -105,8 +108,8 @@ def _data(analysis: Analysis) -> dict[str, Any]:
     }
 
 
-def _left_out(analysis: Analysis, data: dict[str, Any]) -> Iterator[str]:
-    """What of a large result is not in the scene."""
+def _left_out(analysis: Analysis, data: dict[str, Any], stuck: int) -> Iterator[str]:
+    """What of a large result is not in the scene; `stuck` degrees of freedom do not move."""
     members = int((analysis.data.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
     if members > MOST_MEMBERS:
         yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
@@ -117,12 +120,8 @@ def _left_out(analysis: Analysis, data: dict[str, Any]) -> Iterator[str]:
     if (shown := len(data["stresses"])) < analysis.over_constrained:
         yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
     freedom, free = analysis.degrees_of_freedom, kinds.count("freedom")
-    if free < freedom and _most_freedoms(analysis) < freedom:
+    if free + stuck < freedom:
         yield f"Of {freedom} declared degrees of freedom {free} can be shown."
-
-
-def _most_freedoms(analysis: Analysis) -> int:
-    return 0 if analysis.data.arrays.element_number.size > MOST_ELEMENTS else MOST_MODES
 
 
 def _note(item: Any) -> str:

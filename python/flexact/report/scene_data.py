@@ -25,8 +25,6 @@ from .packing import flags, floats, integers
 if TYPE_CHECKING:
     from ..analysis import Analysis
 
-#: Room round the box of all positions, for symbols: part of the scene's size.
-_ROOM = 0.035
 #: Thickness of a clamp's block of ground, a part of its size.
 _THICK = 0.6
 #: An edge where no colour is given: so much of the member's own.
@@ -81,13 +79,10 @@ def frame_of(scene: Scene) -> Frame:
 def static_data(analysis: Analysis, frame: Frame) -> dict[str, Any]:
     """All that does not depend on motions and self-stresses."""
     scene = frame.scene
-    low, high = frame.places(np.stack((scene.low, scene.high)))
-    room = np.array([_ROOM, _ROOM, 0.0 if scene.planar else _ROOM])
     return {
         "planar": scene.planar,
         "size": scene.size,
         "iso": view_of(ISO, scene).axes[2].tolist(),
-        "box": [(low - room).tolist(), (high + room).tolist()],
         "stops": np.asarray(colours.STOPS).tolist(),
         "colours": {
             "support": colours.SUPPORT,

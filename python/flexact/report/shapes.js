@@ -3,21 +3,28 @@
 // along them, as flexact.scene.shapes and flexact.scene.solids have them.
 
 const Shapes = (() => {
-  // Of each bent member; of many members fewer.
-  const FINE = 16, COARSE = 8, MANY = 400;
+  const MANY = 400; // members; more of them get fewer corners
+  const FINE = 16, COARSE = 8; // pieces of bent members
+  const ROUND = 24, ROUGH = 8; // corners of round sections: of thick ones, and of others
+  const THICK = 0.015; // from this part of the scene's size
   const THIN = 6; // a section so many times as wide as it is high looks flat
   const FLAT = [[-1, 0], [1, 0]]; // in the plane
   const RECTANGLE = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
-  const CIRCLE = Array.from({ length: 8 }, (_, c) =>
-    [Math.cos((c * Math.PI) / 4), Math.sin((c * Math.PI) / 4)]);
+  const circle = (count) => Array.from({ length: count }, (_, c) =>
+    [Math.cos((2 * c * Math.PI) / count), Math.sin((2 * c * Math.PI) / count)]);
 
-  const SECTIONS = new Map([FLAT, RECTANGLE, CIRCLE].map((around) => [around.length, around]));
+  const SECTIONS = new Map([FLAT, RECTANGLE, circle(ROUGH), circle(ROUND)]
+    .map((around) => [around.length, around]));
 
-  /** How many stations and corners each member has, where its own begin, and which are thin. */
+  /**
+   * How many stations and corners each member has, where its own begin, along which axis thin
+   * ones are wide, which are round, and whether those are to look smooth.
+   */
   function layout(members, planar) {
     const bends = SceneData.array(members.bends);
-    const round = SceneData.array(members.round);
+    const round = SceneData.array(members.round).map((each) => each && !planar);
     const count = bends.length;
+    const smooth = count <= MANY && round.includes(1);
     const segments = bends.reduce((sum, each) => sum + each, 0) > MANY ? COARSE : FINE;
     const stations = new Int32Array(count);
     const corners = new Int32Array(count);
@@ -27,12 +34,13 @@ const Shapes = (() => {
     const section = SceneData.array(members.section);
     for (let m = 0; m < count; m++) {
       stations[m] = bends[m] ? segments + 1 : 2;
-      corners[m] = (planar ? FLAT : round[m] ? CIRCLE : RECTANGLE).length;
+      corners[m] = (planar ? FLAT : RECTANGLE).length;
+      if (round[m]) corners[m] = smooth && section[2 * m] > THICK ? ROUND : ROUGH;
       wide[m] = widthOf(section[2 * m], section[2 * m + 1]);
       station[m + 1] = station[m] + stations[m];
       vertex[m + 1] = vertex[m] + stations[m] * corners[m];
     }
-    return { count, segments, stations, corners, station, vertex, wide };
+    return { count, segments, stations, corners, station, vertex, wide, round, smooth };
   }
 
   /** The local axis along which a thin section is wide: 1 or 2; 0 of others. */
@@ -41,12 +49,16 @@ const Shapes = (() => {
     return height > THIN * width ? 1 : 0;
   }
 
-  /** Room for what `compute` finds: of each station its centre and frame, of each corner a place. */
+  /**
+   * Room for what `compute` finds: of each station its centre and frame, of each corner a place,
+   * and where round members look smooth the normals of their sides.
+   */
   function room(plan) {
     return {
       centre: new Float32Array(3 * plan.station[plan.count]),
       frame: new Float32Array(9 * plan.station[plan.count]),
       corner: new Float32Array(3 * plan.vertex[plan.count]),
+      normal: new Float32Array(plan.smooth ? 3 * plan.vertex[plan.count] : 0),
     };
   }
 
@@ -129,7 +141,10 @@ const Shapes = (() => {
     let at = 3 * (plan.vertex[m] + s * corners);
     for (let c = 0; c < corners; c++) {
       const y = around[c][0] * height, z = around[c][1] * width;
-      for (let k = 0; k < 3; k++) out.corner[at++] = centre[k] + y * frame[3 + k] + z * frame[6 + k];
+      for (let k = 0; k < 3; k++, at++) {
+        out.corner[at] = centre[k] + y * frame[3 + k] + z * frame[6 + k];
+        if (plan.smooth) out.normal[at] = around[c][0] * frame[3 + k] + around[c][1] * frame[6 + k];
+      }
     }
   }
 

@@ -4,8 +4,9 @@
 const Stage = (() => {
   const { OrthographicCamera, OrbitControls, Vector3 } = THREE;
   const DISTANCE = 8; // of the camera, in sizes of the scene
-  const MARGIN = 1.06;
-  const FOOT = 26; // pixels
+  // Pixels left free round the scene when it is fitted; below stand the axes and the scale.
+  const EDGE = 14, FOOT = 34;
+  const CORNERS = Array.from({ length: 8 }, (_, i) => [i & 1, (i >> 1) & 1, (i >> 2) & 1]);
   // Milliseconds: frames that follow so soon are one run, and are slow if so long apart on average.
   const RUNNING = 60, LONG = 45, GAPS = 4, REST = 250;
   const DIRECTIONS = { front: [0, -1, 0], top: [0, -1e-4, 1], right: [1, 0, 0] };
@@ -15,7 +16,8 @@ const Stage = (() => {
     constructor(canvas, context, { planar, iso }) {
       Object.assign(this, { canvas, planar, iso });
       this.frames = 0; // drawn so far
-      this.box = [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]];
+      this.fitted = false; // and not been turned, moved or zoomed since
+      this.swing = (look) => look(); // calls `look` in every pose that is to have room
       this.drawn = this.last = 0; // when a frame was drawn
       this.gaps = [];
       this.heavy = false; // whether there is something to leave out
@@ -54,7 +56,10 @@ const Stage = (() => {
         controls.mouseButtons.LEFT = 2; // pan
         controls.touches.ONE = 1; // pan
       }
-      controls.addEventListener("change", () => this.request());
+      controls.addEventListener("change", () => {
+        this.fitted = false;
+        this.request();
+      });
       this.controls = controls;
     }
 
@@ -66,6 +71,7 @@ const Stage = (() => {
       this.height = height;
       this.setRatio();
       this.shape();
+      this.refit();
       this.request();
     }
 
@@ -93,27 +99,39 @@ const Stage = (() => {
       this.fit();
     }
 
-    /** Centre the scene and fill the canvas with it. */
+    /** Fit again what has changed, unless somebody has chosen a view. */
+    refit() {
+      if (this.fitted) this.fit();
+    }
+
+    /** Centre what is drawn and fill the canvas with it, in every pose that it takes. */
     fit() {
-      const [low, high] = this.box;
-      const centre = new Vector3(...low).add(new Vector3(...high)).multiplyScalar(0.5);
-      const shift = centre.clone().sub(this.controls.target);
-      this.controls.target.add(shift);
-      this.camera.position.add(shift);
       this.camera.updateMatrixWorld();
-      let wide = 1e-3, tall = 1e-3;
-      const corner = new Vector3();
-      for (let i = 0; i < 8; i++) {
-        corner.set(...[0, 1, 2].map((k) => this.box[(i >> k) & 1][k]));
-        corner.applyMatrix4(this.camera.matrixWorldInverse);
-        wide = Math.max(wide, 2 * Math.abs(corner.x));
-        tall = Math.max(tall, 2 * Math.abs(corner.y));
-      }
-      const room = 1 - (2 * FOOT) / this.height; // for axes and scale below
-      this.camera.zoom = Math.min(this.width / this.height / wide, room / tall) / MARGIN;
+      const axes = [0, 1, 2].map((k) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
+      const [low, high] = this.reach(axes);
+      const [wide, tall] = [0, 1].map((k) => Math.max(1e-3, high[k] - low[k]));
+      const room = [this.width - 2 * EDGE, this.height - EDGE - FOOT].map((each) => Math.max(each, 1));
+      const { minZoom, maxZoom } = this.controls;
+      const zoom = Math.min(room[0] / wide, room[1] / tall) / this.height;
+      this.camera.zoom = Math.max(minZoom, Math.min(maxZoom, zoom));
       this.camera.updateProjectionMatrix();
-      this.controls.update();
-      this.request();
+      const middle = axes.reduce((sum, axis, k) =>
+        sum.addScaledVector(axis, (low[k] + high[k]) / 2), new Vector3());
+      middle.addScaledVector(axes[1], (-(FOOT - EDGE) / 2) * this.pixel);
+      this.centre(...middle);
+      this.fitted = true;
+    }
+
+    /** Least and largest coordinates along three axes of all that is drawn. */
+    reach(axes) {
+      const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+      const take = (x, y, z) => axes.forEach((axis, k) => {
+        const value = axis.x * x + axis.y * y + axis.z * z;
+        low[k] = Math.min(low[k], value);
+        high[k] = Math.max(high[k], value);
+      });
+      this.swing(() => eachPlace(this.scene, take));
+      return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
     }
 
     /** Bring a place into the middle without turning. */
@@ -158,6 +176,7 @@ const Stage = (() => {
     zoom(factor) {
       const { minZoom, maxZoom } = this.controls;
       this.camera.zoom = Math.max(minZoom, Math.min(maxZoom, this.camera.zoom * factor));
+      this.fitted = false;
       this.camera.updateProjectionMatrix();
       this.controls.update();
       this.request();
@@ -221,6 +240,29 @@ const Stage = (() => {
       this.drawn = performance.now();
       this.renderer.render(this.scene, this.camera);
       for (const step of this.after) step();
+    }
+  }
+
+  /** Call `take` with the corners of all that is visible; of copies, with those of their boxes. */
+  function eachPlace(scene, take) {
+    const done = new Set(); // many bodies share their corners
+    scene.traverseVisible(({ isInstancedMesh, geometry, count, instanceMatrix }) => {
+      if (isInstancedMesh) {
+        geometry.computeBoundingBox();
+        for (let i = 0; i < count; i++) eachCorner(geometry.boundingBox, instanceMatrix, i, take);
+      } else if (geometry && !done.has(geometry.attributes.position)) {
+        const { array } = geometry.attributes.position;
+        done.add(geometry.attributes.position);
+        for (let i = 0; i < array.length; i += 3) take(array[i], array[i + 1], array[i + 2]);
+      }
+    });
+  }
+
+  function eachCorner({ min, max }, { array }, i, take) {
+    const copy = new THREE.Matrix4().fromArray(array, 16 * i);
+    for (const [x, y, z] of CORNERS) {
+      take(...new Vector3(x ? max.x : min.x, y ? max.y : min.y, z ? max.z : min.z)
+        .applyMatrix4(copy));
     }
   }
 

@@ -4,18 +4,20 @@
 
 const Surfaces = (() => {
   const FULL = "full", PLAIN = "plain", LIGHT = "light";
-  const ROUND = 8; // corners of a round section
-  const FEWER = { [PLAIN]: [0, 2, 4, 6], [LIGHT]: [0, 3, 5] }; // of a round section
+  const FEWER = { [PLAIN]: 4, [LIGHT]: 3 }; // corners of a round section
+  // Parts that are shaded in their own way: flat faces, and the sides of members that look round.
+  const FLAT = "flat", ROUND = "round";
   // One face of a thin rectangle, by the axis along which it is wide.
   const ONE_FACE = { 1: [2, 3], 2: [1, 2] };
 
-  /** Triangles of members in some detail, and the member of each triangle. */
-  function triangles(plan, rows, detail = FULL) {
+  /** Triangles of members in some detail, or a part of them, and the member of each triangle. */
+  function triangles(plan, rows, detail = FULL, part = "") {
     const index = [], owner = [];
     for (const m of rows) {
       const before = index.length;
-      sides(plan, m, detail, index);
-      if (detail === FULL) ends(plan, m, index);
+      const kind = plan.smooth && plan.round[m] ? ROUND : FLAT;
+      if (!part || part === kind) sides(plan, m, detail, index);
+      if (part !== ROUND && detail === FULL) ends(plan, m, index);
       for (let i = before; i < index.length; i += 3) owner.push(m);
     }
     return { index, owner: Int32Array.from(owner) };
@@ -26,7 +28,10 @@ const Surfaces = (() => {
     const every = Array.from({ length: plan.corners[m] }, (_, c) => c);
     if (every.length === 2) return [every, false];
     if (detail === FULL) return [every, true];
-    if (every.length === ROUND) return [FEWER[detail], true];
+    if (plan.round[m]) {
+      const count = FEWER[detail];
+      return [every.slice(0, count).map((i) => Math.round((i * every.length) / count)), true];
+    }
     return plan.wide[m] ? [ONE_FACE[plan.wide[m]], false] : [every, true];
   }
 
@@ -61,7 +66,7 @@ const Surfaces = (() => {
     const index = [];
     for (const m of rows) {
       const c = plan.corners[m], last = plan.stations[m] - 1, first = plan.vertex[m];
-      for (let s = 0; s < last && c < ROUND; s++) {
+      for (let s = 0; s < last && !plan.round[m]; s++) {
         for (let j = 0; j < c; j++) index.push(first + s * c + j, first + (s + 1) * c + j);
       }
       for (const at of [first, first + last * c]) {
@@ -71,5 +76,5 @@ const Surfaces = (() => {
     return index;
   }
 
-  return { triangles, edges, FULL, PLAIN, LIGHT };
+  return { triangles, edges, FULL, PLAIN, LIGHT, FLAT, ROUND };
 })();

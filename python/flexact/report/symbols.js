@@ -12,9 +12,8 @@ const Symbols = (() => {
 
   /** Copies of a body whose y axis is its direction: `set` places them one by one. */
   class Copies {
-    constructor(geometry, count, colour, shaded = true) {
-      const kind = shaded ? THREE.MeshLambertMaterial : THREE.MeshBasicMaterial;
-      this.mesh = new THREE.InstancedMesh(geometry, new kind({ flatShading: shaded }), count);
+    constructor(geometry, count, colour) {
+      this.mesh = new THREE.InstancedMesh(geometry, new THREE.MeshLambertMaterial(), count);
       this.mesh.frustumCulled = false;
       this.mesh.material.color.setRGB(...colour);
       this.mesh.visible = count > 0;
@@ -49,10 +48,17 @@ const Symbols = (() => {
 
   const block = (thick, wide, below) =>
     new BoxGeometry(thick, wide, wide).translate(below - thick / 2, 0, 0);
-  const pyramid = () => new ConeGeometry(0.75, 1, 4).rotateY(Math.PI / 4).translate(0, -0.5, 0)
-    .rotateZ(-Math.PI / 2);
+  const pyramid = () => faceted(new ConeGeometry(0.75, 1, 4).rotateY(Math.PI / 4)
+    .translate(0, -0.5, 0).rotateZ(-Math.PI / 2));
   const cone = (long, wide) => new ConeGeometry(wide, long, 20).translate(0, -long / 2, 0)
     .rotateZ(-Math.PI / 2);
+
+  /** A body whose faces share no corners, so that each is flat. */
+  function faceted(geometry) {
+    const made = geometry.toNonIndexed();
+    made.computeVertexNormals();
+    return made;
+  }
 
   class Supports {
     constructor(data) {
@@ -94,7 +100,6 @@ const Symbols = (() => {
       const few = this.node.length > MANY_JOINTS;
       const ball = new THREE.SphereGeometry(1, few ? 6 : 20, few ? 4 : 14);
       this.copies = new Copies(ball, this.node.length, [0.55, 0.58, 0.62]);
-      this.copies.mesh.material.flatShading = few;
       this.group = new THREE.Group();
       this.group.add(this.copies.mesh);
     }

@@ -4,7 +4,6 @@
 const Viewer = (() => {
   const $ = (id) => document.getElementById(id);
   const HEAVY = 300; // members
-  const ROOM = 0.04; // that movements take, in sizes of the scene
   const CHROME = {
     light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53] },
     dark: { mark: [1, 0.83, 0.25], ghost: [0.62, 0.66, 0.72] },
@@ -45,7 +44,7 @@ const Viewer = (() => {
       this.follow();
       this.members.keepGhost();
       this.landmarks = this.landmarksNow();
-      stage.box = this.boxOf(this.members.shape.corner);
+      stage.swing = (look) => this.swing(look);
       stage.look("iso");
     }
 
@@ -58,15 +57,13 @@ const Viewer = (() => {
       this.supports.group.visible = this.joints.group.visible = false;
     }
 
-    /** The box that has room for these corners, for symbols and for all movements. */
-    boxOf(corner) {
-      const box = this.data.box.map((each) => each.slice());
-      for (let i = 0; i < corner.length; i++) {
-        box[0][i % 3] = Math.min(box[0][i % 3], corner[i]);
-        box[1][i % 3] = Math.max(box[1][i % 3], corner[i]);
+    /** Call `look` in the reference and at both ends of the movement. */
+    swing(look) {
+      for (const phase of this.movement ? [0, -1, 1] : [0]) {
+        this.movePhase(phase);
+        look();
       }
-      const room = this.data.movements.length ? ROOM : 0;
-      return [box[0].map((low) => low - room), box[1].map((high) => high + room)];
+      if (this.movement) this.movePhase(this.player.phase);
     }
 
     /** Rows of the scene by the numbers of elements and nodes. */
@@ -100,6 +97,7 @@ const Viewer = (() => {
         this.pointArrows();
         this.player.begin();
       } else this.follow();
+      this.stage.refit();
       this.refresh();
     }
 
@@ -171,7 +169,7 @@ const Viewer = (() => {
       if (!stress) return;
       const largest = stress.largest[quantity] || 0;
       $("legend-bar").style.background = Colours.gradient(data.stops);
-      $("legend-name").textContent = `${data.meaning[quantity]} [${Words.unitOf(quantity)}]`;
+      $("legend-name").textContent = `${quantity} [${Words.unitOf(quantity)}]`;
       $("legend-low").textContent = largest ? Words.number(-largest) : "";
       $("legend-high").textContent = largest ? Words.number(largest) : "";
       $("legend-note").textContent = data.sides[quantity];
@@ -194,6 +192,7 @@ const Viewer = (() => {
       if (name === "nodes") this.nodeLabels = on;
       this.showLayers();
       this.drawDiagram();
+      this.stage.refit();
       this.stage.request();
     }
 
@@ -273,9 +272,9 @@ const Viewer = (() => {
     caption() {
       const { movement, stress, quantity, data } = this;
       const parts = [];
-      if (movement) parts.push(`${movement.title}: ${movement.note}`);
-      if (stress) parts.push(`${stress.title}: ${data.meaning[quantity]}`);
-      return parts.join(" \u2014 ") || "The reference configuration.";
+      if (movement) parts.push(`${movement.title}. ${movement.note}`);
+      if (stress) parts.push(`${stress.title}: ${data.meaning[quantity]}.`);
+      return parts.join(" ") || "The reference configuration.";
     }
   }
 
