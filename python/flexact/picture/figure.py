@@ -10,13 +10,13 @@ import numpy as np
 
 from ..exchange import FloatArray
 from ..rendering import harmless
-from ..scene import Pose, Scene
-from ..scene.colours import diverging
+from ..scene import Scene, reach_of
+from ..scene.colours import MEANINGS, diverging
 from ..scene.movement import AMPLITUDE
 from ..words import sentence
 from .drawing import Box
 from .panel import Panel, is_simplified, paint
-from .stress import UNITS, WORDS, Stress
+from .stress import UNITS, Stress
 from .subject import Subject
 from .view import View
 
@@ -209,33 +209,12 @@ def _about(scene: Scene, subject: Subject) -> str:
         return "Relative values, only their ratios matter."
     if movement is None:
         return "Arrows: declared degrees of freedom." if len(scene.arrows) else ""
-    part = largest_displacement(scene, subject)
+    largest, turned = reach_of(scene, [movement.pose(1.0)])
+    part = largest / scene.size
     size = f"largest displacement {100 * part:.0f} % of the model's size"
-    turned = _largest_rotation(movement.pose(1.0))
     if turned > _TURNED and part < AMPLITUDE * 0.95:
         size = f"{size}, largest rotation {turned:.1f} rad"
     return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
-
-
-def largest_displacement(scene: Scene, subject: Subject) -> float:
-    """As drawn, along the members, as a part of the scene's size."""
-    from ..scene import stations
-
-    assert subject.movement is not None
-    pose = subject.movement.pose(1.0)
-    pairs = zip(
-        stations(scene.members, pose), stations(scene.members, scene.reference), strict=True
-    )
-    largest = max(
-        (float(np.linalg.norm(a.centre - b.centre, axis=-1).max()) for a, b in pairs), default=0.0
-    )
-    return largest / scene.size
-
-
-def _largest_rotation(pose: Pose) -> float:
-    """Of a node, since the reference [rad]."""
-    cosine = (np.trace(pose.rotation, axis1=1, axis2=2) - 1) / 2
-    return float(np.arccos(np.clip(cosine, -1.0, 1.0)).max(initial=0.0))
 
 
 def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: float) -> None:
@@ -244,7 +223,7 @@ def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: 
 
     line = frame.line("legend")
     unit = UNITS[stress.quantity]
-    frame.text(sides[0], top, f"{WORDS[stress.quantity]} [{unit}]", "legend")
+    frame.text(sides[0], top, f"{MEANINGS[stress.quantity]} [{unit}]", "legend")
     width = min(320 * frame.scale, sides[1] - sides[0])
     axes = frame.axes(sides[0], top + 1.25 * line, sides[0] + width, top + 2.0 * line)
     # Each piece reaches to the end, so that there are no seams between them.

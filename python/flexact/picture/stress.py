@@ -13,13 +13,6 @@ from ..scene.colours import diverging
 from .drawing import Drawing
 from .surfaces import OUTLINE
 
-#: What the quantities are called.
-WORDS = {
-    "N": "normal force N, tension positive",
-    "T": "torsional moment T",
-    "My": "bending moment My in the local xz plane",
-    "Mz": "bending moment Mz in the local xy plane",
-}
 UNITS = {"N": "N", "T": "N m", "My": "N m", "Mz": "N m"}
 #: Height of the largest bending moment in a diagram, a part of the scene's size.
 _HEIGHT = 0.08

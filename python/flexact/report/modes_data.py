@@ -12,8 +12,8 @@ from ..deformation_words import deformation_word
 from ..elements import NodeKind, coordinate_name
 from ..freedoms import Freedom
 from ..rendering import harmless
-from ..scene import QUANTITIES, Movement, Moving, Pose, Scene, move, resultants, stations
-from ..scene.rotations import euler_of, vector_of
+from ..scene import QUANTITIES, Movement, Moving, Pose, Scene, move, reach_of, resultants
+from ..scene.rotations import euler_of
 from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES, MOST_POSES
 from .packing import floats, integers
 from .scene_data import Frame, hinges_in
@@ -97,24 +97,13 @@ def _movement(frame: Frame, movement: Movement) -> tuple[dict[str, Any], int]:
 
 def _note(scene: Scene, movement: Movement) -> str:
     """On what the poses lie, and how far they go."""
-    ends = (movement.poses[0], movement.poses[-1])
-    share = max(_displaced(scene, pose) for pose in ends) / scene.size
-    angle = max(float(np.linalg.norm(vector_of(pose.rotation), axis=1).max()) for pose in ends)
+    largest, angle = reach_of(scene, (movement.poses[0], movement.poses[-1]))
+    share = largest / scene.size
     far = "no displacements"
     if share > _UNSEEN:
         far = f"displacements up to {100 * share:.2g}\N{NO-BREAK SPACE}% of the model's size"
     turned = f" and rotations up to {angle:.2g}\N{NO-BREAK SPACE}rad" * (angle > _UNSEEN)
     return f"{movement.remark} Drawn with {far}{turned}."
-
-
-def _displaced(scene: Scene, pose: Pose) -> float:
-    """The largest displacement of a node or along a member [m]."""
-    strips = zip(
-        stations(scene.members, pose), stations(scene.members, scene.reference), strict=True
-    )
-    ways = [pose.position - scene.reference.position]
-    ways += [(there.centre - here.centre).reshape(-1, 3) for there, here in strips]
-    return float(np.linalg.norm(np.concatenate(ways), axis=1).max())
 
 
 def _euler(pose: Pose, kept: np.ndarray) -> np.ndarray:

@@ -30,12 +30,6 @@ _THICK = 0.6
 #: An edge where no colour is given: so much of the member's own.
 _EDGE = 0.45
 
-_MEANINGS = {
-    "N": "normal force N",
-    "T": "torsion T",
-    "My": "bending moment My, in the local xz plane",
-    "Mz": "bending moment Mz, in the local xy plane",
-}
 _SIDES = {
     "N": "blue: compression; red: tension",
     **dict.fromkeys(("T", "My", "Mz"), "blue and red: opposite senses"),
@@ -90,7 +84,7 @@ def static_data(analysis: Analysis, frame: Frame) -> dict[str, Any]:
             "freedom": colours.FREEDOM,
         },
         "quantities": list(QUANTITIES),
-        "meaning": _MEANINGS,
+        "meaning": colours.MEANINGS,
         "sides": _SIDES,
         "forms": {int(form): form.name.lower() for form in Form},
         "nodes": _nodes(analysis, frame),

@@ -9,7 +9,7 @@ from .forms import Form
 from .hinges import Hinges
 from .joints import joints_of
 from .members import Members, frames_along
-from .movement import Movement, move
+from .movement import Movement, move, reach_of
 from .moving import Moving
 from .pose import Pose, reference_pose
 from .resultants import Resultants, resultants
@@ -38,6 +38,7 @@ __all__ = [
     "frames_along",
     "joints_of",
     "move",
+    "reach_of",
     "reference_pose",
     "resultants",
     "scene_of",

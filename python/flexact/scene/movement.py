@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,9 +63,9 @@ class Movement(Frozen):
         if self.true_path:
             return "On its path: no held deformation changes."
         if np.isnan(self.deviation):
-            return "Rigid bodies are drawn on the screws of their velocities: a large model."
+            return "A large model: drawn along its velocities, rigid bodies on screws."
         if np.isinf(self.deviation):
-            return "Infinitesimal: rigid bodies are drawn on the screws of their velocities."
+            return "Infinitesimal: drawn along its velocities, rigid bodies on screws."
         return f"Held deformations stay below {self.deviation:.1e} of the model's size."
 
     def pose(self, phase: float) -> Pose:
@@ -119,18 +120,21 @@ def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, 
 
 def _factor(scene: Scene, ends: list[Pose]) -> float:
     """By how much poses are too near to the reference, to be as far as they may."""
-    largest = turned = 0.0
-    reference = list(stations(scene.members, scene.reference))
-    for pose in ends:
-        way = np.linalg.norm(pose.position - scene.reference.position, axis=1)
-        largest = max(largest, float(way.max(initial=0.0)))
-        for here, there in zip(stations(scene.members, pose), reference, strict=True):
-            way = np.linalg.norm(here.centre - there.centre, axis=-1)
-            largest = max(largest, float(way.max(initial=0.0)))
-        angle = np.linalg.norm(vector_of(pose.rotation), axis=1)
-        turned = max(turned, float(angle.max(initial=0.0)))
+    largest, turned = reach_of(scene, ends)
     factor = _least(AMPLITUDE * scene.size, largest, _LARGEST_ROTATION, turned)
     return min(max(factor, 0.5), 2.0) if factor > 0.0 else 1.0
+
+
+def reach_of(scene: Scene, poses: Sequence[Pose]) -> tuple[float, float]:
+    """The largest displacement, of nodes and along members [m], and the largest rotation [rad]."""
+    reference = list(stations(scene.members, scene.reference))
+    ways, angles = [np.zeros(1)], [np.zeros(1)]
+    for pose in poses:
+        ways.append(np.linalg.norm(pose.position - scene.reference.position, axis=1))
+        for here, there in zip(stations(scene.members, pose), reference, strict=True):
+            ways.append(np.linalg.norm(here.centre - there.centre, axis=-1).ravel())
+        angles.append(np.linalg.norm(vector_of(pose.rotation), axis=1))
+    return float(np.concatenate(ways).max()), float(np.concatenate(angles).max())
 
 
 def scale_of(scene: Scene, motion: Moving) -> float:
