@@ -283,10 +283,7 @@ class Analysis(Frozen):
 
     @cached_property
     def freedoms(self) -> tuple[Freedom, ...]:
-        """The declared degrees of freedom, with the motion of each (`flexact.freedoms`).
-
-        Of very many only the first are here.
-        """
+        """The declared degrees of freedom, with the motion of each (`flexact.freedoms`)."""
         from .freedoms import freedoms_of
 
         return freedoms_of(self)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .elements import Class, coordinate_name
+from .elements import Class, NodeKind, coordinate_name
 from .exchange import FloatArray
 from .frozen import Frozen
 from .model import Model
@@ -22,9 +22,6 @@ from .model_data import ModelData
 
 if TYPE_CHECKING:
     from .analysis import Analysis
-
-#: Of more degrees of freedom than this only the first are looked at.
-MOST = 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,23 +76,33 @@ class Freedom(Frozen):
         freed = analyse(Model.from_data(data), method=self.analysis.asked.method)
         if freed.under_constrained <= self.analysis.under_constrained:
             return None
-        motions = tuple(freed.motions)
-        rates = np.array([self._rate(motion.displacement + motion.rotation) for motion in motions])
-        shares = rates / (rates @ rates)
-        moved, turned = np.zeros((2, data.arrays.node_kind.size, 3))
-        for share, motion in zip(shares.tolist(), motions, strict=True):
-            moved += share * motion.displacement
-            turned += share * motion.rotation
-        return FreeMotion(data, moved, turned)
+        # From the entries of the basis: as many motions as there may be, kept one by one at all
+        # nodes, would take gigabytes.
+        basis = freed.raw.motions
+        node, axis = freed.raw.column_label - 1
+        of_entry = basis.of_entries()
+        rated = self._row(data)[node, axis][basis.place] * basis.value
+        rates = np.bincount(of_entry, rated, basis.vectors)
+        square = float(rates @ rates)
+        if not square > 0.0:
+            return None
+        shares = rates / square
+        both = np.zeros((data.arrays.node_kind.size, 3))
+        both[node, axis] = np.bincount(basis.place, basis.value * shares[of_entry], basis.size)
+        placed = (data.arrays.node_kind <= NodeKind.POSITION)[:, None]
+        return FreeMotion(data, np.where(placed, both, 0.0), np.where(placed, 0.0, both))
 
-    def _rate(self, velocity: FloatArray) -> float:
-        """Its own velocity where the nodes have these (nodes, 3)."""
+    def _row(self, data: ModelData) -> FloatArray:
+        """(nodes, 3) by which velocities are multiplied to give its own."""
         part, owner = self.place
+        made = np.zeros((data.arrays.node_kind.size, 3))
         if self.is_coordinate:
-            return float(velocity[owner, part])
-        raw = self.analysis.assembly
-        mine = raw.row_of == 6 * owner + part
-        return float(raw.value[mine] @ velocity.ravel()[raw.column_of[mine]])
+            made[owner, part] = 1.0
+        else:
+            raw = self.analysis.assembly
+            mine = raw.row_of == 6 * owner + part
+            np.add.at(made.reshape(-1), raw.column_of[mine], raw.value[mine])
+        return made
 
     def _undeclared(self) -> ModelData:
         """The model in which it is dependent or released instead of independent."""
@@ -113,7 +120,7 @@ class Freedom(Frozen):
 
 
 def freedoms_of(analysis: Analysis) -> tuple[Freedom, ...]:
-    """The declared degrees of freedom, coordinates first; of very many the first."""
+    """The declared degrees of freedom, coordinates first."""
     arrays = analysis.data.arrays
     found = []
     for classes, is_coordinate in (
@@ -121,6 +128,6 @@ def freedoms_of(analysis: Analysis) -> tuple[Freedom, ...]:
         (arrays.deformation_class, False),
     ):
         owner, part = np.nonzero(classes.T == Class.INDEPENDENT)
-        places = zip(part[:MOST].tolist(), owner[:MOST].tolist(), strict=True)
+        places = zip(part.tolist(), owner.tolist(), strict=True)
         found += [Freedom(analysis, place, is_coordinate) for place in places]
-    return tuple(found[:MOST])
+    return tuple(found)

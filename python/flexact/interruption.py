@@ -46,8 +46,19 @@ def end_by(number: int) -> None:
 @contextlib.contextmanager
 def unwinding() -> Iterator[None]:
     """Make signals that would end the process raise `Stopped`, so that it can clean up."""
-    with _handled(signal.SIG_DFL, _stop):
+    asked: list[int] = []
+
+    def stop(number: int, _: FrameType | None) -> None:
+        asked.append(number)
+        # No second one stops the cleaning up.
+        if len(asked) == 1:
+            raise Stopped(number)
+
+    with _handled(signal.SIG_DFL, stop):
         yield
+        if asked:
+            # Where it fell into a destructor or a callback of a weak reference, Python let it go.
+            raise Stopped(asked[0])
 
 
 @contextlib.contextmanager
@@ -60,14 +71,6 @@ def undisturbed() -> Iterator[None]:
     finally:
         if held:
             signal.raise_signal(held[0])
-
-
-def _stop(number: int, _: FrameType | None) -> None:
-    # No second one stops the cleaning up.
-    for each in SIGNALS:
-        if signal.getsignal(each) is _stop:
-            signal.signal(each, signal.SIG_IGN)
-    raise Stopped(number)
 
 
 @contextlib.contextmanager

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from .diagnostics import model_error
 from .draft import Draft
 from .elements import kind_of
@@ -59,8 +61,14 @@ def said(
         None if colour is None else _colour(colour, "colour"),
         None if edge_colour is None else _colour(edge_colour, "colour of the edges"),
         None if opacity is None else _opacity(opacity),
-        None if drawn is None else bool(drawn),
+        None if drawn is None else _flag(drawn),
     )
+
+
+def _flag(drawn: object) -> bool:
+    if not isinstance(drawn, (bool, np.bool_)):
+        raise model_error("not-a-flag", "whether an element is drawn is True or False")
+    return bool(drawn)
 
 
 def shape_of(section: Section | None) -> Shape | None:
@@ -124,7 +132,7 @@ def _numbers(given: object, wanted: int, what: str) -> tuple[float, ...]:
     try:
         if isinstance(given, UNORDERED) or not isinstance(given, Iterable):
             raise TypeError
-        parts = tuple(real(part) for part in given)
+        parts = tuple(real(part) for part in given if not isinstance(part, bool))
         if len(parts) != wanted:
             raise ValueError
     except (TypeError, ValueError, OverflowError):

@@ -36,7 +36,7 @@ class MeshFormatError(OutputError):
     """A mesh format is not known, lacks a package, or cannot hold what is to be written."""
 
 
-class _PackageError(MeshFormatError):
+class MeshPackageError(MeshFormatError):
     """A format needs a package that is not there."""
 
 
@@ -60,7 +60,7 @@ def find_format(name: str) -> MeshFormat:
         try:
             _try_out(each, suffix)
             usable.append(each)
-        except _PackageError as error:
+        except MeshPackageError as error:
             reasons.append(str(error))
         except MeshFormatError:
             reasons.append(f"mesh format {each} cannot hold lines and quads with data")
@@ -130,7 +130,9 @@ def _meshio() -> ModuleType:
     try:
         return import_module("meshio")
     except ImportError as error:
-        raise MeshFormatError(f"mesh files need the package meshio: {error}") from error
+        raise MeshPackageError(
+            f"mesh files need the package meshio: pip install meshio ({error})"
+        ) from error
 
 
 def _written(mesh: Mesh, name: str, suffix: str) -> bytes:
@@ -180,7 +182,7 @@ def _explained(error: BaseException, name: str, remarks: str) -> OutputError:
         return OutputError(f"the mesh cannot be written to a temporary folder: {reason}")
     if isinstance(error, ImportError):
         package = error.name.partition(".")[0] if error.name else f"that fails: {error}"
-        return _PackageError(f"mesh format {name} needs the package {package}")
+        return MeshPackageError(f"mesh format {name} needs the package {package}")
     told = isinstance(error, MeshFormatError) or type(error).__name__ == "WriteError"
     reason = str(error) if told else f"meshio fails to write it ({str(error) or 'it says not why'})"
     what = "; meshio: ".join(filter(None, (reason, remarks)))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from . import mesh_cycle, mesh_polydata
 from .mesh import mesh_of
-from .mesh_file import MeshFormatError, find_format
+from .mesh_file import MeshFormatError, MeshPackageError, find_format
 from .mesh_names import named_bytes
 from .outputs import OutputError, write_together
 
@@ -29,6 +29,7 @@ def mesh_writer(target: Path) -> Write:
     if not suffix:
         raise OutputError(f"the suffix of {target} is to say what to write: .vtu, .pvd, ...")
     if suffix == mesh_cycle.SUFFIX:
+        find_format("vtu")
         return _write_cycle
     if suffix == ".vtp":
         mesh_polydata.require()
@@ -39,6 +40,8 @@ def mesh_writer(target: Path) -> Write:
 def _meshio_writer(suffix: str) -> Write:
     try:
         form = find_format(suffix)
+    except MeshPackageError:
+        raise
     except MeshFormatError as error:
         raise MeshFormatError(f"{error}; and so will pvd, which plays, or vtp") from error
 

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from .scene import Moving
 
 
+#: So many degrees of freedom are tried, whether they can move, where none was asked for.
+_MOST_TRIED = 24
+
+
 class NotThereError(BatchError):
     """A motion, self-stress or degree of freedom of this number is not there."""
 
@@ -57,7 +61,7 @@ def chosen_motion(
         return _of_motion(analysis, 1)
     from .analysis import AnalysisError
 
-    for number, each in enumerate(analysis.freedoms, start=1):
+    for number, each in enumerate(analysis.freedoms[:_MOST_TRIED], start=1):
         # Nobody asked for it, so that it is none where it cannot be found.
         with contextlib.suppress(AnalysisError):
             if each.motion is not None:

@@ -323,3 +323,11 @@ def test_many_elements_read_back() -> None:
 
 def test_a_model_without_a_look_writes_no_picture() -> None:
     assert "VISUALIZATION" not in three_bars()[0].to_deck()
+
+
+@pytest.mark.parametrize("wrong", [{"section": True}, {"drawn": "no"}, {"drawn": 1}])
+def test_flags_and_sizes_are_not_taken_for_each_other(wrong: dict[str, object]) -> None:
+    model = flexact.Model()
+    bar = model.truss(model.node(0, 0, 0), model.node(1, 0, 0))
+    with pytest.raises(flexact.ModelError):
+        model.look(bar, **wrong)

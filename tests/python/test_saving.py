@@ -49,6 +49,11 @@ def test_meshes_are_saved(trusses: flexact.Analysis, tmp_path: Path) -> None:
         ("a.html", {"motion": 1}, "a.html shows no motion of its own choice"),
         ("a.vtu", {"stress": 1, "view": "top"}, "a.vtu shows no stress or view of its own choice"),
         ("a.png", {"motion": 2}, "there is no motion 2: the analysis gives 1 motion"),
+        ("a.vtu", {"motion": 1, "freedom": 1}, "a motion or a degree of freedom, not both"),
+        ("a.png", {"motion": "1"}, "motion is a number from 1, not str"),
+        ("a.pvd", {"motion": 1.0}, "motion is a number from 1, not float"),
+        ("a.svg", {"view": (1, 2)}, "view is given by its name, not by tuple"),
+        ("a\0.png", {}, "a file's name cannot hold a NUL"),
         ("a.docx", {}, "mesh format 'docx' is not known"),
         ("nowhere/../x", {}, "the suffix of nowhere/../x is to say what to write"),
     ],
@@ -72,3 +77,14 @@ def test_nothing_is_left_where_a_file_cannot_be(trusses: flexact.Analysis, tmp_p
     with pytest.raises(flexact.FlexactError, match="it is a folder"):
         trusses.save(tmp_path / "a.png")
     assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
+
+
+def test_a_deck_is_never_written_over(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.png"
+    deck.write_text(text_of("paper/twelve_trusses"))
+    (tmp_path / "link.png").symlink_to(deck)
+    analysis = flexact.analyse(deck)
+    for name in ("deck.png", "link.png"):
+        with pytest.raises(flexact.FlexactError, match="would overwrite the deck"):
+            analysis.save(tmp_path / name)
+    assert deck.read_text() == text_of("paper/twelve_trusses")

@@ -69,6 +69,27 @@ def test_supports_say_what_is_fixed() -> None:
     assert scene_of_deck("paper/twelve_trusses").supports.kind.tolist() == [Support.PIN] * 4
 
 
+def test_a_clamped_member_is_clamped_though_another_turns_at_its_end() -> None:
+    # Beam 1 is clamped at node 1; beam 2 ends there with an orientation of its own.
+    text = "BEAM 1 1 2 3 4\nBEAM 2 1 5 6 7\nX 3 1. 0. 0.\nX 6 0. 1. 0.\nFIX 1\nFIX 2\nEND\n"
+    supports = scene_of(flexact.read_text(text).data).supports
+    assert supports.kind.tolist() == [Support.CLAMP]
+    # Two orientations that are fixed in part make no clamp.
+    text = text.replace("FIX 2\n", "FIX 2 2\nFIX 5 3 4\n")
+    kinds = scene_of(flexact.read_text(text).data).supports.kind.tolist()
+    assert kinds == [Support.PIN] + [Support.TURN] * 3
+
+
+def test_sizes_along_local_axes_are_kept_where_stiffness_does_not_decide() -> None:
+    model = flexact.Model()
+    ends = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.fix(ends[0])
+    model.beam(*ends, y=(0, 1, 0), release=(3,), section=(0.01, 0.05))
+    model.beam(*ends, y=(0, 1, 0), release=(3, 4), section=(0.01, 0.05))
+    found = scene_of(model.data).members.section.tolist()
+    assert found == [[0.01, 0.05], [0.05, 0.01]]
+
+
 def test_partly_fixed_nodes_have_one_symbol_a_coordinate() -> None:
     text = "BEAM 1 1 2 3 4\nX 3 1. 0. 0.\nFIX 1 2 3\nFIX 2 3\nEND\n"
     supports = scene_of(flexact.read_text(text).data).supports

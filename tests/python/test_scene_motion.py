@@ -265,3 +265,41 @@ def test_pin_jointed_bodies_move_each_on_its_own_screw() -> None:
     for motion in analysis.motions:
         pose = moved_by_screws(motion, 0.5)
         np.testing.assert_allclose(pose.position[fixed], model.positions[fixed], atol=1e-15)
+
+
+def test_a_path_is_found_far_from_the_origin() -> None:
+    # A parallel guide of 0.1 m a million metres away: its motion is finite as anywhere.
+    model = flexact.Model()
+    x, y = 1.0e6, -1.0e6
+    ground = [model.node(x, y + d, 0.0) for d in (0.0, 0.05)]
+    stage = [model.node(x + 0.1, y + d, 0.0) for d in (0.0, 0.05)]
+    for k in (0, 1):
+        model.fix(ground[k])
+        model.sheet(ground[k], stage[k], width=(0, 0, 1))
+    model.rigid(stage[0], stage[1])
+    analysis = flexact.analyse(model)
+    movement = move(scene_of(analysis.data), analysis.motions[0])
+    assert movement.true_path
+    placed = model.node_kinds <= NodeKind.POSITION
+    way = movement.poses[-1].position - model.positions
+    assert 0.005 < np.linalg.norm(way[placed], axis=1).max() < 0.02
+
+
+def test_a_freedom_of_many_motions_is_the_one_with_the_least_part_in_them() -> None:
+    # A row of beams whose twists are left over; the tip is declared.
+    model = flexact.Model()
+    nodes = [model.node(0.1 * k, 0.0, 0.0) for k in range(6)]
+    model.fix(nodes[0])
+    for k in range(5):
+        model.beam(nodes[k], nodes[k + 1], y=(0, 1, 0), release=(2, 5, 6))
+    model.independent(nodes[-1], "y")
+    analysis = flexact.analyse(model)
+    (freedom,) = analysis.freedoms
+    assert analysis.under_constrained > 5
+    assert freedom.motion is not None
+    moved = freedom.motion.displacement
+    assert moved[model.node_index(nodes[-1].position), 1] == pytest.approx(1.0, abs=1e-12)
+    both = (moved + freedom.motion.rotation).ravel()
+    for motion in analysis.motions:
+        part = (motion.displacement + motion.rotation).ravel() @ both
+        assert abs(part) <= 1e-9 * np.linalg.norm(both)

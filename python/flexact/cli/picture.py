@@ -73,6 +73,7 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
                     view=chosen.view,
                     progress=bar.show_frames,
                 )
+            with unwinding():
                 write_together({target: content})
         say(f"{harmless(deck.name)}: drawn in {harmless(str(target))}")
         return Outcome(deck.name, ExitCode.ANALYSED, "drawn")

@@ -21,8 +21,8 @@ from flexact.saving import PAGES, as_bytes
 #: What the index takes the place of among the decks.
 _INDEX = DeckFile("the index", Path("index"))
 _WITHOUT_PICTURES = (
-    "without the package matplotlib there are no still pictures, for browsers without WebGL and "
-    "in the index: pip install 'flexact[pictures]'"
+    "without the packages matplotlib and pillow there are no still pictures, for browsers without "
+    "WebGL and in the index: pip install 'flexact[pictures]'"
 )
 
 
@@ -102,7 +102,9 @@ class _Work:
         from flexact.words import sentence
 
         with unwinding():
-            self._put(deck, page_bytes(analysis))
+            content = page_bytes(analysis)
+        with unwinding():
+            self._put(deck, content)
             if self.index is None:
                 return
             thumb = small(analysis) if self.pictures else None

@@ -32,14 +32,13 @@ def add_shown(parser: argparse.ArgumentParser) -> None:
 
 def number(text: str) -> int:
     """A whole number from 1, as an option's type."""
-    value = int(text)
+    try:
+        value = int(text)
+    except ValueError:
+        value = 0
     if value < 1:
-        raise ValueError
+        raise argparse.ArgumentTypeError(f"a whole number from 1 is wanted, not {text!r}")
     return value
-
-
-# What argparse calls the type in its errors.
-number.__name__ = "number"
 
 
 def one_deck(chosen: argparse.Namespace) -> DeckFile:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..elements import Class, element_kinds
 from ..exchange import FloatArray, ModelArrays
 from ..frozen import Frozen
 from ..look import CrossSection, Look
@@ -104,6 +105,9 @@ def members_of(data: ModelData, position: FloatArray, size: float) -> Members:
     colour = of_forms(form)
     given = look.colour[index]
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
+    held = arrays.deformation_class[2:6, index] == Class.FIXED
+    plainly = np.abs(held[:2].sum(axis=0) - held[2:].sum(axis=0)) == 2
+    wide = np.where(plainly | is_one_of(kind, ("PLBEAM",)), wide, 0)
     section, round_ = _as_given(look, index, wide, section, round_, size)
     keywords = tuple(data_keywords(arrays, index))
     return Members(
@@ -127,8 +131,6 @@ def members_of(data: ModelData, position: FloatArray, size: float) -> Members:
 
 def data_keywords(arrays: ModelArrays, index: np.ndarray) -> list[str]:
     """The keywords of elements by their indices."""
-    from ..elements import element_kinds
-
     words = ("", *(kind.keyword for kind in element_kinds()))
     return [words[kind] for kind in arrays.element_kind[index].tolist()]
 
@@ -198,7 +200,7 @@ def _as_given(
     """Sections and whether they are round, where the deck or the builder says so.
 
     The two sizes of a sheet's rectangle are taken so that it is wide where its bending is
-    held, in whichever order they were given.
+    held, in whichever order they were given, if it is held there alone and at both ends.
     """
     given = look.dimensions[index]
     there = np.all(given > 0.0, axis=1)

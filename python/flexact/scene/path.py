@@ -14,7 +14,7 @@ import numpy as np
 from .. import _boundary
 from ..configuration import Configuration
 from ..elements import Class, Dual, NodeKind, dual_table
-from ..exchange import FloatArray
+from ..exchange import FloatArray, ModelArrays
 from ..frozen import Frozen
 from ..model_data import ModelData
 from .moving import Moving
@@ -76,7 +76,7 @@ def follow(motion: Moving, shares: FloatArray, size: float) -> Path | None:
             return None
         here, error = found
         deviation = max(deviation, error)
-        poses.append(pose_of(motion.data.arrays, here))
+        poses.append(track.pose(here))
         direction = track.onward(here, direction)
     return Path(tuple(poses), deviation)
 
@@ -85,7 +85,7 @@ class _Track:
     """The held deformations of a model as functions of the coordinates that may change."""
 
     def __init__(self, data: ModelData, size: float) -> None:
-        self.arrays = data.arrays
+        self.arrays, self.middle = _about_the_middle(data.arrays)
         self.entries = data.count.entries
         self.size = size
         classes = self.arrays.deformation_class
@@ -102,6 +102,12 @@ class _Track:
     def reference(self) -> Configuration:
         """Where the path starts."""
         return Configuration(self.arrays.node_kind, self.arrays.node_value.T)
+
+    def pose(self, here: Configuration) -> Pose:
+        """The pose that a configuration means, where the model stands."""
+        pose = pose_of(self.arrays, here)
+        placed = (self.arrays.node_kind <= NodeKind.POSITION)[:, None]
+        return Pose(np.where(placed, pose.position + self.middle, 0.0), pose.rotation)
 
     def scaled(self, motion: Moving) -> FloatArray:
         """(columns,) the motion, rotations times the size of the scene."""
@@ -153,3 +159,16 @@ class _Track:
         error = raw.deformation.T.ravel()[self.rows] * self.row_weight
         part = full[np.ix_(self.rows, self.columns)]
         return error, self.row_weight[:, None] * part / self.weight
+
+
+def _about_the_middle(arrays: ModelArrays) -> tuple[ModelArrays, FloatArray]:
+    """The arrays with positions about their middle, and that [m].
+
+    Far from the origin too few digits are left for differences.
+    """
+    placed = arrays.node_kind <= NodeKind.POSITION
+    there = arrays.node_value[:3, placed]
+    middle = there.min(axis=1) / 2 + there.max(axis=1) / 2 if there.size else np.zeros(3)
+    value = arrays.node_value.copy(order="F")
+    value[:3, placed] -= middle[:, None]
+    return arrays._replace(node_value=value), middle

@@ -18,6 +18,9 @@ from .colours import QUANTITIES
 from .forms import LINKS, TRUSSES, Form, is_one_of
 from .scene import Scene
 
+#: A quantity below this part of the largest one, moments over the length, is rounding.
+_NOISE = 1.0e-10
+
 
 @dataclass(frozen=True, eq=False)
 class Resultants(Frozen):
@@ -41,6 +44,11 @@ class Resultants(Frozen):
         """(k, 2) one of `QUANTITIES` at both ends of the members."""
         return np.asarray(self.members[:, QUANTITIES.index(quantity)])
 
+    @property
+    def _weight(self) -> FloatArray:
+        """(4,) what makes the quantities comparable with forces."""
+        return np.array([1.0, *[1.0 / self.length] * 3])
+
     def along(self, quantity: str, member: np.ndarray, at: FloatArray) -> FloatArray:
         """(rows, s) a quantity at stations (s,) of some members (rows,)."""
         ends = self[quantity][member]
@@ -50,9 +58,12 @@ class Resultants(Frozen):
 
     def largest(self, quantity: str) -> float:
         """Largest magnitude of a quantity, of members and hinges."""
-        column = QUANTITIES.index(quantity)
-        sizes = [np.abs(each[:, column]).max(initial=0.0) for each in (self.members, self.hinges)]
-        return float(max(sizes))
+        column, weight = QUANTITIES.index(quantity), self._weight
+        sizes = np.abs(self.members).max(axis=(0, 2), initial=0.0)
+        sizes = np.maximum(sizes, np.abs(self.hinges).max(axis=0, initial=0.0))
+        # Rounding errors are no stress.
+        noise = sizes[column] * weight[column] <= _NOISE * (sizes * weight).max()
+        return 0.0 if noise else float(sizes[column])
 
     @property
     def dominant(self) -> str:
@@ -61,11 +72,10 @@ class Resultants(Frozen):
         By the root of the sum of squares, and of sheets, wires and bars as long as they carry
         anything: the stress in rigid bodies is what theirs asks for.
         """
-        weight = np.array([1.0, *[1.0 / self.length] * 3])
         squares = np.sum(self.members[self.flexible] ** 2, axis=(0, 2))
         if not squares.any():
             squares = np.sum(self.members**2, axis=(0, 2)) + np.sum(self.hinges**2, axis=0)
-        sizes = np.sqrt(squares) * weight
+        sizes = np.sqrt(squares) * self._weight
         # Of practically equal ones the first.
         return QUANTITIES[int(np.argmax(sizes >= sizes.max() * (1 - 1.0e-9)))]
 

@@ -86,10 +86,10 @@ class Arrows(Frozen):
 
 def supports_of(arrays: ModelArrays, members: Members, size: float) -> Supports:
     """The supports of a model whose scene has this size [m]."""
-    moved, turned = _fixed(arrays)
+    moved, turned, whole = _fixed(arrays)
     positions = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
     held = moved[positions].all(axis=1)
-    clamped = held & turned[positions].all(axis=1)
+    clamped = held & whole[positions]
     partly = positions[~clamped]
     rows: list[tuple[np.ndarray, Support, int | None]] = [
         (positions[clamped], Support.CLAMP, None),
@@ -134,19 +134,20 @@ def arrows_of(arrays: ModelArrays) -> Arrows:
     return Arrows(node[rows], np.eye(3)[axis[rows]], turning[rows])
 
 
-def _fixed(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
-    """(nodes, 3) each: which translations and rotations of position nodes are fixed.
+def _fixed(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of position nodes: which translations and rotations are fixed, which orientations whole.
 
-    One that a planar node does not have counts as fixed. Of several orientations at one
-    position all must be fixed.
+    (nodes, 3), (nodes, 3) and (nodes,). A coordinate that a planar node does not have counts as
+    fixed. Of several orientations at one position one is enough: a member is held there, though
+    others may turn.
     """
     mine = np.isin(arrays.coordinate_class.T, (Class.FIXED, Class.NONE))
     moved = mine & (arrays.node_kind <= NodeKind.POSITION)[:, None]
     pairs = turned_at(arrays)
-    turned = np.zeros_like(moved)
-    turned[pairs[:, 0]] = True
-    np.logical_and.at(turned, pairs[:, 0], mine[pairs[:, 1]])
-    return moved, turned
+    turned, whole = np.zeros_like(moved), np.zeros(len(moved), bool)
+    np.logical_or.at(turned, pairs[:, 0], mine[pairs[:, 1]])
+    np.logical_or.at(whole, pairs[:, 0], mine[pairs[:, 1]].all(axis=1))
+    return moved, turned, whole
 
 
 def _outward(nodes: int, members: Members) -> tuple[FloatArray, FloatArray]:
@@ -155,7 +156,8 @@ def _outward(nodes: int, members: Members) -> tuple[FloatArray, FloatArray]:
     room = np.full(nodes, np.inf)
     for slot, sign in ((0, 1.0), (2, -1.0)):
         np.add.at(towards, members.nodes[:, slot], sign * members.frame[..., 0])
-        np.minimum.at(room, members.nodes[:, slot], members.length)
+        long = members.length > 0.0
+        np.minimum.at(room, members.nodes[long, slot], members.length[long])
     towards[np.linalg.norm(towards, axis=1) < 1.0e-6] = 0.0
     return unit(towards), room
 
