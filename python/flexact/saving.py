@@ -36,7 +36,7 @@ def save(analysis: Analysis, path: Path, choice: dict[str, Any]) -> None:
         _refuse(given, path, ())
         write_together({path: page_bytes(analysis)})
     else:
-        from .mesh_writing import mesh_writer
+        from .mesh.writing import mesh_writer
         from .shown import chosen_motion
 
         _refuse(given, path, ("motion", "freedom"))

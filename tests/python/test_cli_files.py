@@ -66,7 +66,7 @@ def test_a_mesh_that_cannot_be_written_does_not_cost_the_verdict(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """A format that fails with what is in a mesh, not with the trial beforehand."""
-    monkeypatch.setattr("flexact.mesh_file._try_out", lambda *_: None)
+    monkeypatch.setattr("flexact.mesh.file._try_out", lambda *_: None)
     out = tmp_path / "out"
     arguments = ["analyse", "--json", str(decks), "-o", str(out), "--format", "medit"]
     assert main([*arguments, "--expect", "exact"]) == 1

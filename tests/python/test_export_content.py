@@ -11,10 +11,9 @@ from test_export_values import written
 from vtk_files import LINE, QUAD, VERTEX
 
 import flexact
-from flexact import mesh
-from flexact.mesh import mesh_of
-from flexact.mesh_file import find_format
-from flexact.mesh_names import named_bytes
+from flexact.mesh import content, mesh_of
+from flexact.mesh.file import find_format
+from flexact.mesh.names import named_bytes
 
 Read = Callable[[str], flexact.Analysis]
 
@@ -169,7 +168,7 @@ def test_many_names_come_back(tmp_path: Path) -> None:
     for i in range(1000):
         model.truss(points[i], points[i + 1], name=f"truss {i} \u00e9 of a thousand")
     model.fix(*points[:1])
-    made = mesh.Meshes(flexact.analyse(model, method="qr")).still()
+    made = content.Meshes(flexact.analyse(model, method="qr")).still()
     path = tmp_path / "many.vtu"
     path.write_bytes(named_bytes(made, find_format("vtu")))
     found = vtk_files.read(path)
@@ -203,9 +202,9 @@ def test_very_many_elements_have_lines_alone(
 ) -> None:
     analysis = flexact.analyse(ROOT / "input_decks" / "flexures" / "notch_guide.dat")
     assert np.count_nonzero(written(analysis, ".vtu", tmp_path).shape == QUAD) > 0
-    monkeypatch.setattr(mesh, "MOST_SURFACES", 8)
+    monkeypatch.setattr(content, "MOST_SURFACES", 8)
     few = written(analysis, ".vtu", tmp_path)
-    monkeypatch.setattr(mesh, "MOST_SURFACES", len(analysis.data.element_names) - 1)
+    monkeypatch.setattr(content, "MOST_SURFACES", len(analysis.data.element_names) - 1)
     many = written(analysis, ".vtu", tmp_path)
     assert set(few.shape.tolist()) == {VERTEX, LINE, QUAD}
     assert set(many.shape.tolist()) == {VERTEX, LINE}

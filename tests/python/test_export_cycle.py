@@ -12,7 +12,7 @@ from test_export_values import written
 from vtk_files import LINE, QUAD
 
 import flexact
-from flexact.mesh_cycle import Cycle, write_cycle
+from flexact.mesh.cycle import Cycle, write_cycle
 from flexact.outputs import OutputError
 from flexact.shown import chosen_motion
 
@@ -171,7 +171,7 @@ def test_a_failing_cycle_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.Mo
     cycle = Cycle(analysis, analysis.motions[0], tmp_path / "x.pvd")
     made = iter((b"first", b"second"))
     monkeypatch.setattr(
-        "flexact.mesh_cycle.named_bytes", lambda *given: next(made, None) or fail(*given)
+        "flexact.mesh.cycle.named_bytes", lambda *given: next(made, None) or fail(*given)
     )
     with pytest.raises(OutputError, match="not enough memory"):
         write_cycle(cycle)
@@ -202,6 +202,6 @@ def test_many_steps_of_a_large_mesh_hold_few_modes(
     analysis = flexact.analyse(ROOT / "input_decks" / "linkages" / "parallelogram_flat.dat")
     assert len(analysis.motions) == 2
     assert "motion_2" in vtk_files.read(steps_of(play(analysis))[0][1]).point_data
-    monkeypatch.setattr("flexact.mesh._NUMBERS", 1)
+    monkeypatch.setattr("flexact.mesh.content._NUMBERS", 1)
     data = vtk_files.read(steps_of(play(analysis))[0][1]).point_data
     assert "motion_1" in data and "motion_2" not in data

@@ -16,9 +16,9 @@ from vtk_files import LINE, QUAD, VERTEX, Read
 import flexact
 from flexact.elements import element_kinds
 from flexact.mesh import mesh_of
-from flexact.mesh_file import find_format
-from flexact.mesh_names import named_bytes
-from flexact.mesh_polydata import polydata_bytes
+from flexact.mesh.file import find_format
+from flexact.mesh.names import named_bytes
+from flexact.mesh.polydata import polydata_bytes
 from flexact.scene import Moving
 
 BEAMS = ("BEAM", "PLBEAM")

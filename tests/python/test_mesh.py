@@ -15,7 +15,7 @@ import pytest
 
 import flexact
 from flexact.mesh import mesh_of, to_meshio
-from flexact.mesh_file import MeshFormat, MeshFormatError, find_format, mesh_bytes
+from flexact.mesh.file import MeshFormat, MeshFormatError, find_format, mesh_bytes
 from flexact.outputs import OutputError
 
 meshio: Any = pytest.importorskip("meshio")

@@ -18,7 +18,7 @@ from flexact.interruption import unwinding
 from flexact.rendering import harmless
 
 if TYPE_CHECKING:
-    from flexact.mesh_file import MeshFormat
+    from flexact.mesh.file import MeshFormat
 
 VERDICTS = {
     "exact": flexact.Verdict.EXACT,
@@ -69,7 +69,7 @@ class _Work:
         self.format: MeshFormat | None = None
         self.plan: dict[str, tuple[Path, ...]] = {}
         if chosen.output:
-            from flexact.mesh_file import find_format
+            from flexact.mesh.file import find_format
             from flexact.outputs import plan_files
 
             with unwinding():
@@ -97,7 +97,7 @@ class _Work:
         """Write the results, or say why not: that is no reason to keep the verdict back."""
         from flexact.log import log_text
         from flexact.mesh import Meshes
-        from flexact.mesh_file import mesh_bytes
+        from flexact.mesh.file import mesh_bytes
         from flexact.outputs import OutputError, write_together
 
         assert self.format is not None

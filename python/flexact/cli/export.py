@@ -35,7 +35,7 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
 
 def export_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and write its mesh."""
-    from flexact.mesh_writing import mesh_writer
+    from flexact.mesh.writing import mesh_writer
 
     deck = one_deck(chosen)
     target: Path = chosen.output
@@ -71,7 +71,7 @@ def _require_room(deck: DeckFile, target: Path) -> None:
     from flexact.outputs import plan_file, plan_files
 
     plan_file(deck, target)
-    from flexact.mesh_cycle import ENDINGS, STEM, SUFFIX, folder_of
+    from flexact.mesh.cycle import ENDINGS, STEM, SUFFIX, folder_of
 
     if target.suffix.lower() == SUFFIX:
         plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)

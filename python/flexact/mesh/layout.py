@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .exchange import BoolArray, FloatArray
-from .frozen import Frozen
-from .modes import SelfStress
-from .scene import (
+from ..exchange import BoolArray, FloatArray
+from ..frozen import Frozen
+from ..modes import SelfStress
+from ..scene import (
     QUANTITIES,
     Pose,
     Scene,
@@ -22,7 +22,7 @@ from .scene import (
     solid,
     stations,
 )
-from .scene.shapes import by_shape
+from ..scene.shapes import by_shape
 
 Integers = NDArray[np.int64]
 

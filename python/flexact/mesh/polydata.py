@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from .mesh import Mesh
-from .mesh_file import MeshFormatError
-from .mesh_names import cell_names
+from .content import Mesh
+from .file import MeshFormatError
+from .names import cell_names
 
 
 def polydata_bytes(mesh: Mesh) -> bytes:

@@ -1,40 +1,4 @@
-"""The mechanism with its motions and self-stresses as a mesh, for ParaView and its like.
-
-Every element that has two ends is a row of lines along its axis, eight where it can bend and one
-where not; an element without extent (a hinge) is a vertex where its orientation nodes stand. The
-elements that are drawn have a surface of quads besides: sheets, rods, solids; cylinders for
-hinges; flat strips and discs in the plane. What the deck does not draw (DONOTDRAW) has its line or
-vertex, with all its numbers, but no surface. With more than 5,000 elements there are no surfaces.
-Points are not shared between elements, nor between an axis and its surface, so that parts which
-a motion moves apart come apart in the picture. Lengths are in m.
-
-Point data
-    ``displacement``, ``rotation``: of the motion that is shown, times what makes the largest
-    displacement a tenth of the mechanism's size, so that Warp By Vector with a factor of 1 shows
-    it. The motion is the one asked for, else the first motion, else that of the first declared
-    degree of freedom that can move (not looked for with more than 5,000 elements); zeros without
-    any. First order: along a bending member cubic, at a surface that of the axis plus the
-    rotation times the arm [m, rad].
-    ``node``: number of the position node at the point; 0 between nodes, at surfaces, and where
-    none is known.
-    ``motion_k``, ``motion_k_rotation``: displacement and rotation in motion k as the analysis
-    gives it, at the nodes to the last bit, between them likewise. The far end of a rigid link
-    turns with its near end, a hinge with the first of its two orientation nodes, a truss with
-    its axis.
-    ``selfstress_k_N``, ``_T``, ``_My``, ``_Mz``: normal force [N], torsion, and the bending
-    moments in the local xz and xy planes [N m] of self-stress k at that station of the member:
-    the stress resultants of the analysis at its ends, linear between. Equal values at both ends
-    are a constant moment, of planar beams too. A rigid link has the components of its force at
-    its far end: N along itself, and the moments that the others make on the way. HINGE: T
-    about its axis, My and Mz the other two. PLHINGE: Mz.
-Cell data
-    ``element``: number of the element; ``kind``: its code, see ``flexact.elements``; ``form``:
-    what it is to the eye, see ``flexact.scene.Form``, 0 for hinges; ``name``: its name, in the
-    .vtu and .vtp files of ``flexact export`` alone. meshio holds no text, and does not read a
-    file that has some; what ``flexact analyse`` writes it reads.
-
-Of very many motions or self-stresses only the first are there; see `Meshes.most_modes`.
-"""
+"""What a mesh holds: points, cells and their data; see `flexact.mesh`."""
 
 from __future__ import annotations
 
@@ -46,20 +10,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .analysis import Analysis
-from .exchange import FloatArray
-from .frozen import Frozen
-from .mesh_layout import Integers, Layout, layout_of
-from .model_data import ModelData
-from .scene import Pose, Scene, scene_of
-from .scene.forms import forms_of
-from .scene.movement import scale_of
-from .shown import chosen_motion
+from ..analysis import Analysis
+from ..exchange import FloatArray
+from ..frozen import Frozen
+from ..model_data import ModelData
+from ..scene import Pose, Scene, scene_of
+from ..scene.forms import forms_of
+from ..scene.movement import scale_of
+from ..shown import chosen_motion
+from .layout import Integers, Layout, layout_of
 
 if TYPE_CHECKING:
     import meshio
 
-    from .scene import Moving
+    from ..scene import Moving
 
 #: With more elements than these there are no surfaces, and no motion is looked for that the
 #: analysis does not give.

@@ -6,15 +6,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import mesh_cycle, mesh_polydata
-from .mesh import mesh_of
-from .mesh_file import MeshFormatError, MeshPackageError, find_format
-from .mesh_names import named_bytes
-from .outputs import OutputError, write_together
+from ..outputs import OutputError, write_together
+from . import cycle, polydata
+from .content import mesh_of
+from .file import MeshFormatError, MeshPackageError, find_format
+from .names import named_bytes
 
 if TYPE_CHECKING:
-    from .analysis import Analysis
-    from .scene import Moving
+    from ..analysis import Analysis
+    from ..scene import Moving
 
     Write = Callable[[Analysis, Moving | None, Path], None]
 
@@ -28,11 +28,11 @@ def mesh_writer(target: Path) -> Write:
     suffix = target.suffix.lower()
     if not suffix:
         raise OutputError(f"the suffix of {target} is to say what to write: .vtu, .pvd, ...")
-    if suffix == mesh_cycle.SUFFIX:
+    if suffix == cycle.SUFFIX:
         find_format("vtu")
         return _write_cycle
     if suffix == ".vtp":
-        mesh_polydata.require()
+        polydata.require()
         return _write_polydata
     return _meshio_writer(suffix)
 
@@ -52,8 +52,8 @@ def _meshio_writer(suffix: str) -> Write:
 
 
 def _write_polydata(analysis: Analysis, shown: Moving | None, target: Path) -> None:
-    write_together({target: mesh_polydata.polydata_bytes(mesh_of(analysis, shown))})
+    write_together({target: polydata.polydata_bytes(mesh_of(analysis, shown))})
 
 
 def _write_cycle(analysis: Analysis, shown: Moving | None, target: Path) -> None:
-    mesh_cycle.write_cycle(mesh_cycle.Cycle(analysis, shown, target))
+    cycle.write_cycle(cycle.Cycle(analysis, shown, target))

@@ -10,16 +10,16 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from .mesh import Mesh, Meshes
-from .mesh_file import find_format
-from .mesh_names import named_bytes
-from .outputs import OutputError, write_together
-from .scene import Movement, move
-from .scene.rotations import vector_of
+from ..outputs import OutputError, write_together
+from ..scene import Movement, move
+from ..scene.rotations import vector_of
+from .content import Mesh, Meshes
+from .file import find_format
+from .names import named_bytes
 
 if TYPE_CHECKING:
-    from .analysis import Analysis
-    from .scene import Moving
+    from ..analysis import Analysis
+    from ..scene import Moving
 
 SUFFIX = ".pvd"
 #: Time steps of a cycle, from time 0 to time 1; the last is as the first.

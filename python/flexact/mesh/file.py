@@ -17,14 +17,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .batch import SUFFIX, reason_of
-from .interruption import undisturbed
-from .outputs import OutputError
+from ..batch import SUFFIX, reason_of
+from ..interruption import undisturbed
+from ..outputs import OutputError
 
 if TYPE_CHECKING:
     import meshio
 
-    from .mesh import Mesh
+    from .content import Mesh
 
 # Known to hold every cell and every array; what other formats hold is looked at.
 COMPLETE = ("vtu", "vtk", "xdmf")
@@ -88,7 +88,7 @@ def _look_up(name: str) -> tuple[str, tuple[str, ...]]:
 
 def _try_out(name: str, suffix: str) -> None:
     """Write a line and a quad with the data that every mesh has."""
-    from .mesh import Mesh
+    from .content import Mesh
 
     if name in COMPLETE:
         return

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .mesh_file import mesh_bytes
+from .file import mesh_bytes
 
 if TYPE_CHECKING:
-    from .mesh import Mesh
-    from .mesh_file import MeshFormat
+    from .content import Mesh
+    from .file import MeshFormat
 
 #: Where meshio begins the data of the cells and of the points; no data look like it.
 _CELLS = b"<CellData>\n"
