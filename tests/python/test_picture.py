@@ -24,6 +24,21 @@ from flexact.picture import PictureError, SubjectError, ViewError, draw, picture
 BLOCKS = "END\nHALT\n\nEND\n\nVISUALIZATION\n"
 #: The pale grey of the reference shape.
 GHOST = np.array((0.8936, 0.9012, 0.9126))
+#: Two sheets and a beam across their ends; the sheets bend evenly in their planes.
+TWO_SHEETS = """\
+BEAM 1 1 2 3 4 0 1 0
+BEAM 2 5 6 7 8 0 1 0
+BEAM 3 3 4 7 8
+X 3 0.1 0 0
+X 5 0 0.05 0
+X 7 0.1 0.05 0
+FIX 1
+FIX 2
+FIX 5
+FIX 6
+RLSE 1 2 5 6
+RLSE 2 2 5 6
+"""
 ARROW, FREEDOM = (0.85, 0.37, 0.01), (0.11, 0.55, 0.38)
 
 
@@ -104,6 +119,14 @@ def test_a_chosen_quantity_colours_the_members() -> None:
     assert hue(twisted.at((0.0, 0.0, 0.0))) != 0
 
 
+def test_the_legend_of_nothing_is_zero() -> None:
+    """Bars carry no torsion."""
+    figure = draw(deck("paper/twelve_trusses"), stress=1, quantity="T")
+    words = [text.get_text() for text in figure.texts]
+    assert "0" in words
+    assert not {"-0", "+0"} & set(words)
+
+
 def test_a_bending_diagram_has_its_height_and_its_value(tmp_path: Path) -> None:
     """A cantilever's end moment, clamped at its far end too: 8 % of the size off the axis."""
     clamped = "PLBEAM 1 1 2 3 4\nX 3 2 0\nFIX 1\nFIX 2\nFIX 3\nFIX 4\n"
@@ -128,6 +151,23 @@ def test_the_legend_says_unit_and_that_values_are_relative() -> None:
     assert "Relative values, only their ratios matter." in words
     largest = np.abs(deck("paper/twelve_trusses").self_stresses[0].forces).max()
     assert {f"{-largest:+.3g}", "0", f"{largest:+.3g}"} <= set(words)
+
+
+def test_a_bending_diagram_hides_its_sheet(tmp_path: Path) -> None:
+    """A sheet with a constant moment: within the diagram only its pale colour and grey ribs."""
+    analysis = of_text(tmp_path, TWO_SHEETS)
+    pixels = Pixels(draw(analysis, stress=1, view=VIEW))
+    scene = scene_of(analysis.data)
+    moment = analysis.self_stresses[0].moments[1, 2]
+    start, end = scene.reference.position[scene.members.nodes[1, [0, 2]]]
+    top = 0.08 * scene.size * np.sign(moment) * scene.members.frame[1, :, 2]
+    blueness = [
+        pixels.at(start + share * (end - start) + height * top) @ (-1, 0, 1)
+        for share in np.linspace(0.05, 0.8, 1600)
+        for height in (0.3, 0.5, 0.7)
+    ]
+    sheet = pixels.at(start + 0.5 * (end - start) - 0.5 * top) @ (-1, 0, 1)
+    assert np.abs(blueness).max() < 0.7 * abs(sheet)
 
 
 # Motions
@@ -192,6 +232,25 @@ def test_a_sliding_support_goes_with_its_node(tmp_path: Path) -> None:
     ]
     assert dark[0] > 0
     assert dark[1] == 0
+
+
+def test_a_motion_that_only_turns_has_turning_arrows(tmp_path: Path) -> None:
+    """A beam pinned between two supports turns about its axis; its nodes stay where they are."""
+    analysis = of_text(tmp_path, "BEAM 1 1 2 3 4\nX 3 1 0 0\nFIX 1\nFIX 3\n")
+    (motion,) = analysis.motions
+    assert np.abs(motion.displacement).max() < 1e-12
+    figure = draw(analysis, motion=1, view=VIEW)
+    pixels = Pixels(figure)
+    words = " ".join(text.get_text() for text in figure.texts)
+    assert "Enlarged: largest rotation 1.0 rad; grey" in words
+    assert "displacement" not in words
+    for end in (0.0, 1.0):
+        # A circle about x, of which three quarters are drawn.
+        angles = np.radians(np.arange(0, 360, 10))
+        ring = [(end, 0.055 * np.cos(a), 0.055 * np.sin(a)) for a in angles]
+        hits = [np.abs(pixels.near(p, 2) - 255 * np.array(ARROW)).max(axis=1).min() for p in ring]
+        assert 22 <= sum(hit < 20 for hit in hits) <= 32
+    assert Pixels(draw(analysis, motion=1, phase=0.0, view=VIEW)).count(ARROW) == 0
 
 
 # What is drawn of a scene
@@ -263,6 +322,60 @@ def test_what_is_not_drawn_leaves_no_trace(tmp_path: Path) -> None:
 def test_a_scene_of_which_nothing_is_drawn_makes_a_picture(tmp_path: Path) -> None:
     text = f"{TRIANGLE}{BLOCKS}BEAMPROPS 1 2\nDONOTDRAW 1 2\n"
     assert picture_bytes(of_text(tmp_path, text), ".png").startswith(b"\x89PNG")
+
+
+def test_what_is_invisible_leaves_its_room_and_its_arrows(tmp_path: Path) -> None:
+    look = f"{BLOCKS}GRAPHICS\nOPACITY "
+    figures = [
+        draw(of_text(tmp_path, f"{SWINGING}{look}{opacity}\n"), motion=1, view=VIEW)
+        for opacity in (0, 1)
+    ]
+    unseen, seen = (Pixels(figure) for figure in figures)
+    assert unseen.count(ARROW) > 50
+    for rest in (0.35, 0.65):
+        place = (0.0, 0.0, rest)
+        assert unseen.near(place, 5).min() == 255 > seen.near(place, 5).min()
+    limits = [figure.axes[0].get_xlim() for figure in figures]
+    np.testing.assert_allclose(limits[0], limits[1], rtol=0.05, atol=0.02)
+
+
+def test_an_invisible_planar_bar_has_no_joints(tmp_path: Path) -> None:
+    """A crossing of invisible bars in the plane, where nothing is fixed, is white."""
+    text = f"{TRIANGLE}{BLOCKS}GRAPHICS\nOPACITY 0\n"
+    figure = draw(of_text(tmp_path, text))
+    assert Pixels(figure, planar=True).near((0.5, 1.0, 0.0), 12).min() == 255
+    assert figure.axes[0].get_ylim()[1] > 1.0
+
+
+def test_what_shines_through_is_even(tmp_path: Path) -> None:
+    """No net of facets is seen in a sheet, and what is behind it is seen once."""
+    sheet = "BEAM 1 1 2 3 4 0 1 0\nX 3 1 0 0\nFIX 1\nFIX 2\nRLSE 1 2 5 6\n"
+    analysis = of_text(tmp_path, f"{sheet}{BLOCKS}GRAPHICS\nFACECOLOR 1 0 0\nOPACITY 0.4\n")
+    pixels = Pixels(draw(analysis, phase=0.0, view=VIEW))
+    places = itertools.product(np.linspace(0.2, 0.8, 200), (0.0,), np.linspace(-0.05, 0.05, 40))
+    part = np.array([pixels.at(place) for place in places])
+    assert np.ptp(part, axis=0).max() <= 12
+    assert part[:, 1].mean() == pytest.approx(255 * 0.6 * GHOST[1], abs=3)
+
+
+def test_a_block_of_ground_hides_the_ball_behind_it(tmp_path: Path) -> None:
+    sheet = "BEAM 1 1 2 3 4 0 1 0\nX 3 1 0 0\nFIX 1\nFIX 2\nRLSE 1 2 5 6\n"
+    analysis = of_text(tmp_path, f"{sheet}TRUSS 2 1 5\nX 5 0.1 0.6 0.6\nFIX 5\n")
+    ball = 255 * np.array((0.55, 0.58, 0.62))
+    seen = []
+    for view, eye in (("left", (180.0, 0.0)), ("right", (0.0, 0.0))):
+        pixels = Pixels(draw(analysis, view=view), eye=eye)
+        near = pixels.near((0.0, 0.0, 0.0), 8)
+        seen.append(bool(np.any(np.abs(near - ball).max(axis=1) < 2)))
+    assert seen == [False, True]
+
+
+def test_hinges_that_stand_nowhere_are_told(tmp_path: Path) -> None:
+    text = "HINGE 1 1 2 1 0 0\nHINGE 2 2 3 0 1 0\nFIX 1\nRLSE 1 1\nRLSE 2 1\n"
+    words = [text.get_text() for text in draw(of_text(tmp_path, text)).texts]
+    assert any(
+        line.startswith("Nothing can be placed: the hinges stand at no node") for line in words
+    )
 
 
 # What is shown, and from where

@@ -1,5 +1,6 @@
 """The command ``flexact picture``: what it writes, and what it says where it cannot."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -169,3 +170,18 @@ def test_no_display_is_needed(
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
     assert result.returncode == 0, result.stderr
+
+
+def test_a_cache_that_cannot_be_written_is_not_told(decks: Path, tmp_path: Path) -> None:
+    """Matplotlib warns of it where its folder cannot be made."""
+    file = write(tmp_path / "file", "")
+    arguments = ["picture", str(decks / "exact.dat"), "-o", str(tmp_path / "x.png")]
+    code = f"import sys; from flexact.cli.main import main; sys.exit(main({arguments!r}))"
+    result = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        check=False,
+        env={**os.environ, "MPLCONFIGDIR": str(file / "folder")},
+    )
+    assert result.returncode == 0
+    assert result.stderr == b""

@@ -18,6 +18,7 @@ import flexact
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 from flexact.picture import SUFFIXES, PictureError, picture_bytes
@@ -127,6 +128,9 @@ def svg_of(analysis: flexact.Analysis) -> ElementTree.Element:
 def test_svg_is_vectors_and_text() -> None:
     root = svg_of(deck("paper/twelve_trusses"))
     assert root.findall(f".//{SVG}image") == []
+    data = " ".join(path.get("d", "") for path in root.iter(f"{SVG}path"))
+    assert re.search(r"\.\d\d", data)
+    assert not re.search(r"\.\d{3}", data)
     told = [element.text for element in root.iter(f"{SVG}text")]
     assert "twelve_trusses.dat" in told
     assert any("Under-constrained by 1 and over-constrained by 1" in (t or "") for t in told)
@@ -160,6 +164,19 @@ def test_names_are_text_whatever_they_contain(name: str) -> None:
     told = [element.text for element in root.iter(f"{SVG}text")]
     assert harmless(name) in told
     assert root.findtext(f"{SVG}title") == harmless(name)
+
+
+@pytest.mark.parametrize("letter", ["a", "W", "\u0416"])
+def test_a_long_name_ends_within_the_picture(letter: str) -> None:
+    from flexact.picture import draw
+
+    figure = draw(flexact.analyse(deck_model(), name=250 * letter))
+    FigureCanvasAgg(figure).draw()
+    name = figure.texts[0]
+    assert re.fullmatch(f"{letter}+\\.\\.\\.", name.get_text())
+    box, width = name.get_window_extent(), figure.bbox.width
+    # As much as fits: one letter more would not.
+    assert 0.93 * width < box.x1 < width
 
 
 def deck_model() -> flexact.Model:

@@ -48,6 +48,8 @@ def test_meshes_are_saved(trusses: flexact.Analysis, tmp_path: Path) -> None:
     [
         ("a.html", {"motion": 1}, "a.html shows no motion of its own choice"),
         ("a.vtu", {"stress": 1, "view": "top"}, "a.vtu shows no stress or view of its own choice"),
+        ("a.png", {"motion": 0}, "there is no motion 0: the analysis gives 1 motion"),
+        ("a.svg", {"stress": 0}, "there is no self-stress 0: the analysis gives 1 self-stress"),
         ("a.png", {"motion": 2}, "there is no motion 2: the analysis gives 1 motion"),
         ("a.vtu", {"motion": 1, "freedom": 1}, "a motion or a degree of freedom, not both"),
         ("a.png", {"motion": "1"}, "motion is a number from 1, not str"),

@@ -1,4 +1,4 @@
-"""Arrows: displacements of a motion, and declared degrees of freedom; always in front."""
+"""Arrows: what a motion moves or turns, and declared degrees of freedom; always in front."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numpy as np
 
 from ..elements import NodeKind
 from ..exchange import FloatArray
-from ..scene import Pose, Scene, frames_along
+from ..scene import Pose, Scene, frames_along, reach_of
 from ..scene.colours import ARROW, FREEDOM
-from ..scene.rotations import unit
+from ..scene.rotations import unit, vector_of
 from .drawing import OVER, Drawing
 from .symbols import turn_about
 
@@ -16,6 +16,11 @@ from .symbols import turn_about
 _LEAST, _MOST = 0.3, 28
 #: Arrows whose nodes are nearer than this part of the scene's size are one.
 _APART = 0.06
+#: A motion that displaces nothing by more than this part of the scene's size has turning arrows,
+#: no more than so many, no nearer to each other than this part.
+_STILL, _MOST_TURNING, _TURNING_APART = 0.02, 4, 0.15
+#: Less than this part of a whole turning arrow is not drawn.
+_LEAST_TURNING = 0.15
 #: Lengths of arrows of freedoms, and radius of turning ones: parts of the scene's size.
 _LENGTH, _RADIUS = 0.13, 0.055
 #: Length and width of a head: parts of the scene's size, and at most of the arrow's length.
@@ -32,6 +37,38 @@ def add_displacements(drawing: Drawing, scene: Scene, pose: Pose) -> None:
     _add_straight(drawing, start, end, ARROW, scene.size)
 
 
+def add_rotations(drawing: Drawing, scene: Scene, pose: Pose, end: Pose) -> None:
+    """Turning arrows at the largest rotations of a motion that displaces hardly anything.
+
+    Args:
+        drawing: Where to.
+        scene: The scene.
+        pose: Where the nodes are.
+        end: Where they are at the end of the motion; arrows are whole there.
+    """
+    if reach_of(scene, [end])[0] >= _STILL * scene.size:
+        return
+    node, turn = _turned_places(scene)
+    farthest = np.linalg.norm(vector_of(end.rotation[turn]), axis=1)
+    order = _by_size(farthest, 1.0)
+    place = scene.reference.position[node]
+    rotation = vector_of(pose.rotation[turn])
+    for row in _apart(place, order, _TURNING_APART * scene.size, _MOST_TURNING):
+        share = float(np.linalg.norm(rotation[row]) / farthest[row])
+        if share > _LEAST_TURNING:
+            axis = unit(rotation[row])
+            _add_turning(drawing, place[row], axis, scene.size, ARROW, share)
+
+
+def _turned_places(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) position nodes and (n,) orientation nodes there, of members and of hinges."""
+    members, hinges = scene.members.nodes, scene.hinges.nodes
+    pairs = (members[:, :2], members[:, 2:], hinges[:, [0, 1]], hinges[:, [0, 2]])
+    every = np.unique(np.concatenate(pairs), axis=0)
+    known = every[np.all(every >= 0, axis=1)]
+    return known[:, 0], known[:, 1]
+
+
 def add_freedoms(drawing: Drawing, scene: Scene) -> None:
     """Arrows of the declared degrees of freedom, straight or turning."""
     arrows = scene.arrows
@@ -43,7 +80,7 @@ def add_freedoms(drawing: Drawing, scene: Scene) -> None:
     end = start + _LENGTH * scene.size * arrows.direction[straight]
     _add_straight(drawing, start, end, FREEDOM, scene.size)
     for row in np.flatnonzero(arrows.turning).tolist():
-        _add_turning(drawing, place[row], arrows.direction[row], scene.size)
+        _add_turning(drawing, place[row], arrows.direction[row], scene.size, FREEDOM)
 
 
 def _largest(scene: Scene, pose: Pose) -> tuple[FloatArray, FloatArray]:
@@ -54,16 +91,26 @@ def _largest(scene: Scene, pose: Pose) -> tuple[FloatArray, FloatArray]:
     shown = shown[kind <= NodeKind.POSITION]
     start, end = scene.reference.position[shown], pose.position[shown]
     length = np.linalg.norm(end - start, axis=1)
-    order = np.argsort(-np.round(length / scene.size, 9), kind="stable")
-    order = order[length[order] > _LEAST * length.max(initial=0.0)]
+    chosen = _apart(start, _by_size(length, scene.size), _APART * scene.size, _MOST)
+    return start[chosen], end[chosen]
+
+
+def _by_size(sizes: FloatArray, unit_size: float) -> np.ndarray:
+    """Rows of the largest sizes (n,), these first; what rounding tells apart is equal."""
+    order = np.argsort(-np.round(sizes / unit_size, 9), kind="stable")
+    return np.asarray(order[sizes[order] > _LEAST * sizes.max(initial=0.0)])
+
+
+def _apart(place: FloatArray, order: np.ndarray, apart: float, most: int) -> list[int]:
+    """The first rows in an order whose places (n, 3) are not too near to each other."""
     chosen: list[int] = []
     for row in order.tolist():
-        gap = np.linalg.norm(start[chosen] - start[row], axis=1)
-        if gap.min(initial=np.inf) > _APART * scene.size:
+        gap = np.linalg.norm(place[chosen] - place[row], axis=1)
+        if gap.min(initial=np.inf) > apart:
             chosen.append(row)
-        if len(chosen) == _MOST:
+        if len(chosen) == most:
             break
-    return start[chosen], end[chosen]
+    return chosen
 
 
 def _add_straight(
@@ -91,11 +138,18 @@ def _add_straight(
     _add(drawing, shaft, heads, colour, size)
 
 
-def _add_turning(drawing: Drawing, place: FloatArray, axis: FloatArray, size: float) -> None:
-    """Three quarters of a circle about an axis, with a head."""
+def _add_turning(
+    drawing: Drawing,
+    place: FloatArray,
+    axis: FloatArray,
+    size: float,
+    colour: tuple[float, float, float],
+    share: float = 1.0,
+) -> None:
+    """A share of three quarters of a circle about an axis, with a head."""
     frame = frames_along(axis[None], np.zeros((1, 3)))[0]
     radius = _RADIUS * size
-    angle = np.linspace(0.0, 1.5 * np.pi, 28)
+    angle = np.linspace(0.0, 1.5 * np.pi * min(share, 1.0), 28)
     circle = place + radius * (turn_about(axis, angle) @ frame[:, 1])
     head = 0.8 * _HEAD[0] * size
     along = circle[-1] - circle[-2]
@@ -105,7 +159,7 @@ def _add_turning(drawing: Drawing, place: FloatArray, axis: FloatArray, size: fl
     wing = np.cross(towards, flat) * head * _HEAD[1] / _HEAD[0] / 2
     back = tip - head * flat
     heads = np.stack((tip, back + wing, back - wing))[None]
-    _add(drawing, circle[None], heads, FREEDOM, size)
+    _add(drawing, circle[None], heads, colour, size)
 
 
 def _add(

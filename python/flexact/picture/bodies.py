@@ -9,8 +9,9 @@ import numpy as np
 
 from ..exchange import FloatArray
 from ..frozen import Frozen
-from ..scene import Members, Pose, Scene, solid, stations
+from ..scene import Members, Pose, Scene, solid
 from .surfaces import OUTLINE, Grid
+from .visible import visible_stations
 
 
 @dataclass(frozen=True)
@@ -60,8 +61,8 @@ class Body(Frozen):
 
 
 def bodies(scene: Scene, pose: Pose, detail: Detail, pieces: int = 1) -> Iterator[Body]:
-    """The members of a spatial scene; straight ones in so many pieces."""
-    for strip in stations(scene.members, pose, detail.segments):
+    """The visible members of a spatial scene; straight ones in so many pieces."""
+    for strip in visible_stations(scene.members, pose, detail.segments):
         round_ = strip.member[scene.members.round[strip.member]]
         thick = scene.members.section[round_].max(initial=0.0) > _THICK * scene.size
         corners = detail.corners * (2 if thick else 1)

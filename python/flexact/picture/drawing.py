@@ -28,7 +28,6 @@ class _Batch(NamedTuple):
     face: FloatArray
     edge: FloatArray
     width: FloatArray
-    smooth: np.ndarray
 
 
 class Drawing:
@@ -77,12 +76,11 @@ class Drawing:
         face = np.column_stack((np.broadcast_to(colour, (count, 3)), opaque))
         whole = opaque >= 1.0
         line = face if edge is None else np.tile((*edge, 1.0), (count, 1))
-        # What shines through has no seams where it is drawn without blending its rim.
+        # A line over a seam would paint what shines through twice; a pale seam is less seen.
         widths = np.where(whole, _SEAM, 0.0) if edge is None else np.full(count, width)
-        smooth = whole if edge is None else np.ones(count, bool)
         items = Items(flat, np.broadcast_to(nearer, count).astype(np.float64), False)
         around = np.concatenate((flat, flat[:, :1]), axis=1)[..., :2]
-        self._add(layer, items, around, face, line, widths * self.fineness, smooth)
+        self._add(layer, items, around, face, line, widths * self.fineness)
 
     def lines(
         self,
@@ -104,7 +102,7 @@ class Drawing:
         line = np.column_stack((np.broadcast_to(colour, (count, 3)), np.ones(count)))
         items = Items(flat, np.broadcast_to(nearer, count).astype(np.float64), True)
         widths = np.full(count, width * self.fineness)
-        self._add(layer, items, there, np.zeros((count, 4)), line, widths, np.ones(count, bool))
+        self._add(layer, items, there, np.zeros((count, 4)), line, widths)
 
     def room(self, points: FloatArray) -> None:
         """Leave room for points (..., 3), whether or not something is drawn there."""
@@ -133,18 +131,18 @@ class Drawing:
             order = painted([b.items for b in batches])
             every = [polygon for b in batches for polygon in b.corners]
             corners += [every[i] for i in order.tolist()]
-            parts = zip(*((b.face, b.edge, b.width, b.smooth) for b in batches), strict=True)
+            parts = zip(*((b.face, b.edge, b.width) for b in batches), strict=True)
             others.append([np.concatenate(part)[order] for part in parts])
         if not corners:
             return PolyCollection([])
-        face, edge, width, smooth = (np.concatenate(part) for part in zip(*others, strict=True))
+        face, edge, width = (np.concatenate(part) for part in zip(*others, strict=True))
         made = PolyCollection(
             corners,
             closed=False,
             facecolors=face,
             edgecolors=edge,
             linewidths=width,
-            antialiaseds=smooth,
+            antialiaseds=True,
             joinstyle="round",
             capstyle="round",
         )
@@ -158,9 +156,8 @@ class Drawing:
         face: FloatArray,
         edge: FloatArray,
         width: FloatArray,
-        smooth: np.ndarray,
     ) -> None:
-        self._layers[layer].append(_Batch(items, corners, face, edge, width, smooth))
+        self._layers[layer].append(_Batch(items, corners, face, edge, width))
         flat = corners.reshape(-1, 2)
         self._low = np.minimum(self._low, flat.min(axis=0))
         self._high = np.maximum(self._high, flat.max(axis=0))

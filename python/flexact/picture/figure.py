@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import textwrap
+from bisect import bisect_right
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,8 +37,12 @@ _SIZES = {"name": 11.5, "title": 14.0, "panel": 12.0, "caption": 10.5, "legend":
 _MARGIN = 0.05
 #: A rotation beyond this [rad] says why displacements are no larger.
 _TURNED = 0.9
+#: Displacements below this part of the size, and rotations [rad], would be told as 0.
+_UNMOVED, _UNTURNED = 0.005, 0.05
 #: Pieces of the bar of colours.
 _PIECES = 128
+#: After a name that is cut.
+_CUT = "..."
 #: Values nearer to each other than this are told once [px].
 _APART = np.array((52.0, 16.0))
 
@@ -88,16 +93,28 @@ class _Frame:
         self.figure, self.width, self.height, self.scale = figure, width, height, scale
 
     def text(self, x: float, y: float, text: str, kind: str, **others: Any) -> None:
-        size = _SIZES[kind] * self.scale * 72 / DPI * 1.25
         others = {"va": "top", "ha": "left", "color": _INK, **others}
         self.figure.text(
             x / self.width,
             1 - y / self.height,
             text,
-            fontsize=size,
+            fontsize=self._points(kind),
             parse_math=False,
             **others,
         )
+
+    def wide(self, text: str, kind: str) -> float:
+        """Width of a line of text [px], on a raster, where letters are wider."""
+        from matplotlib.backends.backend_agg import RendererAgg
+        from matplotlib.font_manager import FontProperties
+
+        font = FontProperties(size=self._points(kind))
+        made: Any = RendererAgg
+        raster = made(1, 1, DPI)
+        return float(raster.get_text_width_height_descent(text, font, ismath=False)[0])
+
+    def _points(self, kind: str) -> float:
+        return _SIZES[kind] * self.scale * 72 / DPI * 1.25
 
     def axes(self, left: float, top: float, right: float, bottom: float) -> Axes:
         made = self.figure.add_axes(
@@ -146,8 +163,14 @@ def _letters(frame: _Frame, kind: str, width: float | None = None) -> int:
 
 
 def _cut(text: str, frame: _Frame, kind: str) -> str:
-    most = _letters(frame, kind)
-    return text if len(text) <= most else f"{text[: most - 3]}..."
+    """As much of a line as fits, by the widths of its letters."""
+    if frame.wide(text, kind) <= (room := frame.width - 36 * frame.scale):
+        return text
+    # The longest beginning that fits: longer ones are wider.
+    most = bisect_right(
+        range(len(text)), room, key=lambda count: frame.wide(f"{text[:count]}{_CUT}", kind)
+    )
+    return f"{text[: max(most - 1, 0)]}{_CUT}"
 
 
 def _add_panel(
@@ -199,8 +222,16 @@ def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None
 
 def caption(scene: Scene, subject: Subject) -> str:
     """What is to be known of a panel."""
+    if _is_nowhere(scene):
+        return "Nothing can be placed: the hinges stand at no node whose position is known."
     simply = f" {len(scene.members)} members, drawn simply." if is_simplified(scene) else ""
     return f"{_about(scene, subject)}{simply}".strip()
+
+
+def _is_nowhere(scene: Scene) -> bool:
+    """Whether there is nothing but hinges, and it is not known where they stand."""
+    hinges = scene.hinges
+    return len(hinges) > 0 and not len(scene.members) and not np.any(hinges.nodes[:, 0] >= 0)
 
 
 def _about(scene: Scene, subject: Subject) -> str:
@@ -212,7 +243,9 @@ def _about(scene: Scene, subject: Subject) -> str:
     largest, turned = reach_of(scene, [movement.pose(1.0)])
     part = largest / scene.size
     size = f"largest displacement {100 * part:.0f} % of the model's size"
-    if turned > _TURNED and part < AMPLITUDE * 0.95:
+    if part < _UNMOVED and turned > _UNTURNED:
+        size = f"largest rotation {turned:.1f} rad"
+    elif turned > _TURNED and part < AMPLITUDE * 0.95:
         size = f"{size}, largest rotation {turned:.1f} rad"
     return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
 
@@ -233,7 +266,8 @@ def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: 
     axes.add_collection(PolyCollection(pieces, facecolors=colours, linewidths=0), autolim=False)
     axes.set_xlim(0.0, 1.0)
     axes.set_ylim(0.0, 1.0)
-    for place, value, side in ((0.0, -1.0, "left"), (0.5, 0.0, "center"), (1.0, 1.0, "right")):
+    values = ((0.0, -1.0, "left"), (0.5, 0.0, "center"), (1.0, 1.0, "right"))
+    for place, value, side in values if stress.largest > 0.0 else values[1:2]:
         words = f"{value * stress.largest:+.3g}" if value else "0"
         frame.text(sides[0] + place * width, top + 2.15 * line, words, "legend", ha=side)
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..exchange import FloatArray
-from ..scene import Pose, Scene, Support, joints_of, solid, stations
+from ..scene import Pose, Scene, Support, solid
 from .bodies import outline_of
 from .drawing import SOLID, Drawing
 from .surfaces import OUTLINE
+from .visible import visible_joints, visible_stations
 
 _ROUND = 28
 _INK = np.array(OUTLINE)
@@ -48,7 +49,7 @@ def add_members(
     members = scene.members
     given = members.colour if colour is None else colour
     given = given if given.ndim == 3 else given[:, None]
-    for strip in stations(members, pose, segments):
+    for strip in visible_stations(members, pose, segments):
         for body in solid(strip, members, planar=True):
             points = _in_pieces(body.points, given.shape[1])
             pieces = points.shape[1] - 1
@@ -80,7 +81,7 @@ def add_hinges(
 ) -> None:
     """Draw the hinges as circles, and joints of bars as dots."""
     hinges = scene.hinges
-    there = hinges.nodes[:, 0] >= 0
+    there = (hinges.nodes[:, 0] >= 0) & (hinges.opacity > 0.0)
     colours = hinges.colour[there]
     fill = np.full_like(colours, 1.0) if colour is None else colour[there]
     rim = OUTLINE if colour is not None or not len(colours) else tuple(colours[0])
@@ -93,7 +94,7 @@ def add_hinges(
         _HINGE * scene.size,
         1.6,
     )
-    node, radius = joints_of(scene)
+    node, radius = visible_joints(scene)
     radius = np.minimum(radius, _DOT * scene.size)
     _discs(drawing, pose.position[node], radius, _WHITE, OUTLINE, _JOINT * scene.size, 1.0)
 

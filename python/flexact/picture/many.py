@@ -5,15 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from ..exchange import FloatArray
-from ..scene import Form, Pose, Scene, Strip, stations
+from ..scene import Form, Pose, Scene, Strip
 from .drawing import GHOST, SOLID, Drawing
 from .light import light_of
 from .stress import Stress
 from .surfaces import OUTLINE
+from .visible import visible_stations
 
 #: Up to so many members sheets have their width; beyond, all are lines.
 _MOST_STRIPS = 12_000
-_SEGMENTS = 8
+_SEGMENTS = 4
 #: Widths of lines [pt] up to that number, and beyond.
 _WIDE, _NARROW = 1.3, 0.6
 _DARKER = 0.85
@@ -35,12 +36,12 @@ def add_many(
     few = len(members) <= _MOST_STRIPS
     width = _WIDE if few else _NARROW
     if ghost is not None:
-        for strip in stations(members, scene.reference, _SEGMENTS):
-            drawing.lines(strip.centre, ghost, width / 2, layer=GHOST)
+        for strip in visible_stations(members, scene.reference, _SEGMENTS):
+            drawing.lines(strip.centre[:, [0, -1]], ghost, width / 2, layer=GHOST)
     colour = members.colour if stress is None else stress.member_colours()
     loud = np.zeros(len(members), bool) if stress is None else stress.is_loud()
     is_sheet = (members.form == Form.SHEET) & few & (not scene.planar)
-    for strip in stations(members, pose, _SEGMENTS):
+    for strip in visible_stations(members, pose, _SEGMENTS):
         wide = is_sheet[strip.member]
         own = colour[strip.member]
         for chosen, part in ((~wide & ~loud[strip.member], 1.0), (~wide & loud[strip.member], 2.0)):

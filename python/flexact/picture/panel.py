@@ -9,7 +9,7 @@ import numpy as np
 from ..scene import Pose, Scene, stations
 from ..scene.colours import GHOST as GHOST_COLOUR
 from . import flat, symbols
-from .arrows import add_displacements, add_freedoms
+from .arrows import add_displacements, add_freedoms, add_rotations
 from .bodies import Detail, bodies, detail_of, grid_of
 from .drawing import GHOST, Drawing
 from .light import SHADE
@@ -58,8 +58,8 @@ def paint(
     pose = scene.reference if movement is None else movement.pose(phase)
     detail = detail_of(scene)
     peaks: list[Peak] = []
-    if movement is not None:
-        _leave_room(drawing, scene, [movement.pose(each) for each in _EXTREMES])
+    shown = [] if movement is None else [movement.pose(each) for each in _EXTREMES]
+    _leave_room(drawing, scene, [scene.reference, *shown])
     if detail is None:
         add_many(drawing, scene, pose, stress, None if movement is None else _GHOST_EDGE)
     else:
@@ -73,6 +73,7 @@ def paint(
         peaks = add_diagrams(drawing, scene, stress)
     if movement is not None:
         add_displacements(drawing, scene, pose)
+        add_rotations(drawing, scene, pose, movement.pose(1.0))
     return Panel(drawing, peaks)
 
 
@@ -104,8 +105,8 @@ def _paint_solid(
 ) -> None:
     finest = detail.finest * scene.size
     pieces = 1 if stress is None else stress.pieces
-    if pieces > 1 and len(scene.members) <= _FEW:
-        detail = replace(detail, segments=pieces)
+    if stress and (pieces > 1 or stress.has_diagram) and len(scene.members) <= _FEW:
+        detail = replace(detail, segments=PIECES)
     for body in bodies(scene, pose, detail, min(pieces, detail.segments)):
         colour = stress.colours(body.member, body.at) if stress else None
         shade = _SHADE_OF_STRESS if stress else SHADE
@@ -131,11 +132,11 @@ def _paint_flat(
 
 
 def _leave_room(drawing: Drawing, scene: Scene, poses: list[Pose]) -> None:
-    """Room for the members in some poses, with what is round their axes."""
+    """Room for the members in some poses with what is round their axes, invisible ones too."""
     for pose in poses:
         for strip in stations(scene.members, pose):
-            wide = scene.members.section[strip.member].max(axis=1)[:, None, None] / 2
+            wide = scene.members.section[strip.member][:, None, None] / 2
             for axis in (1, 2) if not scene.planar else (1,):
-                side = wide * strip.frame[..., axis]
+                side = wide[..., axis - 1] * strip.frame[..., axis]
                 drawing.room(strip.centre + side)
                 drawing.room(strip.centre - side)

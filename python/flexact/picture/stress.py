@@ -8,18 +8,23 @@ import numpy as np
 
 from ..exchange import FloatArray
 from ..frozen import Frozen
-from ..scene import QUANTITIES, Resultants, Scene, stations
+from ..scene import QUANTITIES, Resultants, Scene
 from ..scene.colours import diverging
 from .drawing import Drawing
 from .surfaces import OUTLINE
+from .visible import visible_stations
 
 UNITS = {"N": "N", "T": "N m", "My": "N m", "Mz": "N m"}
 #: Height of the largest bending moment in a diagram, a part of the scene's size.
 _HEIGHT = 0.08
 #: Column of the local frame along which a diagram stands off the axis.
 _OFF = {"My": 2, "Mz": 1}
-#: A diagram in the plane of a sheet is seen on it: it counts as nearer to the eye by this part.
-_ABOVE = 0.006
+#: A diagram in the plane of a sheet is seen on it: it counts as nearer to the eye by this part
+#: and half the thickness, along the line of sight, of which the cosine is at least so large.
+_ABOVE, _OBLIQUE = 0.006, 0.25
+#: Its pieces end beside those of the members, whose rims would be seen where they met; by this
+#: part of a piece.
+_BESIDE = 0.42
 #: Values below this part of the largest are not drawn.
 _LEAST = 1.0e-6
 #: Peaks below this part of the largest are not named, and no more than so many are.
@@ -106,30 +111,37 @@ def add_diagrams(drawing: Drawing, scene: Scene, stress: Stress) -> list[Peak]:
         return []
     peaks: list[Peak] = []
     column, height = _OFF[stress.quantity], _HEIGHT * scene.size / stress.largest
-    for strip in stations(scene.members, scene.reference, PIECES):
+    for strip in visible_stations(scene.members, scene.reference, PIECES):
         value = stress.values.along(stress.quantity, strip.member, strip.at)
         rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
         if not rows.size:
             continue
-        at = strip.at if strip.at.size > 2 else np.linspace(0.0, 1.0, PIECES + 1)
-        centre = _finer(strip.centre[rows], at)
-        off = _finer(strip.frame[rows][..., column], at)
+        at = np.concatenate(([0.0], (np.arange(PIECES) + _BESIDE) / PIECES, [1.0]))
+        centre = _between(strip.centre[rows], at)
+        off = _between(strip.frame[rows][..., column], at)
         value = stress.values.along(stress.quantity, strip.member[rows], at)
         tops = centre + height * value[..., None] * off
         colour = stress.colours(strip.member[rows], at)
-        _add_outlined(drawing, centre, tops, colour, _ABOVE * scene.size)
+        above = _ABOVE * scene.size + _depth(drawing, scene, strip.member[rows], column)
+        _add_outlined(drawing, centre, tops, colour, above)
         for row, peak in enumerate(np.abs(value).argmax(axis=1).tolist()):
             place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
             peaks.append(Peak(place, foot, float(value[row, peak])))
     return _to_be_named(peaks, stress.largest)
 
 
-def _finer(points: FloatArray, at: FloatArray) -> FloatArray:
-    """(k, s, 3) values at stations (s,), of as many or of the two ends."""
-    if points.shape[1] == at.size:
-        return points
+def _depth(drawing: Drawing, scene: Scene, member: np.ndarray, column: int) -> FloatArray:
+    """(k,) how far behind a member's surface its axis lies, where a diagram is along a column."""
+    other = 3 - column
+    normal = scene.members.frame[member][..., other]
+    cosine = np.maximum(np.abs(normal @ drawing.view.axes[2]), _OBLIQUE)
+    return np.asarray(scene.members.section[member, other - 1] / 2 / cosine)
+
+
+def _between(points: FloatArray, at: FloatArray) -> FloatArray:
+    """(k, s, 3) values at stations (s,) of straight members, between those at their ends."""
     share = at[None, :, None]
-    return np.asarray((1 - share) * points[:, :1] + share * points[:, 1:])
+    return np.asarray((1 - share) * points[:, :1] + share * points[:, -1:])
 
 
 def _add_outlined(
@@ -137,20 +149,21 @@ def _add_outlined(
     centre: FloatArray,
     tops: FloatArray,
     colour: FloatArray,
-    above: float,
+    above: FloatArray,
 ) -> None:
-    """Strips between an axis and the tops, with their outlines."""
+    """Strips between an axis and the tops, with their outlines; `above` is (k,)."""
     quads = np.stack((centre[:, :-1], centre[:, 1:], tops[:, 1:], tops[:, :-1]), axis=2)
     pale = 0.55 + 0.45 * colour.reshape(-1, 3)
-    drawing.polygons(quads.reshape(-1, 4, 3), pale, nearer=above)
+    drawing.polygons(quads.reshape(-1, 4, 3), pale, nearer=np.repeat(above, quads.shape[1]))
     ink = np.array(OUTLINE)
     ribs = np.stack((centre, tops), axis=2)[:, ::4]
-    drawing.lines(ribs.reshape(-1, 2, 3), ink, 0.3, nearer=above)
+    drawing.lines(ribs.reshape(-1, 2, 3), ink, 0.3, nearer=np.repeat(above, ribs.shape[1]))
     for line, width in ((centre, 0.5), (tops, 1.1)):
-        pieces = np.stack((line[:, :-1], line[:, 1:]), axis=2).reshape(-1, 2, 3)
-        drawing.lines(pieces, ink, width, nearer=above)
+        pieces = np.stack((line[:, :-1], line[:, 1:]), axis=2)
+        nearer = np.repeat(above, pieces.shape[1])
+        drawing.lines(pieces.reshape(-1, 2, 3), ink, width, nearer=nearer)
     sides = np.stack((centre[:, [0, -1]], tops[:, [0, -1]]), axis=2).reshape(-1, 2, 3)
-    drawing.lines(sides, ink, 1.1, nearer=above)
+    drawing.lines(sides, ink, 1.1, nearer=np.repeat(above, 2))
 
 
 def _to_be_named(peaks: list[Peak], largest: float) -> list[Peak]:

@@ -49,19 +49,18 @@ class Chosen:
             raise SubjectError(
                 f"there is no quantity {self.quantity!r}: it is one of {', '.join(QUANTITIES)}"
             )
-        shows_no_stress = self.stress is None and (self.motion or self.freedom) is not None
-        if self.quantity is not None and shows_no_stress:
+        if self.quantity is not None and self.stress is None and self.moves:
             raise SubjectError("a quantity is of a self-stress; there is none in this picture")
 
     @property
     def moves(self) -> bool:
         """Whether a motion was asked for."""
-        return (self.motion or self.freedom) is not None
+        return self.motion is not None or self.freedom is not None
 
     @property
     def is_stressed(self) -> bool:
         """Whether a self-stress was asked for."""
-        return (self.stress or self.quantity) is not None
+        return self.stress is not None or self.quantity is not None
 
 
 def subjects_of(analysis: Analysis, scene: Scene, chosen: Chosen) -> list[Subject]:

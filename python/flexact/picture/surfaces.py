@@ -107,7 +107,11 @@ def _add_divided(
     counts: tuple[int, int],
     layer: int,
 ) -> None:
-    """Facets, each divided into so many parts across and along."""
+    """Facets, each divided into so many parts across and along if it is opaque."""
+    clear = opacity < 1.0
+    # A net of seams would be seen in what shines through.
+    drawing.polygons(quads[clear], colour[clear], opacity=opacity[clear], layer=layer)
+    quads, colour, opacity = (each[~clear] for each in (quads, colour, opacity))
     parts, steps = counts
     if parts * steps > 1:
         u, v = (np.linspace(0.0, 1.0, n + 1) for n in (parts, steps))

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..exchange import FloatArray
-from ..scene import Pose, Scene, Support, joints_of
+from ..scene import Pose, Scene, Support
 from ..scene.colours import SUPPORT
 from ..scene.rotations import matrix_of
 from .drawing import Drawing
 from .surfaces import OUTLINE, OUTLINE_WIDTH, Grid, add_grid
+from .visible import visible_joints
 
 _ROUND = 20
 _GROUND = (0.72, 0.73, 0.74)
@@ -44,7 +45,7 @@ def add_hinges(
     """Draw the hinges of which it is known where they stand, as cylinders about their axes."""
     hinges = scene.hinges
     colours = hinges.colour if colour is None else colour
-    for row in np.flatnonzero(hinges.nodes[:, 0] >= 0).tolist():
+    for row in np.flatnonzero((hinges.nodes[:, 0] >= 0) & (hinges.opacity > 0.0)).tolist():
         node, turn = hinges.nodes[row, :2]
         frame = pose.rotation[turn] @ hinges.frame[row]
         length, diameter = hinges.size[row]
@@ -60,21 +61,33 @@ def add_hinges(
 
 def add_joints(drawing: Drawing, scene: Scene, pose: Pose) -> None:
     """Draw balls where bars meet that turn freely about their ends."""
-    node, radius = joints_of(scene)
+    node, radius = visible_joints(scene)
     angle = 2 * np.pi * np.arange(_ROUND) / _ROUND
     right, up, _ = drawing.view.axes
     disc = np.cos(angle)[:, None] * right + np.sin(angle)[:, None] * up
     place = pose.position[node]
+    before = _before(scene, node, radius, drawing.view.axes[2])
     for scale, shift, colour in ((1.0, 0.0, (0.55, 0.58, 0.62)), (0.55, 0.3, (0.75, 0.78, 0.81))):
         middle = place + (radius * shift)[:, None] * (0.5 * up - 0.5 * right)
         ring = middle[:, None] + (scale * radius)[:, None, None] * disc
-        nearer = radius * (_BEFORE + (scale < 1.0) * 0.01)
+        nearer = before + (scale < 1.0) * 0.01 * radius
         if scale == 1.0:
             drawing.polygons(
                 ring, np.array(colour), edge=np.array(OUTLINE), width=OUTLINE_WIDTH, nearer=nearer
             )
         else:
             drawing.polygons(ring, np.array(colour), nearer=nearer)
+
+
+def _before(scene: Scene, node: np.ndarray, radius: FloatArray, towards: FloatArray) -> FloatArray:
+    """(j,) how much nearer to the eye balls count [m]; not through a block seen from behind."""
+    supports = scene.supports
+    clamped = supports.kind == Support.CLAMP
+    least = np.full(len(scene.reference.position), np.inf)
+    facing = supports.direction[clamped] @ towards
+    behind = np.where(facing < 0.0, -facing * _THICK * supports.size[clamped] / 2, np.inf)
+    np.minimum.at(least, supports.node[clamped], behind)
+    return np.asarray(np.minimum(_BEFORE * radius, least[node]))
 
 
 def _edge() -> FloatArray:

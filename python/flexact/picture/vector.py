@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
@@ -11,6 +12,8 @@ if TYPE_CHECKING:
 
 #: What would differ from run to run is left out; identifiers follow from what is drawn.
 SETTINGS: Any = {"svg.fonttype": "none", "svg.hashsalt": "flexact"}
+#: A path's data, and what is left out of its numbers: less than a hundredth of a point.
+_PATH, _DIGITS = re.compile(r'<path [^>]*?\bd="[^"]*"'), re.compile(r"(\.\d\d)\d+")
 _NOTHING = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
@@ -24,6 +27,7 @@ def svg_bytes(figure: Figure, title: str, description: str) -> bytes:
     with matplotlib.rc_context(SETTINGS):
         figure.savefig(buffer, format="svg", metadata=_NOTHING)
     text = buffer.getvalue().decode("utf-8")
+    text = _PATH.sub(lambda path: _DIGITS.sub(r"\1", path[0]), text)
     head, root, rest = text.partition("<svg ")
     attributes, end, content = rest.partition(">")
     told = f"\n <title>{escape(title)}</title>\n <desc>{escape(description)}</desc>"
