@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..exchange import FloatArray
+from .groups import groups_of
 
 #: Cosine of the largest angle between two beams of one sheet.
 _IN_LINE = 0.9998
@@ -21,19 +22,13 @@ def chain_lengths(
         ex: (k, 3) directions.
         length: (k,) [m].
     """
-    owner = list(range(len(length)))
-
-    def root(i: int) -> int:
-        while owner[i] != i:
-            owner[i] = owner[owner[i]]
-            i = owner[i]
-        return i
-
-    for i, j in _neighbours(nodes):
-        if form[i] == form[j] and abs(ex[i] @ ex[j]) > _IN_LINE:
-            owner[root(i)] = root(j)
-    roots = np.array([root(i) for i in range(len(owner))], dtype=np.int64)
-    return np.asarray(np.bincount(roots, length, len(owner))[roots], np.float64)
+    in_row = (
+        (i, j)
+        for i, j in _neighbours(nodes)
+        if form[i] == form[j] and abs(ex[i] @ ex[j]) > _IN_LINE
+    )
+    row = groups_of(len(length), in_row)
+    return np.asarray(np.bincount(row, length, len(length))[row], np.float64)
 
 
 def _neighbours(nodes: np.ndarray) -> list[tuple[int, int]]:

@@ -7,6 +7,7 @@ import numpy as np
 from ..elements import NodeKind
 from ..exchange import ModelArrays
 from .forms import BEAMS, LINKS, all_held, is_one_of
+from .groups import groups_of
 from .moving import Moving
 from .places import slots_of
 from .pose import Pose, reference_pose
@@ -43,23 +44,15 @@ def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
     (nodes,) indices, -1 for nodes of no body.
     """
     rigid = is_one_of(arrays.element_kind, (*BEAMS, *LINKS)) & all_held(arrays)
-    owner = list(range(arrays.node_kind.size))
-
-    def root(i: int) -> int:
-        while owner[i] != i:
-            owner[i] = owner[owner[i]]
-            i = owner[i]
-        return i
-
     slots = slots_of(arrays)[rigid]
     # Members that share a position alone turn about it.
-    for _, op, _, oq in slots.tolist():
-        if oq >= 0:
-            owner[root(oq)] = root(op)
+    body_of = groups_of(
+        arrays.node_kind.size, ((oq, op) for _, op, _, oq in slots.tolist() if oq >= 0)
+    )
     centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
     first: dict[int, tuple[int, int]] = {}
     for p, op, q, _ in slots.tolist():
-        body = first.setdefault(root(op), (p, op))
+        body = first.setdefault(int(body_of[op]), (p, op))
         for node in (p, q):
             if centre[node] < 0:
                 centre[node], turn[node] = body
