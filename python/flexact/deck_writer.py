@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from .draft import one_line
-from .elements import AXES, Class, NodeKind, element_kinds
+from .elements import AXES, Class, NodeKind, keywords_of
 from .exchange import IntArray
 from .look import CrossSection, Look
 from .model_data import ModelData
@@ -49,18 +49,17 @@ def deck_of(data: ModelData) -> str:
 
 
 def _elements(data: ModelData) -> Iterator[str]:
-    keywords = ["", *(kind.keyword for kind in element_kinds())]
     a = data.arrays
     numbers = np.concatenate([np.zeros(1, np.int32), a.node_number])
-    for kind, number, nodes, vector, name in zip(
-        a.element_kind.tolist(),
+    for keyword, number, nodes, vector, name in zip(
+        keywords_of(a.element_kind),
         a.element_number.tolist(),
         numbers[a.element_node].T.tolist(),
         a.element_vector.T.tolist(),
         data.element_names,
         strict=True,
     ):
-        words = [keywords[kind], str(number), *(str(node) for node in nodes if node)]
+        words = [keyword, str(number), *(str(node) for node in nodes if node)]
         if any(vector):
             words += map(repr, vector)
         if name:

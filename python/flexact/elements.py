@@ -92,6 +92,12 @@ def kind_of(keyword: str) -> ElementKind:
     return next(kind for kind in element_kinds() if kind.keyword == keyword)
 
 
+def keywords_of(kinds: IntArray) -> tuple[str, ...]:
+    """The keyword of each of some kinds, given by their numbers."""
+    words = ("", *(kind.keyword for kind in element_kinds()))
+    return tuple(words[kind] for kind in kinds.tolist())
+
+
 @cache
 def dual_table() -> IntArray:
     """(kinds + 1, 6) `Dual` by element kind and deformation; row 0 is empty."""

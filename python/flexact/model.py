@@ -7,7 +7,7 @@ import numpy as np
 from .builder import Builder
 from .configuration import Configuration
 from .diagnostics import Diagnostic, model_error
-from .elements import NodeKind, element_kinds
+from .elements import NodeKind, keywords_of
 from .exchange import FloatArray, IntArray
 from .model_data import ModelData
 
@@ -111,8 +111,7 @@ class Model(Builder):
     @property
     def element_keywords(self) -> tuple[str, ...]:
         """The keyword of each element: TRUSS, BEAM, ..."""
-        words = ("", *(kind.keyword for kind in element_kinds()))
-        return tuple(words[kind] for kind in self.data.arrays.element_kind.tolist())
+        return keywords_of(self.data.arrays.element_kind)
 
     @property
     def element_nodes(self) -> IntArray:

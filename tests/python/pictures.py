@@ -14,14 +14,6 @@ import flexact
 #: The eye of the pictures that are measured [degrees].
 AZIMUTH, ELEVATION = -60.0, 25.0
 VIEW = f"{AZIMUTH:g},{ELEVATION:g}"
-COLLINEAR = """\
-PLTRUSS 1 1 2
-PLTRUSS 2 2 3
-X 1 -1 0
-X 3 1 0
-FIX 1
-FIX 3
-"""
 #: A spatial bar alone, which swings; nothing else is to be seen but its two supports.
 SWINGING = "TRUSS 1 1 2\nX 2 0 0 1\nFIX 1\nFIX 2 1\n"
 

@@ -17,11 +17,20 @@ X 3 0.5 1
 FIX 1
 FIX 2
 """
+#: Two bars in line.
+COLLINEAR = """\
+PLTRUSS 1 1 2
+PLTRUSS 2 2 3
+X 1 -1 0
+X 3 1 0
+FIX 1
+FIX 3
+"""
 DECKS = {
     "exact": TRIANGLE + "END\n",
     "under": "PLTRUSS 1 1 2\nX 2 1 0\nFIX 1\nEND\n",
     "over": TRIANGLE + "PLTRUSS 3 4 3\nX 4 0.5 0\nFIX 4\nEND\n",
-    "both": "PLTRUSS 1 1 2\nPLTRUSS 2 2 3\nX 1 -1 0\nX 3 1 0\nFIX 1\nFIX 3\nEND\n",
+    "both": COLLINEAR + "END\n",
 }
 VERDICTS = {
     "exact": "exactly constrained",

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pictures import COLLINEAR, SWINGING, VIEW, Pixels, deck, hue, of_text
-from small_decks import DECKS, TRIANGLE
+from pictures import SWINGING, VIEW, Pixels, deck, hue, of_text
+from small_decks import COLLINEAR, DECKS, TRIANGLE
 
 import flexact
 from flexact.scene import scene_of

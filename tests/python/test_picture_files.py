@@ -9,9 +9,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from pictures import COLLINEAR, deck, of_text
+from pictures import deck, of_text
 from reference_decks import NAMES
-from small_decks import TRIANGLE
+from small_decks import COLLINEAR, TRIANGLE
 
 import flexact
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from large_results import changed, first_of
+from small_decks import COLLINEAR
 
 import flexact
 from flexact import stored_answer
@@ -22,14 +23,6 @@ from flexact.stored_answer import (
     text_of,
 )
 
-COLLINEAR = """\
-PLTRUSS 1 1 2
-PLTRUSS 2 2 3
-X 1 -1 0
-X 3 1 0
-FIX 1
-FIX 3
-"""
 # The right-hand bar raised: its elongation now depends on the joint's y, and nothing is left over.
 RAISED = COLLINEAR.replace("X 3 1 0", "X 3 1 1")
 PLANE = tuple(f"1:{axis}" for axis in "xyz")

@@ -181,7 +181,7 @@ def test_a_rigid_body_moves_on_its_screw() -> None:
     placed = model.node_kinds <= NodeKind.POSITION
     Turning.displacement[placed] = np.cross(about, positions[placed]) + 0.25 * about
     Turning.rotation[~placed] = about
-    pose = moved_by_screws(Turning(), 0.8)
+    (pose,) = moved_by_screws(Turning(), [0.8])
     expected = positions @ matrix_of(0.8 * about).T + [0.0, 0.0, 0.2]
     np.testing.assert_allclose(pose.position[placed], expected[placed], atol=1e-14)
 
@@ -263,7 +263,7 @@ def test_pin_jointed_bodies_move_each_on_its_own_screw() -> None:
     fixed = np.flatnonzero(np.all(model.coordinate_classes[:, :2] == Class.FIXED, axis=1))
     assert fixed.size == 2
     for motion in analysis.motions:
-        pose = moved_by_screws(motion, 0.5)
+        (pose,) = moved_by_screws(motion, [0.5])
         np.testing.assert_allclose(pose.position[fixed], model.positions[fixed], atol=1e-15)
 
 

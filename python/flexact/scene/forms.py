@@ -30,14 +30,9 @@ class Form(IntEnum):
     """All deformations held, or a rigid link."""
 
 
-def numbers_of(keywords: tuple[str, ...]) -> list[int]:
-    """Numbers of kinds of elements."""
-    return [kind_of(keyword).number for keyword in keywords]
-
-
 def is_one_of(kind: IntArray, keywords: tuple[str, ...]) -> np.ndarray:
     """(elements,) whether elements are of these keywords."""
-    return np.isin(kind, numbers_of(keywords))
+    return np.isin(kind, [kind_of(keyword).number for keyword in keywords])
 
 
 def all_held(arrays: ModelArrays) -> np.ndarray:
@@ -45,6 +40,12 @@ def all_held(arrays: ModelArrays) -> np.ndarray:
     classes = arrays.deformation_class
     made: np.ndarray = np.all((classes == Class.NONE) | (classes == Class.FIXED), axis=0)
     return made
+
+
+def bending_held(arrays: ModelArrays) -> np.ndarray:
+    """(2, elements) how many of the two bendings of a spatial beam are held, in xz and in xy."""
+    held = arrays.deformation_class[2:6] == Class.FIXED
+    return np.stack((held[:2].sum(axis=0), held[2:].sum(axis=0)))
 
 
 def forms_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
@@ -55,7 +56,7 @@ def forms_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
     """
     kind = arrays.element_kind
     held = arrays.deformation_class == Class.FIXED
-    in_xz, in_xy = held[2:4].sum(axis=0), held[4:6].sum(axis=0)
+    in_xz, in_xy = bending_held(arrays)
     spatial, planar = (kind == kind_of(word).number for word in BEAMS)
     form = np.zeros(kind.size, np.int64)
     form[spatial] = Form.WIRE

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..elements import keywords_of
 from ..exchange import FloatArray
 from ..frozen import Frozen
 from ..model_data import ModelData
 from .colours import HINGE
-from .members import data_keywords, frames_along
+from .members import frames_along
 from .places import places_of_hinges, slots_of
 from .rotations import unit
 
@@ -71,7 +72,7 @@ def hinges_of(data: ModelData, size: float) -> Hinges:
         index=index,
         number=arrays.element_number[index].astype(np.int64),
         names=tuple(data.element_names[i] for i in index.tolist()),
-        keyword=tuple(data_keywords(arrays, index)),
+        keyword=keywords_of(arrays.element_kind[index]),
         nodes=np.column_stack((place, slots[index][:, [1, 3]])),
         frame=frames_along(axis, np.zeros_like(axis)),
         size=np.tile(np.array(_PARTS) * size, (index.size, 1)),

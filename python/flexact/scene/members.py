@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..elements import Class, element_kinds
+from ..elements import keywords_of
 from ..exchange import FloatArray, ModelArrays
 from ..frozen import Frozen
 from ..look import CrossSection, Look
 from ..model_data import ModelData
 from .chains import chain_lengths
 from .colours import of_forms
-from .forms import BEAMS, Form, all_held, forms_of, is_one_of
+from .forms import BEAMS, Form, all_held, bending_held, forms_of, is_one_of
 from .places import slots_of
 from .rotations import unit
 
@@ -105,16 +105,15 @@ def members_of(data: ModelData, position: FloatArray, size: float) -> Members:
     colour = of_forms(form)
     given = look.colour[index]
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
-    held = arrays.deformation_class[2:6, index] == Class.FIXED
-    plainly = np.abs(held[:2].sum(axis=0) - held[2:].sum(axis=0)) == 2
+    in_xz, in_xy = bending_held(arrays)[:, index]
+    plainly = np.abs(in_xz - in_xy) == 2
     wide = np.where(plainly | is_one_of(kind, ("PLBEAM",)), wide, 0)
     section, round_ = _as_given(look, index, wide, section, round_, size)
-    keywords = tuple(data_keywords(arrays, index))
     return Members(
         index=index,
         number=arrays.element_number[index].astype(np.int64),
         names=tuple(data.element_names[i] for i in index.tolist()),
-        keyword=keywords,
+        keyword=keywords_of(kind),
         form=form,
         nodes=nodes,
         frame=frame,
@@ -127,12 +126,6 @@ def members_of(data: ModelData, position: FloatArray, size: float) -> Members:
         edge_colour=look.edge_colour[index],
         opacity=np.where(np.isnan(look.opacity[index]), 1.0, look.opacity[index]),
     )
-
-
-def data_keywords(arrays: ModelArrays, index: np.ndarray) -> list[str]:
-    """The keywords of elements by their indices."""
-    words = ("", *(kind.keyword for kind in element_kinds()))
-    return [words[kind] for kind in arrays.element_kind[index].tolist()]
 
 
 def frames_along(offset: FloatArray, hint: FloatArray) -> FloatArray:

@@ -111,10 +111,7 @@ def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, 
         found = [side for side in sides if side is not None and side.deviation <= _UNSEEN]
         if len(found) == len(sides):
             return [side.poses for side in found], max(side.deviation for side in found)
-    swings = [
-        tuple(moved_by_screws(motion, sign * share) for share in shares.tolist())
-        for sign in (-1.0, 1.0)
-    ]
+    swings = [moved_by_screws(motion, (sign * shares).tolist()) for sign in (-1.0, 1.0)]
     return swings, np.inf if followed else np.nan
 
 

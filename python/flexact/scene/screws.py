@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from ..elements import NodeKind
@@ -14,18 +16,22 @@ from .pose import Pose, reference_pose
 from .rotations import matrix_of, screw_matrix
 
 
-def moved_by_screws(motion: Moving, share: float) -> Pose:
-    """The pose after a motion times `share`.
+def moved_by_screws(motion: Moving, shares: Iterable[float]) -> tuple[Pose, ...]:
+    """The poses after a motion times each of `shares`.
 
     Every node of a rigid body moves on the body's screw, so that the body keeps its shape. A
     node of no body moves straight and turns about its own axis.
     """
-    arrays = motion.data.arrays
+    reference, bodies = reference_pose(motion.data.arrays), _bodies(motion.data.arrays)
+    return tuple(_moved(motion, share, reference, *bodies) for share in shares)
+
+
+def _moved(
+    motion: Moving, share: float, reference: Pose, centre: np.ndarray, turn: np.ndarray
+) -> Pose:
     moved, turned = share * motion.displacement, share * motion.rotation
-    reference = reference_pose(arrays)
     position = reference.position + moved
     rotation = matrix_of(turned)
-    centre, turn = _bodies(arrays)
     body = np.flatnonzero(centre >= 0)
     arm = reference.position[body] - reference.position[centre[body]]
     about = turned[turn[body]]
@@ -33,8 +39,7 @@ def moved_by_screws(motion: Moving, share: float) -> Pose:
     position[body] = (
         reference.position[centre[body]] + carried + np.einsum("kxy,ky->kx", matrix_of(about), arm)
     )
-    placed = arrays.node_kind <= NodeKind.POSITION
-    rotation[placed] = np.eye(3)
+    rotation[motion.data.arrays.node_kind <= NodeKind.POSITION] = np.eye(3)
     return Pose(position, rotation)
 
 

@@ -54,14 +54,12 @@ def solid(strip: Strip, members: Members, planar: bool = False, corners: int = 8
         corners: Of round sections, an even number.
     """
     made = []
-    for shape in (False, True):
-        rows = np.flatnonzero(members.round[strip.member] == shape)
-        if planar:
-            rows = rows if shape else np.arange(strip.member.size)
-        if not rows.size or (planar and shape):
+    is_round = members.round[strip.member] & (not planar)
+    for count, rows in ((4, np.flatnonzero(~is_round)), (corners, np.flatnonzero(is_round))):
+        if not rows.size:
             continue
         member = strip.member[rows]
-        offset = members.section[member][:, None, :] * _corners(corners if shape else 4, planar)
+        offset = members.section[member][:, None, :] * _corners(count, planar)
         across = strip.frame[rows][..., 1:]
         points = strip.centre[rows][:, :, None] + np.einsum("ksxd,kcd->kscx", across, offset)
         made.append(Solid(member, rows, strip.at, offset, points, not planar))
@@ -93,4 +91,4 @@ def _faces(s: int, c: int, closed: bool) -> np.ndarray:
         # Seen from the side to which ez points.
         return np.asarray(side[:, ::-1])
     fan = np.array([[0, i, i + 1, i + 2] for i in range(1, c - 1, 2)])
-    return np.concatenate((side[:, ::1], fan[:, ::-1], fan + (s - 1) * c))
+    return np.concatenate((side, fan[:, ::-1], fan + (s - 1) * c))
