@@ -5,7 +5,18 @@ SOURCES := meson.build meson.options pyproject.toml tools/setup.sh \
              -o -name '*.html' -o -name meson.build)
 BIN := .venv/bin
 
-.PHONY: demo test core-test lint bench clean
+# One worker a processor, each with one thread; a worker without work takes from the others.
+PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
+
+# What make check asks of the package: see CONTRIBUTING.md.
+QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
+         derivatives certainty advice advice_on_declarations modes broken_decks no_cascades \
+         diagnostics_rendering reading regress cli outputs wording docs version package_files
+
+# Tests that compare words with files.
+WORDED := wording broken_decks appearance docs element_table
+
+.PHONY: demo test check core-test lint wording bench clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -15,7 +26,13 @@ demo: .venv/ready-to-run
 	@ls results
 
 test: .venv/ready-to-test core-test
-	$(BIN)/python -m pytest
+	$(PYTEST)
+
+# Under a minute: lint of Python, the core, and the quick part of the tests.
+check: .venv/ready-to-test core-test
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(PYTEST) $(QUICK:%=tests/python/test_%.py)
 
 # The core with run-time checks, and its unit tests.
 core-test: .venv/ready-to-test
@@ -26,6 +43,11 @@ lint: .venv/ready-to-test
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/fprettify --diff --recursive fortran tests/fortran | (! grep .)
+
+# Write what results and messages say now where the tests compare it; read git diff afterwards.
+wording: .venv/ready-to-test
+	$(BIN)/python -m pytest --renew-wording $(WORDED:%=tests/python/test_%.py)
+	git diff --stat -- tests/python/golden tests/python/decks input_decks/broken README.md docs
 
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test

@@ -1,6 +1,8 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # Install what Flexact needs into .venv, and from the system's packages what a
 # virtual environment cannot hold. Usage: tools/setup.sh run|test
+# NUMPY="numpy==1.26.*" asks for another numpy than the newest.
 set -eu
 cd "$(dirname "$0")/.."
 purpose=${1:-run}
@@ -36,7 +38,7 @@ sys.exit(not os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.
 PYTHON
 }
 
-# Only tests of pages need it, and they are skipped without it.
+# Only tests of pages need it; they are skipped without it, but in CI they fail.
 has_browser() {
     for browser in chromium chromium-browser; do
         # Ubuntu's is a stub that asks for a snap.
@@ -88,12 +90,12 @@ still=$(missing_packages | tr '\n' ' ')
 if [ "$purpose" = test ] && ! has_browser; then
     # In a shell of its own, which may fail.
     (install_packages chromium chromium-driver) || true
-    has_browser || echo "There is no working Chromium with chromedriver: the tests of pages in a browser will be skipped." >&2
+    has_browser || echo "There is no working Chromium with chromedriver: tests of pages in a browser are skipped, or fail in CI." >&2
 fi
 
 [ -x .venv/bin/python ] || "$python" -m venv .venv
-requirements="pip>=23.1 meson-python>=0.17 meson ninja numpy meshio tqdm matplotlib pillow"
-[ "$purpose" = run ] || requirements="$requirements pytest hypothesis mpmath selenium vtk ruff mypy fprettify"
+requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm matplotlib pillow"
+[ "$purpose" = run ] || requirements="$requirements pytest pytest-xdist hypothesis mpmath selenium vtk ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086
 .venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||

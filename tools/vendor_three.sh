@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # Make python/flexact/report/three.min.js: the parts of three.js that the page uses,
 # as one script that sets the global THREE. Needs node, npm and a package registry;
 # the result is kept in the repository, so that nobody else needs them.
@@ -18,7 +19,7 @@ export {
   AmbientLight, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry,
   DirectionalLight, DoubleSide, DynamicDrawUsage, Group, InstancedMesh,
   LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, OrthographicCamera, Quaternion, Raycaster, Scene, Sphere, SphereGeometry,
+  MeshLambertMaterial, OrthographicCamera, Quaternion, Raycaster, Drawing, Sphere, SphereGeometry,
   TorusGeometry, Vector2, Vector3, WebGLRenderer
 } from 'three';
 export { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';

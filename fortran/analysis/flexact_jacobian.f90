@@ -1,15 +1,17 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The Jacobian D_x of all deformations with respect to all coordinates,
-!> eq. (8), as a list of entries, and D(c), eq. (11), as a dense matrix.
+!> eq. (8), as a list of entries.
 module flexact_jacobian
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, class_none, most_deformations
+   use flexact_model, only: model_t, class_none
    use flexact_pose, only: pose_t, reference_t
-   use flexact_element, only: make_reference, make_poses, element_deformation
-   use flexact_element_table, only: element_kinds
-   use flexact_partition, only: partition_t, model_count_t, count_model, axes
+   use flexact_element, only: element_deformation
+   use flexact_configuration, only: element_reference, make_poses
+   use flexact_element_table, only: element_kinds, deformations_of
+   use flexact_slots, only: axes, most_deformations
    implicit none
    private
-   public :: jacobian_t, make_jacobian, fill_dense
+   public :: jacobian_t, make_jacobian
 
    !> Entry i stands at deformation row(2, i) of element row(1, i) and at axis
    !> column(2, i) of node column(1, i). No place occurs twice; the entries of
@@ -33,18 +35,16 @@ contains
       real(wp), intent(in) :: configuration(:, :)
       type(jacobian_t), intent(out) :: jacobian
       real(wp), intent(in), optional :: c_t(:)
-      type(model_count_t) :: counts
       type(reference_t) :: reference
       type(pose_t) :: p, q
       real(wp) :: derivative(most_deformations, 12)
-      integer :: k
+      integer :: k, room
 
-      call count_model(model, counts)
-      allocate (jacobian%row(2, counts%entries), jacobian%column(2, counts%entries), &
-                jacobian%value(counts%entries))
+      room = most_entries(model)
+      allocate (jacobian%row(2, room), jacobian%column(2, room), jacobian%value(room))
       allocate (jacobian%deformation(most_deformations, model%elements), jacobian%length(model%elements))
       do k = 1, model%elements
-         call make_reference(model, k, reference)
+         call element_reference(model, k, reference)
          if (present(c_t)) reference%c_t = c_t(k)
          call make_poses(model, k, configuration, p, q)
          call element_deformation(model%element_kind(k), reference, p, q, &
@@ -53,6 +53,21 @@ contains
          call add_element(model, k, derivative, jacobian)
       end do
    end subroutine make_jacobian
+
+   !> D_x has no more entries than this: deformations of each element times the
+   !> axes of its nodes.
+   pure integer function most_entries(model) result(entries)
+      type(model_t), intent(in) :: model
+      integer :: of_kind(size(element_kinds)), kind, k
+
+      do kind = 1, size(element_kinds)
+         of_kind(kind) = axes*count(element_kinds(kind)%slot_kind /= 0)*deformations_of(kind)
+      end do
+      entries = 0
+      do k = 1, model%elements
+         entries = entries + of_kind(model%element_kind(k))
+      end do
+   end function most_entries
 
    !> Append the entries of element k.
    pure subroutine add_element(model, k, derivative, jacobian)
@@ -63,7 +78,7 @@ contains
       integer :: i, slot, axis, node
 
       call join_ends(model%element_node(:, k), derivative)
-      do i = 1, element_kinds(model%element_kind(k))%deformations
+      do i = 1, deformations_of(model%element_kind(k))
          do slot = 1, 4
             node = model%element_node(slot, k)
             if (node == 0) cycle
@@ -102,26 +117,4 @@ contains
       jacobian%column(:, jacobian%entries) = column
       jacobian%value(jacobian%entries) = value
    end subroutine add_entry
-
-   !> D(c) as a dense matrix (rows, columns) with its rows multiplied by
-   !> row_scale and its columns by column_scale where they are given.
-   pure subroutine fill_dense(jacobian, partition, dense, row_scale, column_scale)
-      type(jacobian_t), intent(in) :: jacobian
-      type(partition_t), intent(in) :: partition
-      real(wp), intent(out) :: dense(:, :)
-      real(wp), intent(in), optional :: row_scale(:), column_scale(:)
-      real(wp) :: value
-      integer :: entry, i, j
-
-      dense = 0.0_wp
-      do entry = 1, jacobian%entries
-         i = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
-         j = partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
-         if (i == 0 .or. j == 0) cycle
-         value = jacobian%value(entry)
-         if (present(column_scale)) value = value*column_scale(j)
-         if (present(row_scale)) value = value*row_scale(i)
-         dense(i, j) = value
-      end do
-   end subroutine fill_dense
 end module flexact_jacobian

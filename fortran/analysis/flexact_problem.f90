@@ -1,12 +1,14 @@
-!> D(c) of a model as a sparse matrix, its scales and its connected parts.
+! SPDX-License-Identifier: BSD-3-Clause
+!> The scaled D(c) of a model as a sparse matrix, its scales and its connected
+!> components.
 module flexact_problem
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_jacobian, only: jacobian_t, make_jacobian
    use flexact_partition, only: partition_t, make_partition
-   use flexact_parts, only: parts_t, find_parts
+   use flexact_components, only: components_t, find_components
    use flexact_scaling, only: scaling_t, make_scaling
-   use flexact_sparse, only: sparse_t, compress, transposed
+   use flexact_sparse, only: sparse_t, operator_t, compress, transposed
    implicit none
    private
    public :: problem_t, make_problem
@@ -16,9 +18,9 @@ module flexact_problem
       type(scaling_t) :: scaling
       !> Reference length of each element [m], (elements).
       real(wp), allocatable :: length(:)
-      !> D(c), and the scaled matrix by columns and by rows.
-      type(sparse_t) :: jacobian, by_column, by_row
-      type(parts_t) :: parts
+      !> The scaled matrix.
+      type(operator_t) :: matrix
+      type(components_t) :: components
    end type problem_t
 
 contains
@@ -40,19 +42,18 @@ contains
          column(entry) = problem%partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
       end do
       associate (count => problem%partition%count)
-         call compress(count%rows, count%columns, row, column, jacobian%value(:jacobian%entries), problem%jacobian)
+         call compress(count%rows, count%columns, row, column, jacobian%value(:jacobian%entries), problem%matrix%by_column)
       end associate
-      problem%by_column = problem%jacobian
-      call transposed(problem%jacobian, problem%by_row)
-      call find_parts(problem%by_column, problem%by_row, problem%parts)
-      call make_scaling(model, problem%partition, jacobian, problem%parts, problem%scaling)
+      call transposed(problem%matrix%by_column, problem%matrix%by_row)
+      call find_components(problem%matrix, problem%components)
+      call make_scaling(model, problem%partition, jacobian, problem%components, problem%scaling)
       call move_alloc(jacobian%length, problem%length)
       if (is_plain) then
          problem%scaling%row = 1.0_wp
          problem%scaling%column = 1.0_wp
       end if
-      call apply_scales(problem%scaling%row, problem%scaling%column, problem%by_column)
-      call apply_scales(problem%scaling%column, problem%scaling%row, problem%by_row)
+      call apply_scales(problem%scaling%row, problem%scaling%column, problem%matrix%by_column)
+      call apply_scales(problem%scaling%column, problem%scaling%row, problem%matrix%by_row)
    end subroutine make_problem
 
    pure subroutine apply_scales(of_row, of_column, matrix)

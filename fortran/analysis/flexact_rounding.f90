@@ -1,4 +1,5 @@
-!> How well the numbers that describe a scene are known: to the last bit, or to
+! SPDX-License-Identifier: BSD-3-Clause
+!> How well the numbers that describe a model are known: to the last bit, or to
 !> the digits that they were typed with.
 module flexact_rounding
    use, intrinsic :: iso_fortran_env, only: int64
@@ -9,13 +10,13 @@ module flexact_rounding
    public :: coarsest_digit
    public :: last_bits, last_digit, looks_rounded, half_units
 
-   !> What arithmetic before us may have cost: where the scene was made, and, of
-   !> a scene far from the origin, where it was moved to.
-   real(wp), parameter :: bits_of_scene = 12*epsilon(1.0_wp)
+   !> What arithmetic before us may have cost: where the model was made, and, of
+   !> a model far from the origin, where it was moved to.
+   real(wp), parameter :: bits_of_model = 12*epsilon(1.0_wp)
    real(wp), parameter :: bits_of_place = 4*epsilon(1.0_wp)
    !> A number of more digits cannot be told from one known to the last bit.
    integer, parameter :: most_digits = 14
-   !> Nobody means so many digits as they stand: they were printed.
+   !> Nobody means a number of this many digits as it stands: it was printed.
    integer, parameter :: printed_digits = 10
    !> Numbers up to this one are meant as they stand, times any power of ten,
    !> and their halves, quarters, ... too: 12, 0.5, 0.125, 12.25.
@@ -35,10 +36,10 @@ module flexact_rounding
 contains
 
    !> By how much a number may be wrong in its last bits, in its own unit, in a
-   !> scene of this extent.
+   !> model of this extent.
    pure elemental real(wp) function last_bits(value, extent)
       real(wp), intent(in) :: value, extent
-      last_bits = bits_of_scene*min(abs(value), extent) + bits_of_place*abs(value)
+      last_bits = bits_of_model*min(abs(value), extent) + bits_of_place*abs(value)
    end function last_bits
 
    !> The digits of a number, where there are no more than 14 of them up to the
@@ -48,13 +49,13 @@ contains
       real(wp) :: mantissa
 
       decimal%short = .not. abs(value) > 0
-      ! No scene has other numbers than these, and their powers of ten overflow.
+      ! No model has other numbers than these, and their powers of ten overflow.
       if (.not. (abs(value) > 1.0e-200_wp .and. abs(value) < 1.0e200_wp)) return
       decimal%place = floor(log10(abs(value))) - most_digits + 1
       mantissa = abs(value)/10.0_wp**decimal%place
       if (abs(mantissa - anint(mantissa)) > 4*epsilon(value)*mantissa) return
       decimal%mantissa = sign(nint(mantissa, int64), merge(-1_int64, 1_int64, value < 0))
-      ! So many digits come near to many a number by chance.
+      ! Fourteen digits come near to many a number by chance.
       decimal%short = mod(decimal%mantissa, 10_int64) == 0 .or. is_read_as(value, decimal)
       call strip(decimal)
    end function decimal
@@ -70,7 +71,7 @@ contains
       end if
    end function is_read_as
 
-   !> What lies between two numbers, digit by digit. A scene that stands far
+   !> What lies between two numbers, digit by digit. A model that stands far
    !> from the origin has no more digits than one that does not.
    pure elemental type(decimal_t) function difference(from, to)
       type(decimal_t), intent(in) :: from, to

@@ -1,18 +1,22 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Scales that make the rank of D(c) independent of the unit of length, and
 !> by how much the scaled matrix may be wrong.
 module flexact_scaling
+   use flexact_components, only: components_t
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, is_position
-   use flexact_partition, only: partition_t, axes
-   use flexact_parts, only: parts_t
+   use flexact_model, only: model_t
+   use flexact_partition, only: partition_t
+   use flexact_slots, only: axes, is_position
    use flexact_jacobian, only: jacobian_t
+   use flexact_rank, only: rank_rule_t
    use flexact_rounding, only: decimal, difference, last_bits, last_digit, coarsest_digit
-   use flexact_vectors, only: length_of
+   use flexact_scaled_norm, only: length_of
    implicit none
    private
-   public :: scaling_t, make_scaling, extent_of
+   public :: scaling_t, make_scaling, rank_rule_of, extent_of
 
-   !> A part so many times larger or smaller than the whole has its own length.
+   !> A component this many times larger or smaller than the whole has its own length:
+   !> lengths within one mechanism differ less, and keep one scale.
    real(wp), parameter :: another_size = 100.0_wp
 
    !> The scaled matrix is diag(row) D(c) diag(column).
@@ -23,7 +27,7 @@ module flexact_scaling
       real(wp), allocatable :: row(:)
       real(wp), allocatable :: column(:)
       !> By how much, in the 2-norm, the scaled matrix may differ from that of
-      !> the scene that was meant: because of rounding in the last bits, and
+      !> the model that was meant: because of rounding in the last bits, and
       !> because of the digits with which coordinates were typed.
       real(wp) :: error_of_bits = 0.0_wp
       real(wp) :: error_of_digits = 0.0_wp
@@ -38,28 +42,28 @@ contains
    !> coordinates, fixed ones too. The norm of what is left of it in D(c) would
    !> blow up the rounding of an element with fixed ends.
    !>
-   !> A connected part of quite another size than the whole has a length of its
-   !> own: no scale of a part changes the rank of another.
-   pure subroutine make_scaling(model, partition, jacobian, parts, scaling)
+   !> A connected component of quite another size than the whole has a length of its
+   !> own: no scale of one changes the rank of another.
+   pure subroutine make_scaling(model, partition, jacobian, components, scaling)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
       type(jacobian_t), intent(in) :: jacobian
-      type(parts_t), intent(in) :: parts
+      type(components_t), intent(in) :: components
       type(scaling_t), intent(out) :: scaling
       real(wp) :: row_length(partition%count%rows), length
       integer :: i, j
 
       scaling%characteristic_length = geometric_mean(jacobian%length)
       allocate (scaling%column(partition%count%columns), source=1.0_wp)
-      do i = 1, parts%count
-         associate (row => parts%row(parts%row_start(i):parts%row_start(i + 1) - 1))
+      do i = 1, components%count
+         associate (row => components%row(components%row_start(i):components%row_start(i + 1) - 1))
             length = geometric_mean(jacobian%length(partition%row_label(1, row)))
             if (.not. any(jacobian%length(partition%row_label(1, row)) > 0) .or. &
                 abs(log(length/scaling%characteristic_length)) < log(another_size)) length = scaling%characteristic_length
             row_length(row) = length
          end associate
-         do j = parts%column_start(i), parts%column_start(i + 1) - 1
-            associate (column => parts%column(j))
+         do j = components%column_start(i), components%column_start(i + 1) - 1
+            associate (column => components%column(j))
                if (is_rotation(model, partition%column_label(1, column))) scaling%column(column) = 1/length
             end associate
          end do
@@ -67,6 +71,18 @@ contains
       call scale_rows(model, partition, jacobian, row_length, scaling)
       call bound_errors(model, partition, jacobian, scaling)
    end subroutine make_scaling
+
+   !> By which the rank of the scaled matrix is decided.
+   pure function rank_rule_of(scaling, tolerance) result(rule)
+      type(scaling_t), intent(in) :: scaling
+      real(wp), allocatable, intent(in) :: tolerance
+      type(rank_rule_t) :: rule
+
+      rule%side = max(size(scaling%row), size(scaling%column))
+      rule%error_of_bits = scaling%error_of_bits
+      rule%error_of_digits = scaling%error_of_digits
+      if (allocated(tolerance)) rule%tolerance = tolerance
+   end function rank_rule_of
 
    pure logical function is_rotation(model, node)
       type(model_t), intent(in) :: model
@@ -110,7 +126,7 @@ contains
       end where
    end subroutine scale_rows
 
-   !> The largest extent of the scene along a global axis [m].
+   !> The largest extent of the model along a global axis [m].
    pure real(wp) function extent_of(model) result(extent)
       type(model_t), intent(in) :: model
       real(wp) :: lowest(axes), highest(axes)

@@ -1,20 +1,25 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Problems as values: severity, code, places and words, without any layout.
 !>
 !> A place is a span of characters in the deck's text; a model made without
 !> a deck has no places. Whoever shows a diagnostic decides how it looks.
 module flexact_diagnostics
+   use flexact_kinds, only: wp
+   use flexact_sorting, only: ascending
    implicit none
    private
    public :: span_t, diagnostic_t, diagnostics_t
-   public :: severity_error, severity_warning, severity_note
-   public :: most_shown, text_length
+   public :: severity_error, severity_warning, severity_note, severity_names
+   public :: most_shown
 
    integer, parameter :: severity_error = 1
    integer, parameter :: severity_warning = 2
    integer, parameter :: severity_note = 3
+   character(len=24), parameter :: severity_names(3) = [character(len=24) :: 'error', 'warning', 'note']
 
-   !> All diagnostics are counted. So many are kept, the first that are met but
-   !> errors before all others, and the first by place of these are shown.
+   !> All diagnostics are counted. At most these many are kept, the first that are met
+   !> but errors before all others, and the first by place of these are shown. The
+   !> limits guard against a broken deck of millions of lines.
    integer, parameter :: most_kept = 2000
    integer, parameter :: most_shown = 100
    integer, parameter :: text_length = 240
@@ -35,7 +40,7 @@ module flexact_diagnostics
       character(len=text_length) :: message = ''
       !> A few words that stand beside the caret.
       character(len=text_length) :: label = ''
-      !> How to mend it.
+      !> How to fix it.
       character(len=text_length) :: help = ''
       !> Words of the statement at `place` (1 is its keyword) that a check of the
       !> model means: who has the text narrows the place to them. 0: all of it.
@@ -140,28 +145,13 @@ contains
       self%count(severity_error) = self%count(severity_error) + 1
    end subroutine count_error
 
-   !> Into the order of the text, stable; those without a place come last.
+   !> Into the order of the text; those without a place come last.
    subroutine sort_by_place(self)
       class(diagnostics_t), intent(inout) :: self
-      type(diagnostic_t) :: moving
-      integer :: i, j
 
-      do i = 2, self%kept
-         moving = self%item(i)
-         do j = i - 1, 1, -1
-            if (.not. comes_before(moving, self%item(j))) exit
-            self%item(j + 1) = self%item(j)
-         end do
-         self%item(j + 1) = moving
-      end do
+      if (self%kept < 2) return
+      associate (item => self%item(:self%kept))
+         item = item(ascending(real(merge(item%place%first, huge(1), item%place%first > 0), wp)))
+      end associate
    end subroutine sort_by_place
-
-   pure logical function comes_before(a, b)
-      type(diagnostic_t), intent(in) :: a, b
-      if (a%place%first == 0 .or. b%place%first == 0) then
-         comes_before = a%place%first > 0 .and. b%place%first == 0
-      else
-         comes_before = a%place%first < b%place%first
-      end if
-   end function comes_before
 end module flexact_diagnostics

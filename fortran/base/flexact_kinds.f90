@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The one real kind of the core.
 module flexact_kinds
    use, intrinsic :: iso_fortran_env, only: real64

@@ -1,15 +1,17 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Between flat arrays of C types and the core's types; what bindings.f90 needs.
 module flexact_exchange
    use, intrinsic :: iso_c_binding, only: c_signed_char
-   use flexact_basis, only: basis_t
+   use flexact_sparse_basis, only: sparse_basis_t
    use flexact_deck, only: locate
-   use flexact_diagnostics, only: span_t, diagnostics_t, most_shown, text_length
+   use flexact_diagnostics, only: span_t, diagnostics_t, most_shown
    use flexact_kinds, only: wp
-   use flexact_look, only: look_t
-   use flexact_model, only: model_t, slots, most_deformations
+   use flexact_appearance, only: appearance_t
+   use flexact_model, only: model_t
+   use flexact_partition, only: class_count_t
    implicit none
    private
-   public :: to_text, from_text, make_model, give_diagnostics, give_basis, give_look
+   public :: to_text, from_text, counts_of, unpack_model, pack_model, give_diagnostics, give_basis, give_appearance
 
 contains
 
@@ -36,60 +38,90 @@ contains
       end do
    end subroutine from_text
 
-   !> A model without a deck from its arrays.
-   subroutine make_model(node_number, node_kind, node_value, coordinate_class, &
-                         element_number, element_kind, element_node, element_vector, deformation_class, model)
-      integer, intent(in) :: node_number(:), node_kind(:), coordinate_class(:, :)
-      integer, intent(in) :: element_number(:), element_kind(:), element_node(:, :), deformation_class(:, :)
-      real(wp), intent(in) :: node_value(:, :), element_vector(:, :)
+   !> A model without a deck from its packed arrays. nodes (5, nn): number, kind,
+   !> class of each axis. places (4, nn): value. elements (12, ne): number, kind,
+   !> node in each slot, class of each deformation. vectors (3, ne).
+   pure subroutine unpack_model(nodes, places, elements, vectors, model)
+      integer, intent(in) :: nodes(:, :), elements(:, :)
+      real(wp), intent(in) :: places(:, :), vectors(:, :)
       type(model_t), intent(out) :: model
 
-      model%nodes = size(node_number)
-      model%elements = size(element_number)
-      allocate (model%node_number(model%nodes), source=node_number)
-      allocate (model%node_kind(model%nodes), source=node_kind)
-      allocate (model%node_value(4, model%nodes), source=node_value)
-      allocate (model%coordinate_class(3, model%nodes), source=coordinate_class)
-      allocate (model%element_number(model%elements), source=element_number)
-      allocate (model%element_kind(model%elements), source=element_kind)
-      allocate (model%element_node(slots, model%elements), source=element_node)
-      allocate (model%element_vector(3, model%elements), source=element_vector)
-      allocate (model%deformation_class(most_deformations, model%elements), source=deformation_class)
+      model%nodes = size(nodes, 2)
+      model%elements = size(elements, 2)
+      model%node_number = nodes(1, :)
+      model%node_kind = nodes(2, :)
+      model%coordinate_class = nodes(3:5, :)
+      model%node_value = places
+      model%element_number = elements(1, :)
+      model%element_kind = elements(2, :)
+      model%element_node = elements(3:6, :)
+      model%deformation_class = elements(7:12, :)
+      model%element_vector = vectors
       allocate (model%element_origin(model%elements), source=0)
-   end subroutine make_model
+   end subroutine unpack_model
 
-   !> A basis as arrays; only as many vectors as fit.
-   pure subroutine give_basis(basis, start, place, value, given)
-      type(basis_t), intent(in) :: basis
-      integer, intent(inout) :: start(:), place(:)
+   !> The other way round; there is room for the model.
+   pure subroutine pack_model(model, nodes, places, elements, vectors)
+      type(model_t), intent(in) :: model
+      integer, intent(inout) :: nodes(:, :), elements(:, :)
+      real(wp), intent(inout) :: places(:, :), vectors(:, :)
+
+      associate (nn => model%nodes, ne => model%elements)
+         nodes(1, :nn) = model%node_number
+         nodes(2, :nn) = model%node_kind
+         nodes(3:5, :nn) = model%coordinate_class
+         places(:, :nn) = model%node_value
+         elements(1, :ne) = model%element_number
+         elements(2, :ne) = model%element_kind
+         elements(3:6, :ne) = model%element_node
+         elements(7:12, :ne) = model%deformation_class
+         vectors(:, :ne) = model%element_vector
+      end associate
+   end subroutine pack_model
+
+   !> Append the vectors of a basis, whose places lie behind `before` others; only
+   !> as many as fit. start(k): where vector k begins, from 0.
+   pure subroutine give_basis(basis, before, start, place, value, vectors, given)
+      type(sparse_basis_t), intent(in) :: basis
+      integer, intent(in) :: before
+      integer, intent(inout) :: start(:), place(:), vectors
       real(wp), intent(inout) :: value(:)
       integer, intent(out) :: given
-      integer :: entries
+      integer :: first, entries
 
-      given = min(basis%vectors, size(start) - 1)
-      do while (basis%start(given + 1) - 1 > size(place))
+      first = start(vectors + 1)
+      given = min(basis%vectors, size(start) - 1 - vectors)
+      do while (first + basis%start(given + 1) - 1 > size(place))
          given = given - 1
       end do
       entries = basis%start(given + 1) - 1
-      start(:given + 1) = basis%start(:given + 1) - 1
-      place(:entries) = basis%place(:entries) - 1
-      value(:entries) = basis%value(:entries)
+      start(vectors + 1:vectors + given + 1) = first + basis%start(:given + 1) - 1
+      place(first + 1:first + entries) = basis%place(:entries) - 1 + before
+      value(first + 1:first + entries) = basis%value(:entries)
+      vectors = vectors + given
    end subroutine give_basis
+
+   !> Total, fixed, dependent, independent.
+   pure function counts_of(counts) result(numbers)
+      type(class_count_t), intent(in) :: counts
+      integer :: numbers(4)
+      numbers = [counts%total, counts%fixed, counts%dependent, counts%independent]
+   end function counts_of
 
    !> How elements are drawn, as arrays. choice: kind of cross-section, 1 where
    !> drawn. value: dimensions, colour, colour of edges, opacity.
-   pure subroutine give_look(look, choice, value)
-      type(look_t), intent(in) :: look
+   pure subroutine give_appearance(appearance, choice, value)
+      type(appearance_t), intent(in) :: appearance
       integer, intent(inout) :: choice(:, :)
       real(wp), intent(inout) :: value(:, :)
 
-      choice(1, :) = look%cross_section
-      choice(2, :) = merge(1, 0, look%drawn)
-      value(1:2, :) = look%dimensions
-      value(3:5, :) = look%colour
-      value(6:8, :) = look%edge_colour
-      value(9, :) = look%opacity
-   end subroutine give_look
+      choice(1, :) = appearance%cross_section
+      choice(2, :) = merge(1, 0, appearance%drawn)
+      value(1:2, :) = appearance%dimensions
+      value(3:5, :) = appearance%colour
+      value(6:8, :) = appearance%edge_colour
+      value(9, :) = appearance%opacity
+   end subroutine give_appearance
 
    !> Diagnostics as arrays. count: errors, warnings, notes, shown. number:
    !> severity, line, first and last column, the same three of the other place,
@@ -97,8 +129,8 @@ contains
    subroutine give_diagnostics(text, diagnostics, count, number, words)
       character(len=*), intent(in) :: text
       type(diagnostics_t), intent(in) :: diagnostics
-      integer, intent(out) :: count(4), number(8, most_shown)
-      integer(c_signed_char), intent(out) :: words(text_length, 4, most_shown)
+      integer, intent(out) :: count(:), number(:, :)
+      integer(c_signed_char), intent(out) :: words(:, :, :)
       integer :: i, shown
 
       shown = min(diagnostics%kept, most_shown)

@@ -1,9 +1,9 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What a statement may name by number: the components of a node or the
 !> deformations of an element.
 module flexact_choice
-   use flexact_diagnostics, only: diagnostics_t
-   use flexact_element_table, only: element_kinds
-   use flexact_model, only: node_planar_position, node_position, node_angle
+   use flexact_element_table, only: element_kinds, number_of_deformations => deformations_of
+   use flexact_slots, only: node_planar_position, node_position, node_angle
    use flexact_operands, only: operands_t
    implicit none
    private
@@ -23,19 +23,17 @@ contains
 
    !> Take the number of a component or a deformation; 0 where it is missing,
    !> wrong or not there, which has then been reported.
-   subroutine take_choice(text, operands, choice, number, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine take_choice(operands, choice, number)
       type(operands_t), intent(inout) :: operands
       type(choice_t), intent(in) :: choice
       integer, intent(out) :: number
-      type(diagnostics_t), intent(inout) :: diagnostics
 
-      call operands%positive_integer(text, choice%part, number, diagnostics)
+      call operands%positive_integer(choice%part, number)
       if (number <= size(choice%entry)) return
-      call diagnostics%error('component-out-of-range', operands%word, &
-                             'the '//trim(choice%owner)//' has no '//trim(choice%part)//' '// &
-                             text(operands%word%first:operands%word%last), choice%range, &
-                             'name a '//trim(choice%part)//' that the '//trim(choice%owner)//' has')
+      call operands%diagnostics%error('component-out-of-range', operands%word, &
+                                      'the '//trim(choice%owner)//' has no '//trim(choice%part)//' '// &
+                                      operands%spelling(), choice%range, &
+                                      'name a '//trim(choice%part)//' that the '//trim(choice%owner)//' has')
       operands%fine = .false.
       number = 0
    end subroutine take_choice
@@ -68,15 +66,15 @@ contains
    pure function deformations_of(kind) result(choice)
       integer, intent(in) :: kind
       type(choice_t) :: choice
-      integer :: i
+      integer :: i, deformations
 
       choice%owner = 'element'
       choice%what = 'deformation'
       choice%part = 'deformation'
-      associate (row => element_kinds(kind))
-         choice%range = trim(row%keyword)//' has 1 alone'
-         if (row%deformations > 1) choice%range = trim(row%keyword)//' has 1 to '//achar(iachar('0') + row%deformations)
-         allocate (choice%entry(row%deformations), source=[(i, i=1, row%deformations)])
-      end associate
+      deformations = number_of_deformations(kind)
+      choice%range = trim(element_kinds(kind)%keyword)//' has 1 alone'
+      if (deformations > 1) &
+         choice%range = trim(element_kinds(kind)%keyword)//' has 1 to '//achar(iachar('0') + deformations)
+      allocate (choice%entry(deformations), source=[(i, i=1, deformations)])
    end function deformations_of
 end module flexact_choice

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A deck's text into a model, with every problem of the deck in one run.
 module flexact_deck
    use flexact_checks, only: check_model
@@ -5,7 +6,7 @@ module flexact_deck
    use flexact_deck_elements, only: read_elements
    use flexact_deck_forms, only: read_forms, note_unused
    use flexact_deck_picture, only: read_picture
-   use flexact_deck_scene, only: scene_t
+   use flexact_deck_model, only: deck_model_t
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_lexer, only: operand_span
@@ -16,13 +17,13 @@ module flexact_deck
 
 contains
 
-   !> Read the text. The scene is a model to analyse where no error was
+   !> Read the text. The model is one to analyse where no error was
    !> reported. `unused` counts the statements that were read for their form alone.
-   subroutine read_deck(text, scene, unused, diagnostics)
-      character(len=*), intent(in) :: text
-      type(scene_t), intent(out) :: scene
+   subroutine read_deck(text, deck, unused, diagnostics)
+      character(len=*), target, intent(in) :: text
+      type(deck_model_t), intent(out) :: deck
       integer, intent(out) :: unused
-      type(diagnostics_t), intent(inout) :: diagnostics
+      type(diagnostics_t), target, intent(inout) :: diagnostics
       type(statement_t), allocatable :: statements(:)
       integer :: count
 
@@ -30,22 +31,26 @@ contains
       call require_text(text, diagnostics)
       if (diagnostics%has_errors()) return
       call read_statements(text, statements, count, diagnostics)
+      deck%text => text
+      deck%diagnostics => diagnostics
       associate (all_statements => statements(:count))
-         call read_elements(text, all_statements, scene, diagnostics)
-         if (scene%model%elements > 0) then
-            call read_values(text, all_statements, scene, diagnostics)
-            call read_classes(text, all_statements, scene, diagnostics)
-            call read_picture(text, all_statements, scene, diagnostics)
-            call read_forms(text, all_statements, scene, diagnostics)
+         call read_elements(all_statements, deck)
+         if (deck%model%elements > 0) then
+            call read_values(all_statements, deck)
+            call read_classes(all_statements, deck)
+            call read_picture(all_statements, deck)
+            call read_forms(all_statements, deck)
          end if
-         call check_model(scene%model, diagnostics)
+         call check_model(deck%model, diagnostics)
          if (.not. diagnostics%has_errors()) call note_unused(all_statements, unused, diagnostics)
       end associate
+      deck%text => null()
+      deck%diagnostics => null()
       call narrow_places(text, diagnostics)
       call diagnostics%sort()
    end subroutine read_deck
 
-   !> A character that no text holds is told at its place, and ends the reading.
+   !> A character that no text holds is reported at its place, and ends the reading.
    subroutine require_text(text, diagnostics)
       character(len=*), intent(in) :: text
       type(diagnostics_t), intent(inout) :: diagnostics

@@ -1,8 +1,9 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Statements that are not used: dynamics, in/out, and of the picture what is not
 !> drawn. Their form is checked, and what they name must exist.
 module flexact_deck_forms
    use flexact_choice, only: choice_t, components_of, deformations_of, take_choice
-   use flexact_deck_scene, only: scene_t, take_node, take_element
+   use flexact_deck_model, only: deck_model_t, take_node, take_element
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_keywords, only: keyword_t, keywords, role_form, block_kinematics
    use flexact_kinds, only: wp
@@ -15,16 +16,14 @@ module flexact_deck_forms
 contains
 
    !> Check the form of every such statement.
-   subroutine read_forms(text, statements, scene, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine read_forms(statements, deck)
       type(statement_t), intent(in) :: statements(:)
-      type(scene_t), intent(in) :: scene
-      type(diagnostics_t), intent(inout) :: diagnostics
+      type(deck_model_t), intent(in) :: deck
       integer :: i
 
       do i = 1, size(statements)
          if (statements(i)%role == role_form) &
-            call check_form(text, statements(i), keywords(statements(i)%what), scene, diagnostics)
+            call check_form(statements(i), keywords(statements(i)%what), deck)
       end do
    end subroutine read_forms
 
@@ -55,78 +54,65 @@ contains
       end if
    end subroutine note_unused
 
-   subroutine check_form(text, statement, keyword, scene, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine check_form(statement, keyword, deck)
       type(statement_t), intent(in) :: statement
       type(keyword_t), intent(in) :: keyword
-      type(scene_t), intent(in) :: scene
-      type(diagnostics_t), intent(inout) :: diagnostics
+      type(deck_model_t), intent(in) :: deck
       type(operands_t) :: operands, ahead
       type(choice_t) :: choice
       integer :: number
 
-      operands = operands_of(statement)
+      operands = operands_of(deck%text, deck%diagnostics, statement)
       number = 0
       do
          ahead = operands
          if (number >= keyword%least) then
-            if (.not. ahead%another(text)) return
+            if (.not. ahead%another()) return
          end if
          if (number == keyword%most) exit
          number = number + 1
-         call take_by_form(text, keyword%form(min(number, len_trim(keyword%form)):), &
-                           scene, operands, choice, diagnostics)
+         call take_by_form(keyword%form(min(number, len_trim(keyword%form)):), &
+                           deck, operands, choice)
          if (.not. operands%fine) return
       end do
-      call operands%finish(text, trim(keyword%name)//form_in_words(keyword), diagnostics)
+      call operands%finish(trim(keyword%name)//form_in_words(keyword))
    end subroutine check_form
 
    !> Take one operand; a node or an element says what may be named next.
-   subroutine take_by_form(text, letter, scene, operands, choice, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine take_by_form(letter, deck, operands, choice)
       character, intent(in) :: letter
-      type(scene_t), intent(in) :: scene
+      type(deck_model_t), intent(in) :: deck
       type(operands_t), intent(inout) :: operands
       type(choice_t), intent(inout) :: choice
-      type(diagnostics_t), intent(inout) :: diagnostics
       integer :: whole
       real(wp) :: real_value
 
       select case (letter)
       case ('e')
-         call take_element(text, scene, operands, whole, diagnostics)
-         if (whole > 0) choice = deformations_of(scene%model%element_kind(whole))
+         call take_element(deck, operands, whole)
+         if (whole > 0) choice = deformations_of(deck%model%element_kind(whole))
       case ('n')
-         call take_node(text, scene, operands, whole, diagnostics)
-         if (whole > 0) choice = components_of(scene%model%node_kind(whole))
+         call take_node(deck, operands, whole)
+         if (whole > 0) choice = components_of(deck%model%node_kind(whole))
       case ('w')
-         call operands%word_operand(text, 'word', diagnostics)
+         call operands%word_operand('word')
       case ('i')
-         call take_choice(text, operands, choice, whole, diagnostics)
+         call take_choice(operands, choice, whole)
       case default
-         call operands%real_number(text, 'number', real_value, diagnostics)
+         call operands%real_number('number', real_value)
       end select
    end subroutine take_by_form
 
    pure function form_in_words(keyword) result(words)
       type(keyword_t), intent(in) :: keyword
       character(len=:), allocatable :: words
-      integer :: i
+      character(len=*), parameter :: operand(5) = ['element  ', 'node     ', 'component', 'word     ', 'value    ']
+      integer :: i, place
 
       words = ''
       do i = 1, min(keyword%most, 8)
-         select case (keyword%form(min(i, len_trim(keyword%form)):min(i, len_trim(keyword%form))))
-         case ('e')
-            words = words//' element'
-         case ('n')
-            words = words//' node'
-         case ('i')
-            words = words//' component'
-         case ('w')
-            words = words//' word'
-         case default
-            words = words//' value'
-         end select
+         place = min(i, len_trim(keyword%form))
+         words = words//' '//trim(operand(index('eniwr', keyword%form(place:place))))
       end do
    end function form_in_words
 end module flexact_deck_forms

@@ -1,13 +1,14 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The picture block: how the elements are to be drawn. What is wrong in it is
-!> told by a warning and left out, because a picture must not stop an analysis;
+!> reported by a warning and left out, because a picture must not stop an analysis;
 !> a group of elements that do not exist is an error, as everywhere.
 module flexact_deck_picture
-   use flexact_deck_scene, only: scene_t, take_element
-   use flexact_deck_sections, only: sections_t, make_sections, read_crosstype, read_crossdim, read_older_form, settle_sizes
-   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_deck_model, only: deck_model_t, take_element
+   use flexact_deck_sections, only: sections_t, read_crosstype, read_crossdim, read_older_form, settle_sizes
+   use flexact_diagnostics, only: span_t
    use flexact_keywords, only: keywords, block_picture, role_form, role_picture
    use flexact_kinds, only: wp
-   use flexact_look, only: look_t, make_look
+   use flexact_appearance, only: appearance_t, make_appearance
    use flexact_operands, only: operands_t, operands_of
    use flexact_statement, only: statement_t
    implicit none
@@ -22,62 +23,63 @@ module flexact_deck_picture
 
 contains
 
-   !> Read the look of the elements; of two statements for one element the last
+   !> Read the appearance of the elements; of two statements for one element the last
    !> counts. Options of what is not drawn become statements that are not used.
-   subroutine read_picture(text, statements, scene, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine read_picture(statements, deck)
       type(statement_t), intent(inout) :: statements(:)
-      type(scene_t), intent(inout) :: scene
-      type(diagnostics_t), intent(inout) :: diagnostics
+      type(deck_model_t), intent(inout) :: deck
       type(group_t) :: group
       type(sections_t) :: sections
       integer :: i
 
       if (.not. any(statements%role == role_picture)) return
-      allocate (scene%look, source=make_look(scene%model%elements))
-      sections = make_sections(count(statements%block == block_picture), scene%model%elements)
-      group%element = all_elements(scene)
+      allocate (deck%appearance, source=make_appearance(deck%model%elements))
+      allocate (sections%stated(count(statements%block == block_picture)))
+      allocate (sections%of_element(deck%model%elements), source=0)
+      group%element = all_elements(deck)
       do i = 1, size(statements)
          if (statements(i)%block /= block_picture) cycle
-         call read_statement(text, statements(i), group, scene, sections, diagnostics)
+         call read_statement(statements(i), group, deck, sections)
       end do
-      call settle_sizes(sections, scene%look, diagnostics)
+      call settle_sizes(sections, deck)
    end subroutine read_picture
 
-   subroutine read_statement(text, statement, group, scene, sections, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine read_statement(statement, group, deck, sections)
       type(statement_t), intent(inout) :: statement
       type(group_t), intent(inout) :: group
-      type(scene_t), intent(inout) :: scene
+      type(deck_model_t), intent(inout) :: deck
       type(sections_t), intent(inout) :: sections
-      type(diagnostics_t), intent(inout) :: diagnostics
       type(operands_t) :: operands
       integer, allocatable :: elements(:)
+      integer :: i
 
       ! A group that is not known: its options are not those of the group before.
       group%of_elements = group%of_elements .and. statement%what > 0
       if (statement%what == 0) return
-      operands = operands_of(statement)
+      operands = operands_of(deck%text, deck%diagnostics, statement)
       select case (keywords(statement%what)%name)
       case ('BEAMPROPS', 'GRAPHICS')
          group%of_elements = .true.
-         call take_elements(text, operands, scene, group%element, diagnostics)
+         call take_elements(operands, deck, group%element)
       case ('INITIAL', 'LIGHT', 'AXISPROPS', 'TRAJECT')
          group%of_elements = .false.
       case ('DONOTDRAW')
-         if (operands%left(text) == 0) call operands%word_operand(text, 'element number', diagnostics)
-         if (operands%fine) call take_elements(text, operands, scene, elements, diagnostics)
-         if (operands%fine) call hide(scene%look, elements)
+         if (operands%left() == 0) call operands%word_operand('element number')
+         if (operands%fine) call take_elements(operands, deck, elements)
+         if (.not. operands%fine) return
+         do i = 1, size(elements)
+            deck%appearance%drawn(elements(i)) = .false.
+         end do
       case ('BEAMVIS')
-         call read_older_form(text, operands, 'BEAM', scene, sections, diagnostics)
+         call read_older_form(operands, 'BEAM', deck, sections)
       case ('TRUSSVIS')
-         call read_older_form(text, operands, 'TRUSS', scene, sections, diagnostics)
+         call read_older_form(operands, 'TRUSS', deck, sections)
       case ('VISUALIZATION')
          return
       case default
          if (statement%role == role_form) return
          if (group%of_elements) then
-            call read_option(text, operands, keywords(statement%what)%name, group%element, scene%look, sections, diagnostics)
+            call read_option(operands, keywords(statement%what)%name, group%element, deck%appearance, sections)
          else
             statement%role = role_form
          end if
@@ -85,48 +87,38 @@ contains
    end subroutine read_statement
 
    !> One option of the elements of a group.
-   subroutine read_option(text, operands, name, elements, look, sections, diagnostics)
-      character(len=*), intent(in) :: text, name
+   subroutine read_option(operands, name, elements, appearance, sections)
+      character(len=*), intent(in) :: name
       type(operands_t), intent(inout) :: operands
       integer, intent(in) :: elements(:)
-      type(look_t), intent(inout) :: look
+      type(appearance_t), intent(inout) :: appearance
       type(sections_t), intent(inout) :: sections
-      type(diagnostics_t), intent(inout) :: diagnostics
-      real(wp) :: colour(3), opacity
+      real(wp) :: colour(3), opacity(1)
       integer :: i
 
       select case (name)
       case ('CROSSTYPE')
-         call read_crosstype(text, operands, elements, look, diagnostics)
+         call read_crosstype(operands, elements, appearance)
       case ('CROSSDIM')
-         call read_crossdim(text, operands, elements, sections, diagnostics)
+         call read_crossdim(operands, elements, sections)
       case ('FACECOLOR')
-         call take_colour(text, operands, name, colour, diagnostics)
-         if (operands%fine) call paint(look%colour, elements, colour)
+         call take_colour(operands, name, colour)
+         if (operands%fine) call paint(appearance%colour, elements, colour)
       case ('EDGECOLOR')
-         call take_colour(text, operands, name, colour, diagnostics)
-         if (operands%fine) call paint(look%edge_colour, elements, colour)
+         call take_colour(operands, name, colour)
+         if (operands%fine) call paint(appearance%edge_colour, elements, colour)
       case ('OPACITY')
-         call take_opacity(text, operands, opacity, diagnostics)
+         call take_in_range(operands, ['opacity'], 'OPACITY value', 1.0_wp, opacity, 'bad-opacity', &
+                            'an opacity is out of range', 'not from 0 to 1', &
+                            'give 0 for invisible, 1 for opaque, or a number between them')
          if (.not. operands%fine) return
          do i = 1, size(elements)
-            look%opacity(elements(i)) = opacity
+            appearance%opacity(elements(i)) = opacity(1)
          end do
       end select
    end subroutine read_option
 
-   ! Element by element: a statement may name one twice.
-
-   pure subroutine hide(look, elements)
-      type(look_t), intent(inout) :: look
-      integer, intent(in) :: elements(:)
-      integer :: i
-
-      do i = 1, size(elements)
-         look%drawn(elements(i)) = .false.
-      end do
-   end subroutine hide
-
+   !> Element by element: a statement may name one twice.
    pure subroutine paint(colours, elements, colour)
       real(wp), intent(inout) :: colours(:, :)
       integer, intent(in) :: elements(:)
@@ -139,76 +131,64 @@ contains
    end subroutine paint
 
    !> The elements of a statement, all where it names none.
-   subroutine take_elements(text, operands, scene, elements, diagnostics)
-      character(len=*), intent(in) :: text
+   subroutine take_elements(operands, deck, elements)
       type(operands_t), intent(inout) :: operands
-      type(scene_t), intent(in) :: scene
+      type(deck_model_t), intent(in) :: deck
       integer, allocatable, intent(inout) :: elements(:)
-      type(diagnostics_t), intent(inout) :: diagnostics
       integer, allocatable :: found(:)
       integer :: i, count
 
-      allocate (found(operands%left(text)))
+      allocate (found(operands%left()))
       operands%forgiving = .false.
       count = 0
       do i = 1, size(found)
-         call take_element(text, scene, operands, found(count + 1), diagnostics)
+         call take_element(deck, operands, found(count + 1))
          if (found(count + 1) > 0) count = count + 1
       end do
       if (size(found) > 0) then
          elements = found(:count)
       else
-         elements = all_elements(scene)
+         elements = all_elements(deck)
       end if
    end subroutine take_elements
 
    !> Red, green and blue: from 0 to 1, or from 0 to 255 where one exceeds 1.
-   subroutine take_colour(text, operands, name, colour, diagnostics)
-      character(len=*), intent(in) :: text, name
+   subroutine take_colour(operands, name, colour)
       type(operands_t), intent(inout) :: operands
+      character(len=*), intent(in) :: name
       real(wp), intent(out) :: colour(3)
-      type(diagnostics_t), intent(inout) :: diagnostics
       character(len=*), parameter :: part(3) = ['red  ', 'green', 'blue ']
-      type(span_t) :: wrong
-      integer :: i
 
-      do i = 1, 3
-         call operands%real_number(text, trim(part(i)), colour(i), diagnostics)
-         if (colour(i) < 0.0_wp .or. colour(i) > 255.0_wp) wrong = operands%word
-      end do
-      call operands%finish(text, trim(name)//' red green blue', diagnostics)
-      if (.not. operands%fine) return
-      if (wrong%first > 0) then
-         call diagnostics%warning('bad-colour', wrong, 'a part of a colour is out of range; the option is left out', &
-                                  'not from 0 to 255', 'give red, green and blue from 0 to 1, or from 0 to 255')
-         operands%fine = .false.
-      end if
+      call take_in_range(operands, part, trim(name)//' red green blue', 255.0_wp, colour, 'bad-colour', &
+                         'a part of a colour is out of range', 'not from 0 to 255', &
+                         'give red, green and blue from 0 to 1, or from 0 to 255')
       if (any(colour > 1.0_wp)) colour = colour/255.0_wp
    end subroutine take_colour
 
-   subroutine take_opacity(text, operands, opacity, diagnostics)
-      character(len=*), intent(in) :: text
+   !> Take numbers from 0 to a largest one, all that a statement of this form has.
+   subroutine take_in_range(operands, part, form, largest, value, code, message, label, help)
       type(operands_t), intent(inout) :: operands
-      real(wp), intent(out) :: opacity
-      type(diagnostics_t), intent(inout) :: diagnostics
-      type(span_t) :: word
+      character(len=*), intent(in) :: part(:), form, code, message, label, help
+      real(wp), intent(in) :: largest
+      real(wp), intent(out) :: value(:)
+      type(span_t) :: wrong
+      integer :: i
 
-      call operands%real_number(text, 'opacity', opacity, diagnostics)
-      word = operands%word
-      call operands%finish(text, 'OPACITY value', diagnostics)
-      if (.not. operands%fine) return
-      if (opacity < 0.0_wp .or. opacity > 1.0_wp) then
-         call diagnostics%warning('bad-opacity', word, 'an opacity is out of range; the option is left out', &
-                                  'not from 0 to 1', 'give 0 for invisible, 1 for opaque, or a number between them')
-         operands%fine = .false.
-      end if
-   end subroutine take_opacity
+      do i = 1, size(part)
+         call operands%real_number(trim(part(i)), value(i))
+         if (value(i) < 0.0_wp .or. value(i) > largest) wrong = operands%word
+      end do
+      call operands%finish(form)
+      if (.not. operands%fine .or. wrong%first == 0) return
+      call operands%diagnostics%warning(code, wrong, message//'; the option is left out', label, help)
+      operands%fine = .false.
+   end subroutine take_in_range
 
-   pure function all_elements(scene) result(elements)
-      type(scene_t), intent(in) :: scene
+   pure function all_elements(deck) result(elements)
+      type(deck_model_t), intent(in) :: deck
       integer, allocatable :: elements(:)
       integer :: k
 
-      elements = [(k, k=1, scene%model%elements)]
+      elements = [(k, k=1, deck%model%elements)]
    end function all_elements
 end module flexact_deck_picture

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The table of the keywords: which block each belongs to, what it does, and
 !> the form of its operands.
 !>
@@ -59,7 +60,6 @@ module flexact_keywords
                                  keyword_t('DYNE', kin, role_deformation, 'ei', 1, any_number), &
                                  keyword_t('OUTLEVEL', kin, form, 'r', 1, 2), &
                                  keyword_t('BEAMW', kin, no, 'w', 0, any_number), &
-                                 keyword_t('BEARING', kin, no, 'w', 0, any_number), &
                                  keyword_t('PLBEAR', kin, no, 'w', 0, any_number), &
                                  keyword_t('WHEEL', kin, no, 'w', 0, any_number), &
                                  keyword_t('PLWHEEL', kin, no, 'w', 0, any_number), &

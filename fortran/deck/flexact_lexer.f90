@@ -1,9 +1,10 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Lines and words of a deck. Nothing here knows what a word means.
 module flexact_lexer
    use flexact_diagnostics, only: span_t
    implicit none
    private
-   public :: line_t, next_line, next_word, operand_span, upper_case
+   public :: line_t, next_line, next_word, operand_span, upper_case, listed
 
    !> One line of the text: what stands before its comment, and the comment
    !> without its mark and the blanks around it (last < first: there is none).
@@ -132,4 +133,16 @@ contains
          end if
       end do
    end function upper_case
+
+   !> Words as a list in a sentence.
+   pure function listed(words) result(list)
+      character(len=*), intent(in) :: words(:)
+      character(len=:), allocatable :: list
+      integer :: i
+
+      list = trim(words(1))
+      do i = 2, size(words)
+         list = list//', '//trim(words(i))
+      end do
+   end function listed
 end module flexact_lexer

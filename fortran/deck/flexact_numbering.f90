@@ -1,5 +1,8 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> From the free numbers of a deck to indices without gaps, in ascending order.
 module flexact_numbering
+   use flexact_kinds, only: wp
+   use flexact_sorting, only: ascending
    implicit none
    private
    public :: numbering_t, make_numbering
@@ -72,8 +75,7 @@ contains
       integer, allocatable, intent(out) :: unique(:)
       integer :: order(size(numbers)), i, count
 
-      order = numbers
-      call merge_sort(order)
+      order = numbers(ascending(real(numbers, wp)))
       count = 0
       do i = 1, size(order)
          if (count > 0) then
@@ -84,32 +86,4 @@ contains
       end do
       allocate (unique(count), source=order(:count))
    end subroutine sort_unique
-
-   pure subroutine merge_sort(a)
-      integer, intent(inout) :: a(:)
-      integer :: work(size(a)), width, left, middle, right, i, j, k
-
-      width = 1
-      do while (width < size(a))
-         do left = 1, size(a), 2*width
-            middle = min(left + width, size(a) + 1)
-            right = min(left + 2*width, size(a) + 1)
-            i = left
-            j = middle
-            do k = left, right - 1
-               if (j >= right) then
-                  work(k) = a(i); i = i + 1
-               else if (i >= middle) then
-                  work(k) = a(j); j = j + 1
-               else if (a(i) <= a(j)) then
-                  work(k) = a(i); i = i + 1
-               else
-                  work(k) = a(j); j = j + 1
-               end if
-            end do
-         end do
-         a = work
-         width = 2*width
-      end do
-   end subroutine merge_sort
 end module flexact_numbering

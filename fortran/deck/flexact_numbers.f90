@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Numbers of a deck, read to the last bit, with a reason where they cannot be.
 module flexact_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The operands of a statement, taken one by one; what is wrong with one is
 !> said at its place.
 module flexact_operands
@@ -13,6 +14,9 @@ module flexact_operands
    public :: operands_t, operands_of
 
    type :: operands_t
+      !> The deck, and where what is wrong with it is kept.
+      character(len=:), pointer :: text => null()
+      type(diagnostics_t), pointer :: diagnostics => null()
       !> The operand that was taken last.
       type(span_t) :: word
       !> Whether every operand so far was what it should be.
@@ -24,20 +28,26 @@ module flexact_operands
       type(span_t), private :: keyword
    contains
       procedure :: another
+      procedure :: spelling
       procedure :: left
       procedure :: word_operand
       procedure :: positive_integer
       procedure :: real_number
       procedure :: finish
-      procedure, private :: error => tell
+      procedure, private :: error => report_error
+      procedure, private :: number_error
    end type operands_t
 
 contains
 
-   pure function operands_of(statement) result(operands)
+   function operands_of(text, diagnostics, statement) result(operands)
+      character(len=:), pointer, intent(in) :: text
+      type(diagnostics_t), pointer, intent(in) :: diagnostics
       type(statement_t), intent(in) :: statement
       type(operands_t) :: operands
 
+      operands%text => text
+      operands%diagnostics => diagnostics
       operands%position = statement%keyword%last + 1
       operands%last = statement%last
       operands%keyword = statement%keyword
@@ -46,20 +56,25 @@ contains
    end function operands_of
 
    !> Take the next operand as it stands; false at the end of the statement.
-   logical function another(self, text)
+   logical function another(self)
       class(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: text
       type(span_t) :: word
 
-      call next_word(text, self%position, self%last, word)
+      call next_word(self%text, self%position, self%last, word)
       another = word%first > 0
       if (another) self%word = word
    end function another
 
-   !> How many operands are still to be taken.
-   pure integer function left(self, text)
+   !> The operand that was taken last, as it stands.
+   pure function spelling(self)
       class(operands_t), intent(in) :: self
-      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: spelling
+      spelling = self%text(self%word%first:self%word%last)
+   end function spelling
+
+   !> How many operands are still to be taken.
+   pure integer function left(self)
+      class(operands_t), intent(in) :: self
       type(span_t) :: word
       integer :: position
 
@@ -67,158 +82,141 @@ contains
       left = -1
       do
          left = left + 1
-         call next_word(text, position, self%last, word)
+         call next_word(self%text, position, self%last, word)
          if (word%first == 0) exit
       end do
    end function left
 
    !> Take a word of any kind; its absence is reported.
-   subroutine word_operand(self, text, what, diagnostics)
+   subroutine word_operand(self, what)
       class(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: text, what
-      type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=*), intent(in) :: what
       logical :: there
 
-      there = required(self, text, what, diagnostics)
+      there = required(self, what)
    end subroutine word_operand
 
    !> Take a number that counts from one: an element, a node, a component.
    !> Zero where it is missing or wrong.
-   subroutine positive_integer(self, text, what, value, diagnostics)
+   subroutine positive_integer(self, what, value)
       class(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: text, what
+      character(len=*), intent(in) :: what
       integer, intent(out) :: value
-      type(diagnostics_t), intent(inout) :: diagnostics
       integer :: status
 
       value = 0
-      if (.not. required(self, text, what, diagnostics)) return
-      associate (word => text(self%word%first:self%word%last))
-         call read_integer(word, value, status)
-         if (status == number_fine .and. value < 1) then
-            call self%error('bad-number', self%word, quoted(word)//' is less than 1', &
-                            'expected here: '//trim(what), 'elements, nodes and components count from 1', diagnostics)
-            value = 0
-            self%fine = .false.
-         else if (status /= number_fine) then
-            value = 0
-            call wrong_number(self, word, what, status, diagnostics)
-         end if
-      end associate
+      if (.not. required(self, what)) return
+      call read_integer(self%text(self%word%first:self%word%last), value, status)
+      if (status == number_fine .and. value > 0) return
+      value = 0
+      if (status == number_fine) then
+         call self%number_error('bad-number', what, 'is less than 1', 'elements, nodes and components count from 1')
+      else
+         call wrong_number(self, what, status)
+      end if
    end subroutine positive_integer
 
    !> Take a real number; zero where it is missing or wrong.
-   subroutine real_number(self, text, what, value, diagnostics)
+   subroutine real_number(self, what, value)
       class(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: text, what
+      character(len=*), intent(in) :: what
       real(wp), intent(out) :: value
-      type(diagnostics_t), intent(inout) :: diagnostics
       integer :: status
 
       value = 0.0_wp
-      if (.not. required(self, text, what, diagnostics)) return
-      associate (word => text(self%word%first:self%word%last))
-         call read_real(word, value, status)
-         if (status /= number_fine) call wrong_number(self, word, what, status, diagnostics)
-      end associate
+      if (.not. required(self, what)) return
+      call read_real(self%text(self%word%first:self%word%last), value, status)
+      if (status /= number_fine) call wrong_number(self, what, status)
    end subroutine real_number
 
    !> Say that operands are left over, where they are.
-   subroutine finish(self, text, form, diagnostics)
+   subroutine finish(self, form)
       class(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: text, form
-      type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=*), intent(in) :: form
       type(span_t) :: surplus
 
-      if (.not. self%another(text)) return
+      if (.not. self%another()) return
       surplus = self%word
-      if (is_semicolon(text, surplus)) then
-         call semicolon(self, diagnostics)
+      if (self%text(surplus%first:surplus%first) == ';') then
+         call semicolon(self)
          return
       end if
-      do while (self%another(text))
+      do while (self%another())
          surplus%last = self%word%last
       end do
       call self%error('surplus-operand', surplus, &
-                      text(self%keyword%first:self%keyword%last)//' has more operands than it takes', &
-                      'nothing may stand here', 'its form is: '//form, diagnostics)
+                      self%text(self%keyword%first:self%keyword%last)//' has more operands than it takes', &
+                      'nothing may stand here', 'its form is: '//form)
       self%fine = .false.
    end subroutine finish
 
    !> Report what is wrong with an operand.
-   subroutine tell(self, code, place, message, label, help, diagnostics)
+   subroutine report_error(self, code, place, message, label, help)
       class(operands_t), intent(in) :: self
       character(len=*), intent(in) :: code, message, label, help
       type(span_t), intent(in) :: place
-      type(diagnostics_t), intent(inout) :: diagnostics
 
       if (self%forgiving) then
-         call diagnostics%warning(code, place, message//'; the option is left out', label, help)
+         call self%diagnostics%warning(code, place, message//'; the option is left out', label, help)
       else
-         call diagnostics%error(code, place, message, label, help)
+         call self%diagnostics%error(code, place, message, label, help)
       end if
-   end subroutine tell
+   end subroutine report_error
 
-   logical function required(self, text, what, diagnostics)
+   logical function required(self, what)
       type(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: text, what
-      type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=*), intent(in) :: what
       integer :: behind
 
-      required = self%another(text)
+      required = self%another()
       if (required) return
       behind = self%word%last + 1
       ! One missing operand is said once, not once for each that would follow.
       if (self%position < huge(1)) then
          call self%error('missing-operand', span_t(behind, behind), &
-                         text(self%keyword%first:self%keyword%last)//' needs one more operand: '//trim(what), &
-                         'expected here: '//trim(what), 'add it', diagnostics)
+                         self%text(self%keyword%first:self%keyword%last)//' needs one more operand: '//trim(what), &
+                         'expected here: '//trim(what), 'add it')
       end if
       self%position = huge(1)
       self%fine = .false.
    end function required
 
-   subroutine wrong_number(self, word, what, status, diagnostics)
+   subroutine wrong_number(self, what, status)
       class(operands_t), intent(inout) :: self
-      character(len=*), intent(in) :: word, what
+      character(len=*), intent(in) :: what
       integer, intent(in) :: status
-      type(diagnostics_t), intent(inout) :: diagnostics
 
-      self%fine = .false.
-      if (word(1:1) == ';') then
-         call semicolon(self, diagnostics)
+      if (self%text(self%word%first:self%word%first) == ';') then
+         call semicolon(self)
          return
       end if
       select case (status)
       case (number_malformed)
-         call self%error('bad-number', self%word, quoted(word)//' is not a number', &
-                         'expected here: '//trim(what), 'write a number such as 3, -0.5 or 1.0e-3', diagnostics)
+         call self%number_error('bad-number', what, 'is not a number', 'write a number such as 3, -0.5 or 1.0e-3')
       case (number_not_whole)
-         call self%error('not-whole', self%word, quoted(word)//' is not a whole number', &
-                         'expected here: '//trim(what), 'write a whole number, without point and exponent', diagnostics)
+         call self%number_error('not-whole', what, 'is not a whole number', 'write a whole number, without point and exponent')
       case (number_not_finite)
-         call self%error('not-finite', self%word, quoted(word)//' is not a finite number', &
-                         'expected here: '//trim(what), 'write a finite number', diagnostics)
+         call self%number_error('not-finite', what, 'is not a finite number', 'write a finite number')
       case (number_too_large)
-         call self%error('number-too-large', self%word, quoted(word)//' is larger than it can be', &
-                         'expected here: '//trim(what), &
-                         'whole numbers go up to 2147483647, others up to 1.79e308', diagnostics)
+         call self%number_error('number-too-large', what, 'is larger than it can be', &
+                                'whole numbers go up to 2147483647, others up to 1.79e308')
       end select
    end subroutine wrong_number
 
-   pure logical function is_semicolon(text, word)
-      character(len=*), intent(in) :: text
-      type(span_t), intent(in) :: word
-      is_semicolon = text(word%first:word%first) == ';'
-   end function is_semicolon
+   subroutine number_error(self, code, what, message, help)
+      class(operands_t), intent(inout) :: self
+      character(len=*), intent(in) :: code, what, message, help
 
-   !> What was meant as a comment is told once, and nothing behind it is read.
-   subroutine semicolon(self, diagnostics)
+      call self%error(code, self%word, quoted(self%spelling())//' '//message, 'expected here: '//trim(what), help)
+      self%fine = .false.
+   end subroutine number_error
+
+   !> What was meant as a comment is reported once, and nothing behind it is read.
+   subroutine semicolon(self)
       type(operands_t), intent(inout) :: self
-      type(diagnostics_t), intent(inout) :: diagnostics
 
       call self%error('bad-comment', self%word, 'a semicolon opens a comment in the picture block alone', &
-                      'not a comment here', 'write % or # instead', diagnostics)
+                      'not a comment here', 'write % or # instead')
       self%fine = .false.
       self%position = huge(1)
    end subroutine semicolon

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> From the text to statements: which block each line stands in, and what its
 !> keyword is. Operands are left to those who know what they mean.
 module flexact_statement
@@ -6,7 +7,7 @@ module flexact_statement
    use flexact_keywords, only: keywords, find_keyword, nearest_keyword, block_kinematics, block_dynamics, &
                                block_closed, block_inout, block_picture, role_element, role_uncovered, role_unknown, &
                                role_picture
-   use flexact_lexer, only: line_t, next_line, next_word, upper_case
+   use flexact_lexer, only: line_t, next_line, next_word, upper_case, listed
    implicit none
    private
    public :: statement_t, read_statements, find_unreadable
@@ -29,9 +30,9 @@ module flexact_statement
    type :: reader_t
       integer :: block = block_kinematics
       logical :: block_is_empty = .true.
-      logical :: told_of_tail = .false.
-      !> The last statement stood in a wrong block, which was told.
-      logical :: told_of_block = .false.
+      logical :: reported_tail = .false.
+      !> The last statement stood in a wrong block, which was reported.
+      logical :: reported_block = .false.
       !> The last keyword and what it was: decks repeat themselves.
       character(len=16) :: word = ''
       integer :: role = 0
@@ -45,6 +46,7 @@ contains
    subroutine read_statements(text, statements, count, diagnostics)
       character(len=*), intent(in) :: text
       type(statement_t), allocatable, intent(out) :: statements(:)
+      type(statement_t), allocatable :: larger(:)
       integer, intent(out) :: count
       type(diagnostics_t), intent(inout) :: diagnostics
       type(reader_t) :: reader
@@ -66,7 +68,11 @@ contains
          call classify(text, reader, statement, meaningful, diagnostics)
          if (.not. meaningful) cycle
          reader%block_is_empty = .false.
-         if (count == size(statements)) call grow(statements)
+         if (count == size(statements)) then
+            allocate (larger(2*count))
+            larger(:count) = statements
+            call move_alloc(larger, statements)
+         end if
          count = count + 1
          statements(count) = statement
       end do
@@ -103,14 +109,18 @@ contains
          call change_block(reader, statement, diagnostics)
          return
       end if
-      if (reader%word == 'VISUALIZATION') call open_picture(reader, statement, diagnostics)
+      if (reader%word == 'VISUALIZATION') then
+         ! The picture block ends every other one but that of the kinematics.
+         if (reader%block == block_kinematics) call end_is_missing(statement, 'VISUALIZATION', diagnostics)
+         reader%block = block_picture
+      end if
       if (reader%block == block_closed) then
-         if (.not. reader%told_of_tail) then
+         if (.not. reader%reported_tail) then
             call diagnostics%warning('not-read', statement%keyword, &
                                      'what stands behind the second END is not read', 'from here on', &
                                      'move the statement before END, or open a picture block with VISUALIZATION')
          end if
-         reader%told_of_tail = .true.
+         reader%reported_tail = .true.
          return
       end if
       statement%block = reader%block
@@ -119,15 +129,15 @@ contains
       if (reader%role == 0) then
          call unknown_keyword(text, reader, statement, diagnostics)
       else if (reader%found_in /= reader%block) then
-         ! Told for the first of a run; what it says is meant all the same.
-         if (.not. reader%told_of_block) call wrong_block(reader, statement, diagnostics)
-         reader%told_of_block = .true.
+         ! Reported for the first of a run; what it says is meant all the same.
+         if (.not. reader%reported_block) call wrong_block(reader, statement, diagnostics)
+         reader%reported_block = .true.
          statement%block = reader%found_in
       else
-         reader%told_of_block = .false.
+         reader%reported_block = .false.
          if (reader%role == role_uncovered) then
             call diagnostics%error('not-covered', statement%keyword, 'Flexact does not analyse '//trim(reader%word), &
-                                   'not covered', 'the elements are '//list_of_elements())
+                                   'not covered', 'the elements are '//listed(element_kinds%keyword))
          end if
       end if
       meaningful = statement%role /= 0
@@ -175,18 +185,8 @@ contains
          reader%block = merge(block_dynamics, block_inout, reader%block == block_kinematics)
       end if
       reader%block_is_empty = .true.
-      reader%told_of_block = .false.
+      reader%reported_block = .false.
    end subroutine change_block
-
-   !> The picture block ends every other one but that of the kinematics.
-   subroutine open_picture(reader, statement, diagnostics)
-      type(reader_t), intent(inout) :: reader
-      type(statement_t), intent(in) :: statement
-      type(diagnostics_t), intent(inout) :: diagnostics
-
-      if (reader%block == block_kinematics) call end_is_missing(statement, 'VISUALIZATION', diagnostics)
-      reader%block = block_picture
-   end subroutine open_picture
 
    subroutine end_is_missing(statement, word, diagnostics)
       type(statement_t), intent(in) :: statement
@@ -254,33 +254,18 @@ contains
       type(reader_t), intent(in) :: reader
       type(statement_t), intent(in) :: statement
       type(diagnostics_t), intent(inout) :: diagnostics
-      character(len=:), allocatable :: help
+      !> None belongs behind the second END.
+      character(len=*), parameter :: help(5) = [ &
+                                     character(len=67) :: 'write it before the first END', &
+                                                          'write it between the first END and the second', '', &
+                                                          'write it between a HALT behind the second END and the next END', &
+                                                          'write it behind VISUALIZATION, at the end of the deck']
 
-      select case (reader%found_in)
-      case (block_kinematics)
-         help = 'write it before the first END'
-      case (block_dynamics)
-         help = 'write it between the first END and the second'
-      case (block_picture)
-         help = 'write it behind VISUALIZATION, at the end of the deck'
-      case default
-         help = 'write it between a HALT behind the second END and the next END'
-      end select
       call diagnostics%error('wrong-block', statement%keyword, &
                              trim(reader%word)//' belongs in the '//trim(block_name(reader%found_in))// &
                              ' block, not in the '//trim(block_name(reader%block))//' block', &
-                             'not in this block', help)
+                             'not in this block', trim(help(reader%found_in)))
    end subroutine wrong_block
-
-   pure function list_of_elements() result(list)
-      character(len=:), allocatable :: list
-      integer :: i
-
-      list = trim(element_kinds(1)%keyword)
-      do i = 2, size(element_kinds)
-         list = list//', '//trim(element_kinds(i)%keyword)
-      end do
-   end function list_of_elements
 
    pure function block_name(block) result(name)
       integer, intent(in) :: block
@@ -289,13 +274,4 @@ contains
                                                   'kinematics', 'dynamics', 'closed', 'in/out', 'picture']
       name = names(block)
    end function block_name
-
-   subroutine grow(statements)
-      type(statement_t), allocatable, intent(inout) :: statements(:)
-      type(statement_t), allocatable :: larger(:)
-
-      allocate (larger(2*size(statements)))
-      larger(:size(statements)) = statements
-      call move_alloc(larger, statements)
-   end subroutine grow
 end module flexact_statement

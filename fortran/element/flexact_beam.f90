@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> BEAM: a slender beam in space, eqs. (3) and (4), valid for large
 !> displacements and rotations of the element as a whole.
 module flexact_beam

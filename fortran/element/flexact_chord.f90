@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The straight line from p to q, which trusses and beams measure.
 module flexact_chord
    use flexact_kinds, only: wp

@@ -1,84 +1,61 @@
-!> An element of any kind: its reference, the poses of its ends, and its
-!> deformation functions with their first derivatives.
+! SPDX-License-Identifier: BSD-3-Clause
+!> An element of any kind: its reference frame by the rule of its row in the
+!> table, and its deformation functions with their first derivatives.
 module flexact_element
-   use flexact_kinds, only: wp
-   use flexact_model, only: model_t, node_planar_position, node_position, node_angle, node_orientation
-   use flexact_pose, only: pose_t, reference_t
-   use flexact_vectors, only: length_of, frame_along, planar_frame_along
-   use flexact_euler, only: relative_rotation
-   use flexact_element_table, only: element_kinds, kind_truss, kind_beam, kind_rbeam, kind_pinbody, kind_hinge, &
-                                    kind_pltruss, kind_plbeam, kind_plrbeam, kind_plhinge
-   use flexact_truss, only: truss_deformation
    use flexact_beam, only: beam_deformation
-   use flexact_rbeam, only: rbeam_deformation
+   use flexact_bearing, only: bearing_deformation
+   use flexact_element_table, only: element_kinds, member_bar, rule_along => frame_along, frame_about, frame_planar
    use flexact_hinge, only: hinge_deformation
+   use flexact_kinds, only: wp
    use flexact_plbeam, only: plbeam_deformation
-   use flexact_plrbeam, only: plrbeam_deformation
    use flexact_plhinge, only: plhinge_deformation
+   use flexact_pose, only: pose_t, reference_t
+   use flexact_rbeam, only: rbeam_deformation, plrbeam_deformation
+   use flexact_truss, only: truss_deformation
+   use flexact_vectors, only: length_of, frame_along, planar_frame_along
    implicit none
    private
-   public :: make_reference, make_poses, element_deformation
+   public :: make_reference, reference_frame, element_deformation
 
 contains
 
-   !> What element k measures its deformations from: the reference values of
-   !> its nodes and its vector. A beam's ey is the vector made perpendicular to
-   !> the line from p to q; a hinge's ex is the vector.
-   pure subroutine make_reference(model, k, reference)
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: k
+   !> What an element measures its deformations from, by the vector from p to q
+   !> and the vector of its statement (zero where none was given).
+   pure subroutine make_reference(kind, offset, vector, reference)
+      integer, intent(in) :: kind
+      real(wp), intent(in) :: offset(3), vector(3)
       type(reference_t), intent(out) :: reference
-      type(pose_t) :: p, q
-      real(wp), parameter :: no_hint(3) = 0.0_wp
 
-      call make_poses(model, k, model%node_value, p, q)
-      reference%offset = q%position - p%position
-      reference%length = length_of(reference%offset)
-      select case (model%element_kind(k))
-      case (kind_beam, kind_rbeam, kind_pinbody)
-         reference%frame = frame_along(reference%offset, model%element_vector(:, k))
-      case (kind_hinge)
-         reference%frame = frame_along(model%element_vector(:, k), no_hint)
-      case (kind_plbeam, kind_plrbeam)
-         reference%frame = planar_frame_along(reference%offset)
-      end select
+      reference%offset = offset
+      reference%length = length_of(offset)
+      ! A bar's deformation needs no frame, and bars are many.
+      if (element_kinds(kind)%member /= member_bar) reference%frame = reference_frame(kind, offset, vector)
    end subroutine make_reference
 
-   !> The ends of element k in a configuration given as node values,
-   !> (4, nodes). A slot without a node leaves its part of the pose at rest; a
-   !> planar element sees x and y of its nodes alone.
-   pure subroutine make_poses(model, k, configuration, p, q)
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: k
-      real(wp), intent(in) :: configuration(:, :)
-      type(pose_t), intent(out) :: p, q
+   !> The local axes ex, ey, ez as columns. stand_in: what takes the place of a
+   !> vector that was not given or gives no direction; by default the global axis
+   !> that `frame_along` chooses. An element in the plane without a line has z as ex.
+   pure function reference_frame(kind, offset, vector, stand_in) result(frame)
+      integer, intent(in) :: kind
+      real(wp), intent(in) :: offset(3), vector(3)
+      real(wp), intent(in), optional :: stand_in(3)
+      real(wp) :: frame(3, 3)
+      real(wp) :: hint(3)
 
-      associate (node => model%element_node(:, k), wanted => element_kinds(model%element_kind(k))%slot_kind)
-         call place(model, node(1), wanted(1), configuration, p)
-         call place(model, node(2), wanted(2), configuration, p)
-         call place(model, node(3), wanted(3), configuration, q)
-         call place(model, node(4), wanted(4), configuration, q)
-      end associate
-   end subroutine make_poses
-
-   !> Put into a pose what one node says of it to a slot of this node kind.
-   pure subroutine place(model, node, wanted, configuration, pose)
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: node, wanted
-      real(wp), intent(in) :: configuration(:, :)
-      type(pose_t), intent(inout) :: pose
-
-      select case (wanted)
-      case (node_planar_position)
-         pose%position(1:2) = configuration(1:2, node)
-      case (node_position)
-         pose%position = configuration(1:3, node)
-      case (node_angle)
-         pose%angle = configuration(1, node) - model%node_value(1, node)
-      case (node_orientation)
-         pose%rotation = relative_rotation(configuration(:, node), model%node_value(:, node))
+      hint = 0.0_wp
+      if (present(stand_in)) hint = stand_in
+      select case (element_kinds(kind)%frame)
+      case (rule_along)
+         if (any(abs(vector) > 0)) hint = vector
+         frame = frame_along(offset, hint)
+      case (frame_about)
+         frame = frame_along(vector, hint)
+      case (frame_planar)
+         frame = planar_frame_along(offset)
+      case default
+         frame = frame_along([0.0_wp, 0.0_wp, 1.0_wp], hint)
       end select
-   end subroutine place
+   end function reference_frame
 
    !> Deformations (6) of an element and their derivatives (6, 12) with respect
    !> to the position of p, rotation of p, position of q, rotation of q;
@@ -90,21 +67,15 @@ contains
       type(pose_t), intent(in) :: p, q
       real(wp), intent(out) :: e(6), derivative(6, 12)
 
-      select case (kind)
-      case (kind_truss, kind_pltruss)
-         call truss_deformation(reference, p, q, e, derivative)
-      case (kind_beam)
-         call beam_deformation(reference, p, q, e, derivative)
-      case (kind_rbeam, kind_pinbody)
-         call rbeam_deformation(reference, p, q, e, derivative)
-      case (kind_hinge)
-         call hinge_deformation(reference, p, q, e, derivative)
-      case (kind_plbeam)
-         call plbeam_deformation(reference, p, q, e, derivative)
-      case (kind_plrbeam)
-         call plrbeam_deformation(reference, p, q, e, derivative)
-      case (kind_plhinge)
-         call plhinge_deformation(p, q, e, derivative)
+      select case (element_kinds(kind)%keyword)
+      case ('TRUSS', 'PLTRUSS'); call truss_deformation(reference, p, q, e, derivative)
+      case ('BEAM'); call beam_deformation(reference, p, q, e, derivative)
+      case ('RBEAM', 'PINBODY'); call rbeam_deformation(reference, p, q, e, derivative)
+      case ('HINGE'); call hinge_deformation(reference, p, q, e, derivative)
+      case ('PLBEAM'); call plbeam_deformation(reference, p, q, e, derivative)
+      case ('PLRBEAM'); call plrbeam_deformation(reference, p, q, e, derivative)
+      case ('PLHINGE'); call plhinge_deformation(p, q, e, derivative)
+      case ('BEARING'); call bearing_deformation(reference, p, q, e, derivative)
       case default
          e = 0.0_wp
          derivative = 0.0_wp

@@ -1,67 +1,81 @@
-!> The table of the elements: what a statement's operands are and what the
-!> deformations mean. The numerics stand in one file an element; a new element
-!> is that file, a row here, and a case in flexact_element.
+! SPDX-License-Identifier: BSD-3-Clause
+!> The table of the elements, which all that depends on an element's kind reads:
+!> the deck, the checks, frames, and, by way of the boundary, Python. The numerics
+!> stand in one file an element; see docs/adding_an_element.md.
 module flexact_element_table
-   use flexact_model, only: node_planar_position, node_position, node_angle, node_orientation, &
-                            slots, most_deformations
+   use flexact_roles, only: role_elongation, role_torsion, role_bending_xz_p, role_bending_xz_q, &
+                            role_bending_xy_p, role_bending_xy_q, role_planar_bending_p, role_planar_bending_q, &
+                            role_offset_x, role_offset_y, role_offset_z, role_rotation, role_tilt_y, role_tilt_z, role_angle
+   use flexact_slots, only: node_planar_position, node_position, node_angle, node_orientation, slots, most_deformations
    implicit none
    private
-   public :: element_kind_t, element_kinds, find_element_kind
-   public :: kind_truss, kind_beam, kind_rbeam, kind_pinbody, kind_hinge
-   public :: kind_pltruss, kind_plbeam, kind_plrbeam, kind_plhinge
-   public :: vector_none, vector_optional, vector_required
-   public :: dual_none, dual_force, dual_moment, dual_moment_over_length
+   public :: element_kind_t, element_kinds, find_element_kind, deformations_of
+   public :: frame_none, frame_along, frame_about, frame_planar, frame_names
+   public :: vector_none, vector_optional, vector_required, vector_names
+   public :: member_bar, member_beam, member_link, member_hinge, member_names
 
-   integer, parameter :: kind_truss = 1
-   integer, parameter :: kind_beam = 2
-   integer, parameter :: kind_rbeam = 3
-   integer, parameter :: kind_pinbody = 4
-   integer, parameter :: kind_hinge = 5
-   integer, parameter :: kind_pltruss = 6
-   integer, parameter :: kind_plbeam = 7
-   integer, parameter :: kind_plrbeam = 8
-   integer, parameter :: kind_plhinge = 9
+   !> Where ex points: nowhere; from p to q with ey towards the vector; along the
+   !> vector; from p to q in the xy plane.
+   integer, parameter :: frame_none = 0
+   integer, parameter :: frame_along = 1
+   integer, parameter :: frame_about = 2
+   integer, parameter :: frame_planar = 3
+   character(len=24), parameter :: frame_names(0:3) = [character(len=24) :: 'none', 'along', 'about', 'planar']
 
    integer, parameter :: vector_none = 0
    integer, parameter :: vector_optional = 1
    integer, parameter :: vector_required = 2
+   character(len=24), parameter :: vector_names(0:2) = [character(len=24) :: 'none', 'optional', 'required']
 
-   !> What the stress resultant of a deformation is: a force; a moment; or a
-   !> moment divided by l0, because the deformation is l0 times an angle.
-   integer, parameter :: dual_none = 0
-   integer, parameter :: dual_force = 1
-   integer, parameter :: dual_moment = 2
-   integer, parameter :: dual_moment_over_length = 3
+   !> What an element is in the mechanism: straight and without bending; a beam;
+   !> an arm of the body of p; a joint without extent.
+   integer, parameter :: member_bar = 1
+   integer, parameter :: member_beam = 2
+   integer, parameter :: member_link = 3
+   integer, parameter :: member_hinge = 4
+   character(len=24), parameter :: member_names(0:4) = [character(len=24) :: 'none', 'bar', 'beam', 'link', 'hinge']
 
    type :: element_kind_t
       character(len=8) :: keyword
+      !> Another spelling in decks, blank without one.
+      character(len=8) :: synonym
       !> Node kind of each slot (p, op, q, oq), 0 where the slot is unused.
       integer :: slot_kind(slots)
-      integer :: deformations
+      integer :: frame
+      !> Whether a vector follows the nodes in a statement.
       integer :: vector
       !> Whether p and q must be apart.
       logical :: needs_length
-      integer :: dual(most_deformations)
+      integer :: member
+      !> Role of each deformation, 0 beyond the last.
+      integer :: role(most_deformations)
    end type element_kind_t
 
-   integer, parameter :: x2 = node_planar_position
-   integer, parameter :: x3 = node_position
-   integer, parameter :: r1 = node_angle
-   integer, parameter :: r3 = node_orientation
-   integer, parameter :: f = dual_force
-   integer, parameter :: m = dual_moment
-   integer, parameter :: b = dual_moment_over_length
+   integer, parameter :: x2 = node_planar_position, x3 = node_position, r1 = node_angle, r3 = node_orientation
+   integer, parameter :: no = vector_none, may = vector_optional, must = vector_required
+   integer, parameter :: none = frame_none, along = frame_along, about = frame_about, plane = frame_planar
+   integer, parameter :: bar = member_bar, beam = member_beam, link = member_link, hinge = member_hinge
+   integer, parameter :: stretch(6) = [role_elongation, 0, 0, 0, 0, 0]
+   integer, parameter :: bend(6) = [role_elongation, role_torsion, role_bending_xz_p, role_bending_xz_q, &
+                                    role_bending_xy_p, role_bending_xy_q]
+   integer, parameter :: offset(6) = [role_offset_x, role_offset_y, role_offset_z, 0, 0, 0]
+   integer, parameter :: turn(6) = [role_rotation, role_tilt_y, role_tilt_z, 0, 0, 0]
+   integer, parameter :: move(6) = [offset(:3), turn(:3)]
+   integer, parameter :: bend_2d(6) = [role_elongation, role_planar_bending_p, role_planar_bending_q, 0, 0, 0]
+   integer, parameter :: offset_2d(6) = [role_offset_x, role_offset_y, 0, 0, 0, 0]
+   integer, parameter :: turn_2d(6) = [role_angle, 0, 0, 0, 0, 0]
 
-   type(element_kind_t), parameter :: element_kinds(9) = [ &
-                                      element_kind_t('TRUSS', [x3, 0, x3, 0], 1, vector_none, .true., [f, 0, 0, 0, 0, 0]), &
-                                      element_kind_t('BEAM', [x3, r3, x3, r3], 6, vector_optional, .true., [f, b, b, b, b, b]), &
-                                      element_kind_t('RBEAM', [x3, r3, x3, 0], 3, vector_optional, .true., [f, f, f, 0, 0, 0]), &
-                                      element_kind_t('PINBODY', [x3, r3, x3, 0], 3, vector_none, .false., [f, f, f, 0, 0, 0]), &
-                                      element_kind_t('HINGE', [0, r3, 0, r3], 3, vector_required, .false., [m, m, m, 0, 0, 0]), &
-                                      element_kind_t('PLTRUSS', [x2, 0, x2, 0], 1, vector_none, .true., [f, 0, 0, 0, 0, 0]), &
-                                      element_kind_t('PLBEAM', [x2, r1, x2, r1], 3, vector_none, .true., [f, b, b, 0, 0, 0]), &
-                                      element_kind_t('PLRBEAM', [x2, r1, x2, 0], 2, vector_none, .true., [f, f, 0, 0, 0, 0]), &
-                                      element_kind_t('PLHINGE', [0, r1, 0, r1], 1, vector_none, .false., [m, 0, 0, 0, 0, 0])]
+   type(element_kind_t), parameter :: element_kinds(*) = [ &
+                                      element_kind_t('TRUSS', '', [x3, 0, x3, 0], along, no, .true., bar, stretch), &
+                                      element_kind_t('BEAM', 'BEAMNL', [x3, r3, x3, r3], along, may, .true., beam, bend), &
+                                      element_kind_t('RBEAM', '', [x3, r3, x3, 0], along, may, .true., link, offset), &
+                                      element_kind_t('PINBODY', '', [x3, r3, x3, 0], along, no, .false., link, offset), &
+                                      element_kind_t('HINGE', '', [0, r3, 0, r3], about, must, .false., hinge, turn), &
+                                      element_kind_t('PLTRUSS', '', [x2, 0, x2, 0], plane, no, .true., bar, stretch), &
+                                      element_kind_t('PLBEAM', 'PLBEAMNL', [x2, r1, x2, r1], plane, no, .true., beam, bend_2d), &
+                                      element_kind_t('PLRBEAM', '', [x2, r1, x2, 0], plane, no, .true., link, offset_2d), &
+                                      element_kind_t('PLHINGE', 'PLTOR', [0, r1, 0, r1], none, no, .false., hinge, turn_2d), &
+                                      element_kind_t('BEARING', '', [x3, r3, x3, r3], about, must, .false., hinge, move)]
 
 contains
 
@@ -69,21 +83,16 @@ contains
    !> where there is none.
    pure integer function find_element_kind(keyword) result(kind)
       character(len=*), intent(in) :: keyword
-      character(len=8) :: name
 
-      select case (keyword)
-      case ('PLTOR')
-         name = 'PLHINGE'
-      case ('BEAMNL')
-         name = 'BEAM'
-      case ('PLBEAMNL')
-         name = 'PLBEAM'
-      case default
-         name = keyword
-         if (len_trim(keyword) > len(name)) name = ''
-      end select
       do kind = size(element_kinds), 1, -1
-         if (element_kinds(kind)%keyword == name) return
+         if (element_kinds(kind)%keyword == keyword) return
+         if (element_kinds(kind)%synonym == keyword .and. keyword /= '') return
       end do
    end function find_element_kind
+
+   !> How many deformations an element of this kind has.
+   elemental integer function deformations_of(kind) result(deformations)
+      integer, intent(in) :: kind
+      deformations = count(element_kinds(kind)%role /= 0)
+   end function deformations_of
 end module flexact_element_table

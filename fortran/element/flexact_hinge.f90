@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> HINGE: the rotation of q relative to p, with one axis singled out.
 module flexact_hinge
    use flexact_kinds, only: wp

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> PLBEAM: a slender beam in the xy plane. The signs of the bending
 !> deformations differ from those of e5 and e6 of the spatial beam.
 module flexact_plbeam

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> PLHINGE: the angle of q relative to p in the xy plane.
 module flexact_plhinge
    use flexact_kinds, only: wp

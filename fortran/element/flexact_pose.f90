@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What an element routine sees: where its two ends are, and its own reference.
 module flexact_pose
    use flexact_kinds, only: wp

@@ -1,11 +1,12 @@
-!> RBEAM and PINBODY: a point q that belongs to the rigid body of node p.
+! SPDX-License-Identifier: BSD-3-Clause
+!> RBEAM, PINBODY and PLRBEAM: a point q that belongs to the rigid body of node p.
 module flexact_rbeam
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
-   use flexact_vectors, only: cross
+   use flexact_vectors, only: cross, planar_turn
    implicit none
    private
-   public :: rbeam_deformation
+   public :: rbeam_deformation, plrbeam_deformation
 
 contains
 
@@ -31,4 +32,23 @@ contains
          derivative(i, 7:9) = frame(:, i)
       end do
    end subroutine rbeam_deformation
+
+   !> e1 and e2: the same in the xy plane, where p has turned by its angle.
+   pure subroutine plrbeam_deformation(reference, p, q, e, derivative)
+      type(reference_t), intent(in) :: reference
+      type(pose_t), intent(in) :: p, q
+      real(wp), intent(out) :: e(6), derivative(6, 12)
+      type(pose_t) :: turned
+      integer :: i
+
+      ! From rest: in the plane a node turns by its angle alone.
+      turned%position = p%position
+      do i = 1, 3
+         turned%rotation(:, i) = planar_turn(p%angle, turned%rotation(:, i))
+      end do
+      call rbeam_deformation(reference, turned, q, e, derivative)
+      e(3) = 0.0_wp
+      derivative(3, :) = 0.0_wp
+      derivative(:, 4:5) = 0.0_wp
+   end subroutine plrbeam_deformation
 end module flexact_rbeam

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> TRUSS and PLTRUSS: a bar between two points, eq. (2). In the plane z = 0
 !> the same formula holds, so both share it.
 module flexact_truss

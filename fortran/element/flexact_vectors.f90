@@ -1,6 +1,8 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Small vectors and right-handed frames.
 module flexact_vectors
    use flexact_kinds, only: wp
+   use flexact_scaled_norm, only: length_of
    implicit none
    private
    public :: cross, length_of, coincide, unit, frame_along, planar_frame_along, planar_turn
@@ -12,16 +14,6 @@ contains
       real(wp) :: c(3)
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
-
-   !> The Euclidean norm of a vector of any magnitude. Intrinsic norm2 of
-   !> gfortran 12 gives zero where the squares underflow.
-   pure real(wp) function length_of(vector) result(length)
-      real(wp), intent(in) :: vector(:)
-      integer :: power
-
-      power = exponent(maxval(abs(vector)))
-      length = scale(norm2(scale(vector, -power)), power)
-   end function length_of
 
    !> Whether two points are one up to the rounding of their coordinates.
    pure logical function coincide(a, b)

@@ -1,10 +1,12 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What must hold of every model, from a deck or not, before it is analysed.
 module flexact_checks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds, vector_optional, vector_required
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, slots, is_position, node_planar_position
+   use flexact_model, only: model_t
+   use flexact_slots, only: slots, is_position, node_planar_position
    use flexact_vectors, only: coincide, length_of, unit
    implicit none
    private
@@ -84,7 +86,8 @@ contains
          if (coincide(model%node_value(:axes, p), model%node_value(:axes, q))) then
             if (.not. kind%needs_length) return
             call diagnostics%error('zero-length', place, element_name(model, k)//' has zero length: its nodes '// &
-                                   node_pair(model, p, q)//' are at one place', 'zero length', &
+                                   digits_of(model%node_number(p))//' and '// &
+                                   digits_of(model%node_number(q))//' are at one place', 'zero length', &
                                    'give the two nodes different positions')
          else if (length > longest .or. length < shortest) then
             call diagnostics%error('length-out-of-range', place, element_name(model, k)// &
@@ -174,22 +177,18 @@ contains
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
       character(len=:), allocatable :: name
-      character(len=12) :: number
 
-      number = ''
+      name = trim(element_kinds(model%element_kind(k))%keyword)
       ! A number that could not be read is zero.
-      if (model%element_number(k) > 0) write (number, '(i0)') model%element_number(k)
-      name = trim(trim(element_kinds(model%element_kind(k))%keyword)//' '//number)
+      if (model%element_number(k) > 0) name = name//' '//digits_of(model%element_number(k))
    end function element_name
 
-   pure function node_pair(model, p, q) result(pair)
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: p, q
-      character(len=:), allocatable :: pair
-      character(len=12) :: first, second
+   pure function digits_of(number) result(digits)
+      integer, intent(in) :: number
+      character(len=:), allocatable :: digits
+      character(len=12) :: room
 
-      write (first, '(i0)') model%node_number(p)
-      write (second, '(i0)') model%node_number(q)
-      pair = trim(first)//' and '//trim(second)
-   end function node_pair
+      write (room, '(i0)') number
+      digits = trim(room)
+   end function digits_of
 end module flexact_checks

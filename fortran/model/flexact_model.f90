@@ -1,32 +1,21 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The model: nodes, elements and classes as arrays.
 !>
-!> Every node has three axes: x, y, z of a position node, the rotations about
-!> x, y, z of an orientation node. A class of `class_none` says that the node
-!> has no such coordinate (z of a planar position; all but rz of an angle).
+!> A class of `class_none` says that a node has no such coordinate (z of a planar
+!> position; all but rz of an angle), or an element no such deformation.
 module flexact_model
    use flexact_kinds, only: wp
    implicit none
    private
    public :: model_t
-   public :: node_planar_position, node_position, node_angle, node_orientation
-   public :: class_none, class_fixed, class_dependent, class_independent
-   public :: slots, most_deformations
-   public :: is_position, has_axis
-
-   integer, parameter :: node_planar_position = 1
-   integer, parameter :: node_position = 2
-   integer, parameter :: node_angle = 3
-   integer, parameter :: node_orientation = 4
+   public :: class_none, class_fixed, class_dependent, class_independent, class_names
 
    integer, parameter :: class_none = 0
    integer, parameter :: class_fixed = 1
    integer, parameter :: class_dependent = 2
    integer, parameter :: class_independent = 3
 
-   !> The node slots of an element: position p, orientation p, position q,
-   !> orientation q.
-   integer, parameter :: slots = 4
-   integer, parameter :: most_deformations = 6
+   character(len=24), parameter :: class_names(0:3) = [character(len=24) :: 'none', 'fixed', 'dependent', 'independent']
 
    type :: model_t
       integer :: nodes = 0
@@ -50,24 +39,4 @@ module flexact_model
       !> Where the element's statement starts in the deck's text; 0 without one.
       integer, allocatable :: element_origin(:)
    end type model_t
-
-contains
-
-   pure logical function is_position(kind)
-      integer, intent(in) :: kind
-      is_position = kind == node_planar_position .or. kind == node_position
-   end function is_position
-
-   !> Whether a node of this kind has a coordinate along or about the axis.
-   pure logical function has_axis(kind, axis)
-      integer, intent(in) :: kind, axis
-      select case (kind)
-      case (node_planar_position)
-         has_axis = axis <= 2
-      case (node_angle)
-         has_axis = axis == 3
-      case default
-         has_axis = .true.
-      end select
-   end function has_axis
 end module flexact_model

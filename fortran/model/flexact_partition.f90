@@ -1,17 +1,13 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The partition of coordinates and deformations into fixed (o), dependent (c)
 !> and independent (m), eqs. (6), (7) and (13) to (15), and the order of the
 !> rows and columns of D(c), eq. (11).
 module flexact_partition
-   use flexact_model, only: model_t, class_none, class_fixed, class_dependent, class_independent, &
-                            has_axis, slots
-   use flexact_element_table, only: element_kinds
+   use flexact_model, only: model_t, class_none, class_fixed, class_dependent, class_independent
    implicit none
    private
-   public :: axes, class_count_t, model_count_t, partition_t
+   public :: class_count_t, model_count_t, partition_t
    public :: count_model, make_partition
-
-   !> So many axes has a node, whether or not there is a coordinate on them.
-   integer, parameter :: axes = 3
 
    type :: class_count_t
       integer :: total = 0
@@ -28,8 +24,6 @@ module flexact_partition
       !> dependent coordinates: the two sides of eq. (13).
       integer :: rows = 0
       integer :: columns = 0
-      !> The whole Jacobian D_x has no more entries than this.
-      integer :: entries = 0
    end type model_count_t
 
    !> Rows: elements in order, deformations in order. Columns: nodes in order,
@@ -48,21 +42,17 @@ module flexact_partition
 
 contains
 
-   !> Count classes, rows, columns and entries. Of the model only the kinds
-   !> and classes are needed.
-   pure subroutine count_model(model, counts)
-      type(model_t), intent(in) :: model
-      type(model_count_t), intent(out) :: counts
-      integer :: k
+   !> Count the classes of all coordinates and deformations, and the rows and
+   !> columns that follow from them.
+   pure function count_model(coordinate_class, deformation_class) result(counts)
+      integer, intent(in) :: coordinate_class(:, :), deformation_class(:, :)
+      type(model_count_t) :: counts
 
-      counts%coordinates = count_classes(model%coordinate_class)
-      counts%deformations = count_classes(model%deformation_class)
+      counts%coordinates = count_classes(coordinate_class)
+      counts%deformations = count_classes(deformation_class)
       counts%rows = counts%deformations%fixed + counts%deformations%independent
       counts%columns = counts%coordinates%dependent
-      do k = 1, size(model%element_kind)
-         counts%entries = counts%entries + entries_of(model%element_kind(k))
-      end do
-   end subroutine count_model
+   end function count_model
 
    pure type(class_count_t) function count_classes(class) result(counts)
       integer, intent(in) :: class(:, :)
@@ -72,27 +62,12 @@ contains
       counts%independent = count(class == class_independent)
    end function count_classes
 
-   !> Deformations of an element kind times the coordinates of its nodes.
-   pure integer function entries_of(kind) result(entries)
-      integer, intent(in) :: kind
-      integer :: slot, axis
-
-      entries = 0
-      do slot = 1, slots
-         if (element_kinds(kind)%slot_kind(slot) == 0) cycle
-         do axis = 1, axes
-            if (has_axis(element_kinds(kind)%slot_kind(slot), axis)) &
-               entries = entries + element_kinds(kind)%deformations
-         end do
-      end do
-   end function entries_of
-
    !> Count the model and number the rows and columns of D(c).
    pure subroutine make_partition(model, partition)
       type(model_t), intent(in) :: model
       type(partition_t), intent(out) :: partition
 
-      call count_model(model, partition%count)
+      partition%count = count_model(model%coordinate_class, model%deformation_class)
       call number_classes(model%deformation_class, [class_fixed, class_independent], &
                           partition%count%rows, partition%row_of, partition%row_label)
       call number_classes(model%coordinate_class, [class_dependent, class_dependent], &

@@ -1,19 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Flexact: exact-constraint analysis of compliant mechanisms.
 
 Read a deck or make a `Model`, and `analyse` it: the `Analysis` says whether the
 mechanism is exactly, under- or over-constrained, with which motions and self-stresses.
+
+The names are loaded when they are first used, so that a command which needs few of them
+starts quickly.
 """
 
-from .analysis import Analysis, AnalysisError, analyse
-from .configuration import Configuration, Jacobian, deformations, jacobian
-from .diagnostics import DeckError, Diagnostic, FlexactError, ModelError, Place, Severity
-from .handles import Element, Node, Sheet
-from .model import Model
-from .modes import Motion, SelfStress
-from .reading import read, read_text
-from .verdict import Certainty, ClassCounts, Counts, Gap, Margin, Nearly, Verdict
+from typing import TYPE_CHECKING
 
-__version__ = "0.1.0"
+from .base.loading import load
+from .base.version import VERSION
+
+if TYPE_CHECKING:
+    from .analysis import Analysis, analyse
+    from .base.errors import FlexactError
+    from .deck.models import read, read_text
+    from .diagnostics.diagnostic import Diagnostic, Place, Severity
+    from .diagnostics.errors import DeckError, ModelError
+    from .model.configuration import Configuration
+    from .model.handles import Element, Node, Sheet
+    from .model.jacobian import Jacobian, deformations, jacobian
+    from .model.model import Model
+    from .result.decompose import AnalysisError
+    from .result.modes import Motion, SelfStress
+    from .result.verdict import (
+        Certainty,
+        ClassCounts,
+        Counts,
+        Gap,
+        Margin,
+        Nearly,
+        Verdict,
+    )
+
+__version__ = VERSION
+
+#: The module of each public name.
+_HOMES = {
+    "analysis": ("Analysis", "analyse"),
+    "base.errors": ("FlexactError",),
+    "deck.models": ("read", "read_text"),
+    "diagnostics.diagnostic": ("Diagnostic", "Place", "Severity"),
+    "diagnostics.errors": ("DeckError", "ModelError"),
+    "model.configuration": ("Configuration",),
+    "model.jacobian": ("Jacobian", "deformations", "jacobian"),
+    "model.handles": ("Element", "Node", "Sheet"),
+    "model.model": ("Model",),
+    "result.decompose": ("AnalysisError",),
+    "result.modes": ("Motion", "SelfStress"),
+    "result.verdict": (
+        *("Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Verdict"),
+    ),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "Analysis",
@@ -46,3 +87,17 @@ __all__ = [
     "read",
     "read_text",
 ]
+
+
+def __getattr__(name: str) -> object:
+    """A public name, loaded from its module."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value: object = getattr(load(f"flexact.{_HOME_OF[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return sorted({*globals(), *__all__})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """``python -m flexact`` is the command ``flexact``."""
 
 import sys

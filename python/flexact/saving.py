@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A result to a file whose suffix says what it is to be: picture, page or mesh."""
 
 from __future__ import annotations
@@ -5,45 +6,42 @@ from __future__ import annotations
 import os
 from operator import index
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .batch import BatchError
-from .outputs import OutputError, write_together
-
-if TYPE_CHECKING:
-    from .analysis import Analysis
+from .base.errors import BatchError
+from .drawing.selection import select_motion
+from .files.outputs import OutputError, write_together
+from .mesh import mesh_writer
+from .page import page
+from .picture import SUFFIXES, has_packages, picture_bytes
+from .result.result import Result
 
 #: Suffixes of pages.
 PAGES = (".html", ".htm")
+#: Width and height of a small picture [px].
+_SMALL = (480, 360)
 
 
 class ChoiceError(BatchError):
     """A choice that such a file does not know."""
 
 
-def save(analysis: Analysis, path: Path, choice: dict[str, Any]) -> None:
-    """Write a result; see `Analysis.save`."""
-    from .picture import SUFFIXES
-
+def save(analysis: Result, path: Path, choice: dict[str, Any]) -> None:
+    """Write a result; see `Result.save`."""
     given = {name: _checked(name, value) for name, value in choice.items() if value is not None}
     _refuse_deck(analysis, path)
     kind = path.suffix.lower()
     if kind in SUFFIXES:
-        from .picture import picture_bytes
-
         write_together({path: picture_bytes(analysis, kind, **given)})
     elif kind in PAGES:
         _refuse(given, path, ())
         write_together({path: page_bytes(analysis)})
     else:
-        from .mesh.writing import mesh_writer
-        from .shown import chosen_motion
-
         _refuse(given, path, ("motion", "freedom"))
         if len(given) > 1:
             raise ChoiceError(f"{path.name} shows a motion or a degree of freedom, not both")
         write = mesh_writer(path)
-        shown = chosen_motion(analysis, **given)
+        shown = select_motion(analysis, **given)
         write(analysis, None if shown is None else shown.motion, path)
 
 
@@ -63,7 +61,7 @@ def _checked(name: str, value: Any) -> Any:
         raise ChoiceError(f"{name} is a number from 1, not {type(value).__name__}") from None
 
 
-def _refuse_deck(analysis: Analysis, path: Path) -> None:
+def _refuse_deck(analysis: Result, path: Path) -> None:
     """Raise where the file is the deck itself, or can be none.
 
     Raises:
@@ -78,12 +76,17 @@ def _refuse_deck(analysis: Analysis, path: Path) -> None:
         raise OutputError(f"{path} would overwrite the deck")
 
 
-def page_bytes(analysis: Analysis) -> bytes:
+def page_bytes(analysis: Result) -> bytes:
     """The page of a result, with a still picture where the packages for it are installed."""
-    from .report import page
-    from .report.still import has_pictures, still
+    still = picture_bytes(analysis, ".png") if has_packages() else None
+    return as_bytes(page(analysis, still))
 
-    return as_bytes(page(analysis, still(analysis) if has_pictures() else None))
+
+def small_picture(analysis: Result) -> bytes | None:
+    """A small picture without words for an index, as PNG, where the packages are installed."""
+    if not has_packages():
+        return None
+    return picture_bytes(analysis, ".png", size=_SMALL, plain=True)
 
 
 def as_bytes(page: str) -> bytes:

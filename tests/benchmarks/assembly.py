@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Models made of whole arrays of nodes and elements, without a loop over them."""
 
 from __future__ import annotations
@@ -6,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from flexact import Model
-from flexact.elements import Class, NodeKind, kind_of
-from flexact.exchange import model_arrays
-from flexact.model_data import DeckNames, ModelData
+from flexact.core.arrays import model_arrays
+from flexact.core.elements import Class, NodeKind, kind_of
+from flexact.model.data import DeckNames, ModelData
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]

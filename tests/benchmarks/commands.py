@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a user waits for: one analysis, one command, one file, each against a yardstick.
 
 What is compared is run in turn, A B A B, and the ratio is that of the medians, so that a slow
@@ -17,8 +18,8 @@ from pathlib import Path
 import numpy as np
 
 import flexact
-from flexact.exchange import model_arrays
-from flexact.model_data import ModelData
+from flexact.core.arrays import model_arrays
+from flexact.model.data import ModelData
 
 DECK = Path(__file__).parents[2] / "input_decks" / "paper" / "five_folded_sheets.dat"
 COMMAND = (sys.executable, "-m", "flexact")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The rank of a framework of bars in exact arithmetic modulo a prime.
 
 The row of a bar holds the differences of the coordinates of its ends. Each double is a whole
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from flexact import Model
-from flexact.elements import Class
+from flexact.core.elements import Class
 
 _PRIME = 2**31 - 1
 Residues = NDArray[np.int64]

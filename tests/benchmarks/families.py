@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Families of mechanisms of any size, most of them with known counts.
 
 Each function makes a model with about the number of dependent coordinates that is asked for,
@@ -16,7 +17,7 @@ import numpy as np
 from assembly import Assembly, Floats, Indices
 
 from flexact import Model
-from flexact.elements import NodeKind
+from flexact.core.elements import NodeKind
 
 
 class Case(NamedTuple):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """D(c) of a model as a sparse matrix, scaled as the analysis scales it, for the peers."""
 
 from __future__ import annotations
@@ -8,8 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from flexact import Model, _boundary
-from flexact.elements import Class, NodeKind
+from flexact import Model
+from flexact.core import calls
+from flexact.core.arrays import packed
+from flexact.core.elements import Class, NodeKind
 
 
 class Columns(NamedTuple):
@@ -41,11 +44,10 @@ def scaled_jacobian(model: Model) -> Columns:
 
     A row's norm is that of all its entries, those of fixed coordinates too.
     """
-    data = model.data
-    arrays = data.arrays
+    arrays = model.data.arrays
     elements = arrays.element_number.size
     configuration = np.asfortranarray(arrays.node_value)
-    whole = _boundary.assemble(arrays, data.count.entries, configuration, np.zeros(elements))
+    whole = calls.assemble(packed(arrays), configuration, np.zeros(elements))
     rotation = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
     value = np.where(rotation[whole.column_of], whole.value / _mean_length(model), whole.value)
     square = np.bincount(whole.row_of, value**2, 6 * elements)

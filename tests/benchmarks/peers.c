@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Null spaces by bare SuiteSparse, for run.py to compare with.
 
    peers FILE qr|cholesky metis|default motions|both

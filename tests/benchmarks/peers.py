@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The bare SuiteSparse of peers.c: compiled where its headers are, and run on a matrix."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The picture of the trade: time against size by family, and error against size, by method."""
 
 from __future__ import annotations
@@ -21,7 +22,6 @@ _STYLE: dict[str, dict[str, Any]] = {
     "sparse": {"color": "#3a8fd9", "linewidth": 1.6, "marker": "s"},
     "svd": {"color": "#2aa876", "linewidth": 1.6, "marker": "^"},
     "jacobi": {"color": "#a06fd0", "linewidth": 1.6, "marker": "D"},
-    "qr": {"color": "#c9a227", "linewidth": 1.6, "marker": "v"},
     "dgesdd": {"color": "#808080", "linewidth": 1.4, "linestyle": "--", "marker": "^"},
     "best bare SuiteSparse": {
         "color": "#808080",

@@ -1,9 +1,10 @@
-"""Measure, and write the table and the picture that README shows.
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measure, and write the tables and the picture of docs/benchmarks.md.
 
     python tests/benchmarks/run.py [--quick]
 
-writes table.md beside this file and trade.svg to docs/. With --quick, sizes up to 1000 only,
-written to build/bench.
+writes the tables into docs/benchmarks.md and trade.svg beside it. With --quick, sizes up to 1000
+only, written to build/bench.
 """
 
 from __future__ import annotations
@@ -25,15 +26,18 @@ from commands import (
     reading_against_split,
 )
 from picture import draw
-from trade import NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
+from trade import METHODS, NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
 
-HERE = Path(__file__).parent
+ROOT = Path(__file__).parents[2]
 #: Where a quick run writes.
-QUICK = HERE.parents[1] / "build" / "bench"
-PICTURE = HERE.parents[1] / "docs" / "trade.svg"
+QUICK = ROOT / "build" / "bench"
+PAGE = ROOT / "docs" / "benchmarks.md"
+PICTURE = ROOT / "docs" / "trade.svg"
+#: The tables stand between these two lines of the page.
+FIRST, LAST = "<!-- tables: make bench -->", "<!-- end of tables -->"
 #: Sizes that the table shows of each family; against dgesdd where it ran, else the best peer.
 _SHOWN = (1000, 3000, 100_000, 300_000)
-_METHODS = ("svd", "jacobi", "qr", "sparse", "auto")
+_METHODS = (*METHODS[1:], METHODS[0])
 #: Arrays on which the smallest singular value is compared.
 _CONDITIONED = (("amplifying", 42 * 16), *(("small", 42 * side**2) for side in (2, 3, 4, 5)))
 _QUICK = (100, 300, 1000)
@@ -52,8 +56,16 @@ def main() -> None:
     print(text)
     if quick:
         QUICK.mkdir(parents=True, exist_ok=True)
-    ((QUICK if quick else HERE) / "table.md").write_text(text)
+        (QUICK / "tables.md").write_text(text)
+    else:
+        PAGE.write_text(_with_tables(PAGE.read_text(), text))
     draw(found, errors, QUICK / "trade.svg" if quick else PICTURE)
+
+
+def _with_tables(page: str, tables: str) -> str:
+    """The page with other tables."""
+    before, rest = page.split(FIRST)
+    return f"{before}{FIRST}\n\n{tables}\n{LAST}{rest.split(LAST)[1]}"
 
 
 def _commands() -> list[str]:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Error of the smallest singular value against 60 digits, where it is very small.
 
     python tests/benchmarks/smallest_value.py small|amplifying COLUMNS METHOD ...

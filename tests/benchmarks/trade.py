@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Speed against accuracy: every method and the peers on families of growing size.
 
 A contestant runs in a process of its own (worker.py, peers.c), on one thread. The contestants
@@ -23,6 +24,8 @@ from exact_rank import rank_of_bars
 from families import FAMILIES, Case
 from matrix import scaled_jacobian
 
+from flexact.core.calls import METHODS
+
 HERE = Path(__file__).parent
 NAMES = {
     "T": "bar grid",
@@ -38,13 +41,12 @@ SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000, 300_000)
 _LARGEST = {"O": 100_000, "Tb": 100_000, "Bx": 30_000}
 #: Largest size at which a method runs, and larger ones of single families. Beyond, `auto` is
 #: `sparse`.
-_UP_TO = {"dgesdd": 1000, "svd": 1000, "jacobi": 1000, "qr": 1000, "sparse": 3000}
+_UP_TO = {"dgesdd": 1000, "svd": 1000, "jacobi": 1000, "sparse": 3000}
 _UP_TO_OF = {
     ("dgesdd", "T"): 3000,
     ("dgesdd", "B"): 3000,
     ("dgesdd", "C"): 3000,
     ("svd", "B"): 3000,
-    ("qr", "B"): 3000,
 }
 PEERS = tuple(
     f"{method} {order}" for method in ("QR", "Cholesky") for order in ("METIS", "default")
@@ -138,7 +140,7 @@ def _truth(family: str, size: int, case: Case) -> tuple[int, int] | None:
 
 
 def _flexact_calls(family: str, size: int) -> Iterator[tuple[str, list[str]]]:
-    for contestant in ("dgesdd", "svd", "jacobi", "qr", "sparse", "auto"):
+    for contestant in ("dgesdd", *METHODS[1:], METHODS[0]):
         largest = _UP_TO.get(contestant, SIZES[-1])
         if family == "Bx" and size < 1000:
             continue
@@ -225,7 +227,7 @@ def _outcome(
 
 def errors_of_smallest(cases: tuple[tuple[str, int], ...]) -> list[dict[str, Any]]:
     """Relative errors of the smallest singular value by method (smallest_value.py)."""
-    methods = ["svd", "jacobi", "qr", "sparse", "auto"]
+    methods = [*METHODS[1:], METHODS[0]]
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
     made = []
     for kind, size in cases:

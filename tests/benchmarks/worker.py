@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One contestant on one model, in a process of its own, so that its memory can be told.
 
     python tests/benchmarks/worker.py FAMILY COLUMNS METHOD
@@ -24,7 +25,7 @@ from matrix import Columns, scaled_jacobian
 from numpy.typing import NDArray
 
 import flexact
-from flexact.exchange import Basis
+from flexact.core.basis import Basis
 
 _T = TypeVar("_T")
 #: Null vectors of which the residual is computed.

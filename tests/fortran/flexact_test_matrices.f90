@@ -1,11 +1,11 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Matrices of known singular values for the unit tests.
 module flexact_test_matrices
    use flexact_kinds, only: wp
-   use flexact_null_space, only: operator_t
-   use flexact_sparse, only: sparse_t, compress, transposed
+   use flexact_sparse, only: sparse_t, compress
    implicit none
    private
-   public :: identity, sparse_of, dense_of, operator_of, random_orthogonal, banded, grid, path
+   public :: identity, sparse_of, dense_of, random_orthogonal, banded, grid, path
 
 contains
 
@@ -49,14 +49,6 @@ contains
          end do
       end do
    end function dense_of
-
-   pure function operator_of(matrix) result(a)
-      type(sparse_t), intent(in) :: matrix
-      type(operator_t) :: a
-
-      a%by_column = matrix
-      call transposed(matrix, a%by_row)
-   end function operator_of
 
    !> A product of reflections.
    function random_orthogonal(n) result(q)

@@ -1,13 +1,17 @@
-!> Small models made by hand for the unit tests.
+! SPDX-License-Identifier: BSD-3-Clause
+!> Small models made by hand for the unit tests, and their D(c) as a dense matrix.
 module flexact_test_models
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, node_position, node_orientation, &
-                            class_none, class_fixed, class_dependent, has_axis
-   use flexact_element_table, only: element_kinds, kind_truss, kind_beam, kind_rbeam
+   use flexact_model, only: model_t, class_none, class_fixed, class_dependent
+   use flexact_slots, only: node_position, node_orientation, has_axis
+   use flexact_element_table, only: element_kinds, find_element_kind, deformations_of
+   use flexact_partition, only: partition_t
+   use flexact_jacobian, only: jacobian_t
    implicit none
    private
    public :: new_model, set_node, set_element, fix, release
    public :: twelve_trusses, folded_sheet, parallel_guide
+   public :: fill_dense
 
 contains
 
@@ -57,7 +61,7 @@ contains
       model%element_node(:, element) = node
       if (present(vector)) model%element_vector(:, element) = vector
       model%deformation_class(:, element) = class_none
-      model%deformation_class(:element_kinds(kind)%deformations, element) = class_fixed
+      model%deformation_class(:deformations_of(kind), element) = class_fixed
    end subroutine set_element
 
    !> Fix all coordinates of some nodes.
@@ -92,7 +96,7 @@ contains
       end do
       call fix(model, [1, 2, 3, 4])
       do i = 1, 12
-         call set_element(model, i, kind_truss, [ends(1, i), 0, ends(2, i), 0])
+         call set_element(model, i, find_element_kind('TRUSS'), [ends(1, i), 0, ends(2, i), 0])
       end do
    end function twelve_trusses
 
@@ -112,8 +116,8 @@ contains
          call set_node(model, i, node_orientation, upright)
       end do
       call fix(model, [1, 2, 5, 6])
-      call set_element(model, 1, kind_beam, [1, 2, 3, 4], [0.0_wp, 1.0_wp, 0.0_wp])
-      call set_element(model, 2, kind_beam, [3, 4, 5, 6], [1.0_wp, 0.0_wp, 0.0_wp])
+      call set_element(model, 1, find_element_kind('BEAM'), [1, 2, 3, 4], [0.0_wp, 1.0_wp, 0.0_wp])
+      call set_element(model, 2, find_element_kind('BEAM'), [3, 4, 5, 6], [1.0_wp, 0.0_wp, 0.0_wp])
       call release(model, 1, [2, 5, 6])
       call release(model, 2, [2, 5, 6])
    end function folded_sheet
@@ -137,10 +141,25 @@ contains
          call set_node(model, i, node_orientation, upright)
       end do
       call fix(model, [1, 3, 5, 6])
-      call set_element(model, 1, kind_beam, [1, 5, 2, 7], y)
-      call set_element(model, 2, kind_beam, [3, 6, 4, 7], y)
+      call set_element(model, 1, find_element_kind('BEAM'), [1, 5, 2, 7], y)
+      call set_element(model, 2, find_element_kind('BEAM'), [3, 6, 4, 7], y)
       call release(model, 1, [2, 5, 6])
       call release(model, 2, [2, 5, 6])
-      call set_element(model, 3, kind_rbeam, [2, 7, 4, 0])
+      call set_element(model, 3, find_element_kind('RBEAM'), [2, 7, 4, 0])
    end function parallel_guide
+
+   !> D(c), eq. (11), as a dense matrix (rows, columns).
+   pure subroutine fill_dense(jacobian, partition, dense)
+      type(jacobian_t), intent(in) :: jacobian
+      type(partition_t), intent(in) :: partition
+      real(wp), intent(out) :: dense(:, :)
+      integer :: entry, i, j
+
+      dense = 0.0_wp
+      do entry = 1, jacobian%entries
+         i = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
+         j = partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
+         if (i > 0 .and. j > 0) dense(i, j) = jacobian%value(entry)
+      end do
+   end subroutine fill_dense
 end module flexact_test_models

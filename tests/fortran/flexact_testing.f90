@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A tally of checks for the unit tests.
 module flexact_testing
    use, intrinsic :: iso_fortran_env, only: error_unit

@@ -1,12 +1,14 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Derivatives of every element against central differences, and no
 !> deformation in a motion of the element as a rigid body.
 program test_derivatives
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
-   use flexact_euler, only: rotation_matrix
+   use flexact_euler, only: relative_rotation, no_rotation
    use flexact_vectors, only: frame_along, planar_frame_along, planar_turn
    use flexact_element, only: element_deformation
-   use flexact_element_table, only: element_kinds, kind_pltruss
+   use flexact_element_table, only: element_kinds
+   use flexact_slots, only: node_planar_position, node_angle
    use flexact_testing, only: tally_t, set_random
    implicit none
 
@@ -26,7 +28,7 @@ contains
 
    logical function is_planar(kind)
       integer, intent(in) :: kind
-      is_planar = kind >= kind_pltruss
+      is_planar = any(element_kinds(kind)%slot_kind == node_planar_position .or. element_kinds(kind)%slot_kind == node_angle)
    end function is_planar
 
    !> Components between -size and size; without z in the plane.
@@ -66,7 +68,7 @@ contains
       if (planar) then
          pose%angle = turn(3)
       else
-         pose%rotation = rotation_matrix([1.0_wp, turn])
+         pose%rotation = relative_rotation([1.0_wp, turn], no_rotation)
       end if
    end function random_pose
 
@@ -84,7 +86,7 @@ contains
       if (column <= 3) then
          moved%position = pose%position + step*axis
       else
-         moved%rotation = matmul(rotation_matrix([cos(step/2), sin(step/2)*axis]), pose%rotation)
+         moved%rotation = matmul(relative_rotation([cos(step/2), sin(step/2)*axis], no_rotation), pose%rotation)
          if (column == 6) moved%angle = pose%angle + step
       end if
    end function nudged

@@ -1,11 +1,11 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Deformations of single elements whose values follow from geometry.
 program test_elements
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
-   use flexact_euler, only: rotation_matrix
+   use flexact_euler, only: relative_rotation, no_rotation
    use flexact_element, only: element_deformation
-   use flexact_element_table, only: kind_truss, kind_beam, kind_rbeam, kind_pinbody, kind_hinge, &
-                                    kind_plbeam, kind_plrbeam, kind_plhinge
+   use flexact_element_table, only: find_element_kind
    use flexact_testing, only: tally_t
    implicit none
 
@@ -40,7 +40,7 @@ contains
    pure function turn(axis, angle) result(rotation)
       real(wp), intent(in) :: axis(3), angle
       real(wp) :: rotation(3, 3)
-      rotation = rotation_matrix([cos(angle/2), sin(angle/2)*axis])
+      rotation = relative_rotation([cos(angle/2), sin(angle/2)*axis], no_rotation)
    end function turn
 
    function deformation_of(kind, reference, p, q) result(e)
@@ -56,10 +56,10 @@ contains
       real(wp) :: e(6)
 
       q%position = [2.0_wp, 0.0_wp, 0.0_wp] + [1.0_wp, 4.0_wp, 0.0_wp]
-      e = deformation_of(kind_truss, along_x(2.0_wp), p, q)
+      e = deformation_of(find_element_kind('TRUSS'), along_x(2.0_wp), p, q)
       call tally%near(e, [3.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, 'a 3-4-5 truss')
       q%position = 2*x + 1.0e-9_wp*y
-      e = deformation_of(kind_truss, along_x(2.0_wp), p, q)
+      e = deformation_of(find_element_kind('TRUSS'), along_x(2.0_wp), p, q)
       call tally%near(e(1:1)/1.0e-18_wp, [0.25_wp], 1.0e-12_wp, 'elongation of second order: v**2/(2 l)')
    end subroutine test_truss
 
@@ -80,10 +80,10 @@ contains
       linear(2, 4) = l
       linear(4, 5) = l
       linear(6, 6) = l
-      call element_deformation(kind_beam, reference, p, pose_at(l*x), e, derivative)
+      call element_deformation(find_element_kind('BEAM'), reference, p, pose_at(l*x), e, derivative)
       call tally%near(e, [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, 'straight beam')
       call tally%near(reshape(derivative(:, 7:12), [36]), reshape(linear, [36]), 1.0e-15_wp, 'beam modes')
-      e = deformation_of(kind_beam, reference, p, pose_at(l*x + d*y))
+      e = deformation_of(find_element_kind('BEAM'), reference, p, pose_at(l*x + d*y))
       call tally%near(e(5:6)/d, [1.0_wp, -1.0_wp], 1.0e-12_wp, 'bending in the xy plane')
    end subroutine test_beam_modes
 
@@ -103,15 +103,15 @@ contains
       q%position = l*sin(a)/a*x
       p%rotation = turn(z, -a)
       q%rotation = turn(z, a)
-      e = deformation_of(kind_beam, along_x(l), p, q)
+      e = deformation_of(find_element_kind('BEAM'), along_x(l), p, q)
       call tally%near(e, l*[0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, sin(a), sin(a)], l*a**4/20, 'arc in the xy plane')
       p%rotation = turn(y, a)
       q%rotation = turn(y, -a)
-      e = deformation_of(kind_beam, along_x(l), p, q)
+      e = deformation_of(find_element_kind('BEAM'), along_x(l), p, q)
       call tally%near(e, l*[0.0_wp, 0.0_wp, -sin(a), -sin(a), 0.0_wp, 0.0_wp], l*a**4/20, 'arc in the xz plane')
       p%angle = -a
       q%angle = a
-      e = deformation_of(kind_plbeam, along_x(l), p, q)
+      e = deformation_of(find_element_kind('PLBEAM'), along_x(l), p, q)
       call tally%near(e, l*[0.0_wp, -sin(a), -sin(a), 0.0_wp, 0.0_wp, 0.0_wp], l*a**4/20, 'planar arc')
    end subroutine test_circular_arcs
 
@@ -125,7 +125,7 @@ contains
       reference%c_t = c_t
       q%position = l*x
       q%rotation = turn(x, phi)
-      e = deformation_of(kind_beam, reference, p, q)
+      e = deformation_of(find_element_kind('BEAM'), reference, p, q)
       call tally%near(e, [c_t*sin(phi)**2/(2*l), l*sin(phi), 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], 1.0e-15_wp, &
                       'twist, with its elongation')
    end subroutine test_twist
@@ -135,9 +135,9 @@ contains
       type(pose_t), intent(out) :: p, q
 
       p%position = [0.2_wp, -0.1_wp, 0.3_wp]
-      p%rotation = rotation_matrix([1.0_wp, 0.02_wp, -0.1_wp, 0.15_wp])
+      p%rotation = relative_rotation([1.0_wp, 0.02_wp, -0.1_wp, 0.15_wp], no_rotation)
       q%position = p%position + [2.8_wp, 0.5_wp, 0.7_wp]
-      q%rotation = rotation_matrix([1.0_wp, 0.2_wp, 0.05_wp, -0.12_wp])
+      q%rotation = relative_rotation([1.0_wp, 0.2_wp, 0.05_wp, -0.12_wp], no_rotation)
    end subroutine bend
 
    !> Eqs. (3) and (4) as they are printed.
@@ -163,7 +163,7 @@ contains
          e(5) = b(5) - b(2)*(b(3) + b(4))/(6*l0)
          e(6) = b(6) + b(2)*(b(3) + b(4))/(6*l0)
       end associate
-      call tally%near(deformation_of(kind_beam, reference, p, q), e, 1.0e-14_wp, 'eqs. (3) and (4)')
+      call tally%near(deformation_of(find_element_kind('BEAM'), reference, p, q), e, 1.0e-14_wp, 'eqs. (3) and (4)')
    end subroutine test_paper_formulas
 
    !> Turning the local frame a quarter about the beam exchanges its bending
@@ -175,9 +175,9 @@ contains
 
       reference = along_x(3.0_wp)
       call bend(p, q)
-      e = deformation_of(kind_beam, reference, p, q)
+      e = deformation_of(find_element_kind('BEAM'), reference, p, q)
       reference%frame = reshape([x, z, -y], [3, 3])
-      turned_e = deformation_of(kind_beam, reference, p, q)
+      turned_e = deformation_of(find_element_kind('BEAM'), reference, p, q)
       call tally%near(turned_e, [e(1), e(2), e(5), e(6), -e(3), -e(4)], 1.0e-14_wp, 'frame turned by a quarter')
    end subroutine test_choice_of_frame
 
@@ -190,14 +190,14 @@ contains
       p%rotation = turn(z, pi/2)
       p%angle = pi/2
       q%position = p%position + [0.5_wp, 3.0_wp, 0.25_wp]
-      e = deformation_of(kind_rbeam, along_x(2.0_wp), p, q)
+      e = deformation_of(find_element_kind('RBEAM'), along_x(2.0_wp), p, q)
       call tally%near(e(1:3), [1.0_wp, -0.5_wp, 0.25_wp], 1.0e-15_wp, 'q in the frame of a turned p')
       q%position(3) = p%position(3)
-      e = deformation_of(kind_plrbeam, along_x(2.0_wp), p, q)
+      e = deformation_of(find_element_kind('PLRBEAM'), along_x(2.0_wp), p, q)
       call tally%near(e(1:2), [1.0_wp, -0.5_wp], 1.0e-15_wp, 'q in the planar frame of a turned p')
       reference%frame = reshape([x, y, z], [3, 3])
       q%position = p%position + [0.5_wp, 3.0_wp, 0.25_wp]
-      e = deformation_of(kind_pinbody, reference, p, q)
+      e = deformation_of(find_element_kind('PINBODY'), reference, p, q)
       call tally%near(e(1:3), [3.0_wp, -0.5_wp, 0.25_wp], 1.0e-15_wp, 'a pin whose points coincided')
    end subroutine test_rigid_beams
 
@@ -212,15 +212,15 @@ contains
       do i = -17, 17
          angle = i*pi/18
          q%rotation = matmul(p%rotation, turn(x, angle))
-         e = deformation_of(kind_hinge, reference, p, q)
+         e = deformation_of(find_element_kind('HINGE'), reference, p, q)
          call tally%near(e(1:3), [angle, 0.0_wp, 0.0_wp], 1.0e-14_wp, 'finite hinge angle')
       end do
       angle = 0.3_wp
-      e = deformation_of(kind_hinge, reference, turned(x, 0.0_wp), turned(y, angle))
+      e = deformation_of(find_element_kind('HINGE'), reference, turned(x, 0.0_wp), turned(y, angle))
       call tally%near(e(1:3), [0.0_wp, sin(angle), 0.0_wp], 1.0e-15_wp, 'hinge bent about y')
-      e = deformation_of(kind_hinge, reference, turned(x, 0.0_wp), turned(z, angle))
+      e = deformation_of(find_element_kind('HINGE'), reference, turned(x, 0.0_wp), turned(z, angle))
       call tally%near(e(1:3), [0.0_wp, 0.0_wp, sin(angle)], 1.0e-15_wp, 'hinge bent about z')
-      e = deformation_of(kind_hinge, reference, turned(x, 0.0_wp), turned(y, pi))
+      e = deformation_of(find_element_kind('HINGE'), reference, turned(x, 0.0_wp), turned(y, pi))
       call tally%check(all(abs(e) < 10), 'an axis turned over gives finite numbers')
    end subroutine test_hinge
 
@@ -235,7 +235,7 @@ contains
 
       p%angle = 1.0_wp
       q%angle = 1.0_wp + 5*pi
-      e = deformation_of(kind_plhinge, along_x(0.0_wp), p, q)
+      e = deformation_of(find_element_kind('PLHINGE'), along_x(0.0_wp), p, q)
       call tally%near(e(1:1), [5*pi], 1.0e-14_wp, 'planar hinge of several turns')
    end subroutine test_planar_hinge
 
@@ -247,10 +247,10 @@ contains
       integer :: i
 
       do i = 1, size(sizes)
-         call element_deformation(kind_beam, along_x(sizes(i)), p, pose_at(sizes(i)*x), e, derivative)
+         call element_deformation(find_element_kind('BEAM'), along_x(sizes(i)), p, pose_at(sizes(i)*x), e, derivative)
          call tally%near(derivative(3, 7:9), [0.0_wp, 0.0_wp, -1.0_wp], 1.0e-12_wp, 'beam of extreme length')
          call tally%near(derivative(5:6, 6)/sizes(i), [-1.0_wp, 0.0_wp], 1.0e-12_wp, 'its rotation')
-         call element_deformation(kind_truss, along_x(sizes(i)), p, pose_at(sizes(i)*[1.0_wp, 1.0_wp, 0.0_wp]), &
+         call element_deformation(find_element_kind('TRUSS'), along_x(sizes(i)), p, pose_at(sizes(i)*[1.0_wp, 1.0_wp, 0.0_wp]), &
                                   e, derivative)
          call tally%near(e(1:1)/sizes(i), [sqrt(2.0_wp) - 1], 1.0e-12_wp, 'truss of extreme length')
       end do

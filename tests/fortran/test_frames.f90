@@ -1,12 +1,15 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Local frames, and rotations from Euler parameters.
 program test_frames
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, node_position, node_orientation, node_planar_position, node_angle
+   use flexact_model, only: model_t
+   use flexact_slots, only: node_position, node_orientation, node_planar_position, node_angle
    use flexact_pose, only: pose_t, reference_t
    use flexact_vectors, only: cross
-   use flexact_euler, only: rotation_matrix, relative_rotation
-   use flexact_element, only: make_reference, make_poses
-   use flexact_element_table, only: kind_beam, kind_pinbody, kind_hinge, kind_plbeam
+   use flexact_euler, only: relative_rotation, no_rotation
+   use flexact_configuration, only: element_reference
+   use flexact_configuration, only: make_poses
+   use flexact_element_table, only: find_element_kind
    use flexact_testing, only: tally_t, set_random
    use flexact_test_models, only: new_model, set_node, set_element
    implicit none
@@ -42,8 +45,8 @@ contains
       call set_node(model, 3, node_position, point)
       call set_node(model, 4, node_orientation, [1.0_wp, none])
       call set_element(model, 1, kind, [1, 2, 3, 4], vector)
-      if (kind == kind_hinge) model%element_node(:, 1) = [0, 2, 0, 4]
-      call make_reference(model, 1, reference)
+      if (kind == find_element_kind('HINGE')) model%element_node(:, 1) = [0, 2, 0, 4]
+      call element_reference(model, 1, reference)
    end function reference_of
 
    subroutine check_frame(reference, ex, ey, name)
@@ -58,30 +61,30 @@ contains
       real(wp), parameter :: r = 1/sqrt(2.0_wp)
       real(wp) :: size
 
-      reference = reference_of(kind_beam, 2*x, [5.0_wp, 3.0_wp, 0.0_wp])
+      reference = reference_of(find_element_kind('BEAM'), 2*x, [5.0_wp, 3.0_wp, 0.0_wp])
       call check_frame(reference, x, y, 'vector made perpendicular to the beam')
       call tally%near([reference%length, reference%offset], [2.0_wp, 2*x], 0.0_wp, 'length and offset')
-      call check_frame(reference_of(kind_beam, -z, -y), -z, -y, 'vector as it is')
-      call check_frame(reference_of(kind_beam, [3.0_wp, 2.0_wp, 0.0_wp], z), &
+      call check_frame(reference_of(find_element_kind('BEAM'), -z, -y), -z, -y, 'vector as it is')
+      call check_frame(reference_of(find_element_kind('BEAM'), [3.0_wp, 2.0_wp, 0.0_wp], z), &
                        [3.0_wp, 2.0_wp, 0.0_wp]/sqrt(13.0_wp), z, 'oblique beam')
-      call check_frame(reference_of(kind_beam, [1.0_wp, 0.0_wp, 1.0_wp], none), [r, 0.0_wp, r], y, &
+      call check_frame(reference_of(find_element_kind('BEAM'), [1.0_wp, 0.0_wp, 1.0_wp], none), [r, 0.0_wp, r], y, &
                        'without a vector the axis least along the beam')
-      call check_frame(reference_of(kind_beam, x, none), x, y, 'and the first of equals')
-      call check_frame(reference_of(kind_beam, x, 7*x), x, y, 'a parallel vector is as none')
-      reference = reference_of(kind_beam, x, [1.0_wp, 1.0e-9_wp, 0.0_wp])
+      call check_frame(reference_of(find_element_kind('BEAM'), x, none), x, y, 'and the first of equals')
+      call check_frame(reference_of(find_element_kind('BEAM'), x, 7*x), x, y, 'a parallel vector is as none')
+      reference = reference_of(find_element_kind('BEAM'), x, [1.0_wp, 1.0e-9_wp, 0.0_wp])
       call check_frame(reference, x, y, 'a nearly parallel vector still gives right angles')
-      call check_frame(reference_of(kind_pinbody, none, none), x, y, 'a pin without length has the global axes')
-      call check_frame(reference_of(kind_pinbody, z, none), z, x, 'a pin with length has its direction')
+      call check_frame(reference_of(find_element_kind('PINBODY'), none, none), x, y, 'a pin without length has the global axes')
+      call check_frame(reference_of(find_element_kind('PINBODY'), z, none), z, x, 'a pin with length has its direction')
       size = 1.0e300_wp
-      call check_frame(reference_of(kind_beam, size*[1, 0, 1], size*y), [r, 0.0_wp, r], y, 'huge coordinates')
+      call check_frame(reference_of(find_element_kind('BEAM'), size*[1, 0, 1], size*y), [r, 0.0_wp, r], y, 'huge coordinates')
       size = 1.0e-310_wp
-      call check_frame(reference_of(kind_beam, size*[1, 0, 1], size*y), [r, 0.0_wp, r], y, 'subnormal coordinates')
+      call check_frame(reference_of(find_element_kind('BEAM'), size*[1, 0, 1], size*y), [r, 0.0_wp, r], y, 'subnormal coordinates')
    end subroutine test_beam_frames
 
    subroutine test_hinge_frames()
       type(reference_t) :: reference
 
-      reference = reference_of(kind_hinge, none, 3*y)
+      reference = reference_of(find_element_kind('HINGE'), none, 3*y)
       call check_frame(reference, y, x, 'hinge axis and the global axis least along it')
       call tally%near([reference%length], [0.0_wp], 0.0_wp, 'a hinge has no length')
    end subroutine test_hinge_frames
@@ -95,8 +98,8 @@ contains
       call set_node(model, 2, node_angle, [0.4_wp])
       call set_node(model, 3, node_planar_position, [1.0_wp, 3.0_wp])
       call set_node(model, 4, node_angle, [-0.3_wp])
-      call set_element(model, 1, kind_plbeam, [1, 2, 3, 4])
-      call make_reference(model, 1, reference)
+      call set_element(model, 1, find_element_kind('PLBEAM'), [1, 2, 3, 4])
+      call element_reference(model, 1, reference)
       call check_frame(reference, y, -x, 'planar beam')
    end subroutine test_planar_frame
 
@@ -104,13 +107,13 @@ contains
       real(wp), parameter :: half = 0.5_wp
       real(wp) :: r(3, 3)
 
-      r = rotation_matrix([half, half, half, half])
+      r = relative_rotation([half, half, half, half], no_rotation)
       call tally%near(reshape(r, [9]), [y, z, x], 0.0_wp, 'a third of a turn about (1,1,1) takes x to y to z')
-      r = rotation_matrix([2.0_wp, 0.0_wp, 0.0_wp, 2.0_wp])
+      r = relative_rotation([2.0_wp, 0.0_wp, 0.0_wp, 2.0_wp], no_rotation)
       call tally%near(reshape(r, [9]), [y, -x, z], 1.0e-15_wp, 'a quarter about z, not normalised')
-      r = rotation_matrix([0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      r = relative_rotation([0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], no_rotation)
       call tally%near(reshape(r, [9]), [x, y, z], 0.0_wp, 'no parameters, no rotation')
-      r = rotation_matrix(1.0e-320_wp*[1, 0, 0, 1])
+      r = relative_rotation(1.0e-320_wp*[1, 0, 0, 1], no_rotation)
       call tally%near(reshape(r, [9]), [y, -x, z], 1.0e-3_wp, 'subnormal parameters')
    end subroutine test_rotation_matrix
 
@@ -123,7 +126,7 @@ contains
          call random_number(b)
          a = a - 0.5_wp
          b = b - 0.5_wp
-         expected = matmul(rotation_matrix(a), transpose(rotation_matrix(b)))
+         expected = matmul(relative_rotation(a, no_rotation), transpose(relative_rotation(b, no_rotation)))
          call tally%near(reshape(relative_rotation(a, b), [9]), reshape(expected, [9]), 1.0e-14_wp, &
                          'product of two rotation matrices')
          call tally%near(reshape(relative_rotation(a, a), [9]), [x, y, z], 0.0_wp, 'exactly the identity')
@@ -143,8 +146,8 @@ contains
       call set_node(model, 4, node_orientation, [1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp])
       call set_node(model, 5, node_angle, [0.0_wp])
       call set_node(model, 6, node_orientation, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
-      call set_element(model, 1, kind_beam, [3, 4, 3, 6])
-      call set_element(model, 2, kind_plbeam, [1, 2, 3, 5])
+      call set_element(model, 1, find_element_kind('BEAM'), [3, 4, 3, 6])
+      call set_element(model, 2, find_element_kind('PLBEAM'), [1, 2, 3, 5])
       configuration = 0.0_wp
       configuration(:, 1) = 9.0_wp
       configuration(1, 2) = 0.6_wp

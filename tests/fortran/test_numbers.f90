@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Numbers of a deck: values to the last bit, and why a word is none.
 program test_numbers
    use, intrinsic :: iso_fortran_env, only: int64

@@ -1,11 +1,12 @@
-!> The picture block of decks: what the look holds afterwards, and what is told.
+! SPDX-License-Identifier: BSD-3-Clause
+!> The picture block of decks: what the appearance holds afterwards, and what is reported.
 program test_picture
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use flexact_deck, only: read_deck
-   use flexact_deck_scene, only: scene_t
+   use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: diagnostics_t, severity_error, severity_warning, severity_note
    use flexact_kinds, only: wp
-   use flexact_look, only: section_none, section_rect, section_circ, section_line, section_names, section_sizes
+   use flexact_appearance, only: section_none, section_rect, section_circ, section_line, section_names, section_sizes
    use flexact_testing, only: tally_t
    implicit none
    type(tally_t) :: tally
@@ -14,7 +15,7 @@ program test_picture
    character(len=*), parameter :: model = 'BEAM 1 1 2 3 4'//nl//'BEAM 4 3 4 5 6'//nl//'TRUSS 7 1 3'//nl// &
                                   'TRUSS 9 1 5'//nl//'X 3 1 0 0'//nl//'X 5 1 1 0'//nl//'FIX 1'//nl//'END'//nl// &
                                   'HALT'//nl//'END'//nl//'VISUALIZATION'//nl
-   type(scene_t) :: scene
+   type(deck_model_t) :: made
    type(diagnostics_t) :: diagnostics
    integer :: unused
 
@@ -35,41 +36,43 @@ contains
       character(len=*), intent(in) :: picture
 
       diagnostics = diagnostics_t()
-      call read_deck(model//picture, scene, unused, diagnostics)
+      call read_deck(model//picture, made, unused, diagnostics)
    end subroutine read_with
 
    subroutine no_picture()
       diagnostics = diagnostics_t()
       call read_deck('TRUSS 1 1 2'//nl//'X 2 1 0 0'//nl//'FIX 1'//nl//'END'//nl//'HALT'//nl//'EM 1 1', &
-                     scene, unused, diagnostics)
-      call tally%check(.not. allocated(scene%look), 'no picture block, no look')
+                     made, unused, diagnostics)
+      call tally%check(.not. allocated(made%appearance), 'no picture block, no appearance')
       call tally%check(unused == 1, 'the mass is not used')
    end subroutine no_picture
 
    subroutine groups_and_options()
+      integer :: i
+
       call read_with('OPACITY .5'//nl//'BEAMPROPS 1 7'//nl//'CROSSTYPE rect'//nl//'CROSSDIM 1D-3 0.04 ; y, z'//nl// &
                      'GRAPHICS'//nl//'FACECOLOR 0 51 255'//nl//'GRAPHICS 4 4'//nl//'EDGECOLOR 0.25 1 0'//nl//'DONOTDRAW 9 7')
       call tally%check(diagnostics%kept == 0 .and. unused == 0, 'all is used')
-      associate (look => scene%look)
-         call tally%check(all(look%cross_section == [section_rect, section_none, section_rect, section_none]), 'kinds')
-         call tally%near([look%dimensions(:, 1), look%dimensions(:, 3)], [0.001_wp, 0.04_wp, 0.001_wp, 0.04_wp], &
+      associate (appearance => made%appearance)
+         call tally%check(all(appearance%cross_section == [section_rect, section_none, section_rect, section_none]), 'kinds')
+         call tally%near([appearance%dimensions(:, 1), appearance%dimensions(:, 3)], [0.001_wp, 0.04_wp, 0.001_wp, 0.04_wp], &
                          0.0_wp, 'local y first')
-         call tally%check(all(abs(look%dimensions(:, 2)) <= 0.0_wp), 'no sizes elsewhere')
-         call tally%near(reshape(look%colour, [12]), [0.0_wp, 0.2_wp, 1.0_wp, 0.0_wp, 0.2_wp, 1.0_wp, 0.0_wp, 0.2_wp, &
-                                                      1.0_wp, 0.0_wp, 0.2_wp, 1.0_wp], 0.0_wp, 'a group of all, from 0 to 255')
-         call tally%near(look%edge_colour(:, 2), [0.25_wp, 1.0_wp, 0.0_wp], 0.0_wp, 'colour from 0 to 1')
-         call tally%check(all(ieee_is_nan(look%edge_colour(:, 1))), 'not given')
-         call tally%near(look%opacity, [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp], 0.0_wp, 'before any group: all')
-         call tally%check(all(look%drawn .eqv. [.true., .true., .false., .false.]), 'DONOTDRAW')
+         call tally%check(all(abs(appearance%dimensions(:, 2)) <= 0.0_wp), 'no sizes elsewhere')
+         call tally%near(reshape(appearance%colour, [12]), [(0.0_wp, 0.2_wp, 1.0_wp, i=1, 4)], &
+                         0.0_wp, 'a group of all, from 0 to 255')
+         call tally%near(appearance%edge_colour(:, 2), [0.25_wp, 1.0_wp, 0.0_wp], 0.0_wp, 'colour from 0 to 1')
+         call tally%check(all(ieee_is_nan(appearance%edge_colour(:, 1))), 'not given')
+         call tally%near(appearance%opacity, [0.5_wp, 0.5_wp, 0.5_wp, 0.5_wp], 0.0_wp, 'before any group: all')
+         call tally%check(all(appearance%drawn .eqv. [.true., .true., .false., .false.]), 'DONOTDRAW')
       end associate
    end subroutine groups_and_options
 
    subroutine the_last_counts()
       call read_with('BEAMPROPS 1 4'//nl//'CROSSTYPE CIRC'//nl//'CROSSDIM .1'//nl//'BEAMPROPS 4'//nl//'CROSSDIM .2'//nl// &
                      'GRAPHICS 1'//nl//'FACECOLOR 1 0 0'//nl//'GRAPHICS'//nl//'FACECOLOR 0 1 0')
-      call tally%near(scene%look%dimensions(1, :2), [0.1_wp, 0.2_wp], 0.0_wp, 'the last size')
-      call tally%check(all(scene%look%cross_section(:2) == section_circ), 'the kind of the group before')
-      call tally%near(scene%look%colour(:, 1), [0.0_wp, 1.0_wp, 0.0_wp], 0.0_wp, 'the last colour')
+      call tally%near(made%appearance%dimensions(1, :2), [0.1_wp, 0.2_wp], 0.0_wp, 'the last size')
+      call tally%check(all(made%appearance%cross_section(:2) == section_circ), 'the kind of the group before')
+      call tally%near(made%appearance%colour(:, 1), [0.0_wp, 1.0_wp, 0.0_wp], 0.0_wp, 'the last colour')
    end subroutine the_last_counts
 
    !> Sizes before the kind, walls behind the sizes, and sizes without a kind.
@@ -78,39 +81,39 @@ contains
                      'BEAMPROPS 4'//nl//'CROSSTYPE CIRCHOL'//nl//'CROSSDIM .3 .01'//nl//'BEAMPROPS 7'//nl//'CROSSDIM .4'//nl// &
                      'BEAMPROPS 9'//nl//'CROSSDIM .5 .6')
       call tally%check(diagnostics%kept == 0, 'walls are read')
-      call tally%check(all(section_names(scene%look%cross_section) == ['RECTHOL', 'CIRCHOL', 'CIRC   ', 'RECT   ']), &
+      call tally%check(all(section_names(made%appearance%cross_section) == ['RECTHOL', 'CIRCHOL', 'CIRC   ', 'RECT   ']), &
                        'one number is a diameter, two are a rectangle')
-      call tally%near(reshape(scene%look%dimensions, [8]), [0.1_wp, 0.2_wp, 0.3_wp, 0.3_wp, 0.4_wp, 0.4_wp, 0.5_wp, 0.6_wp], &
+      call tally%near(reshape(made%appearance%dimensions, [8]), [0.1_wp, 0.2_wp, 0.3_wp, 0.3_wp, 0.4_wp, 0.4_wp, 0.5_wp, 0.6_wp], &
                       0.0_wp, 'outer sizes, a diameter twice')
       call tally%check(all(section_sizes == [2, 1, 2, 1, 0]), 'how many outer sizes')
       call read_with('CROSSTYPE LINE')
-      call tally%check(all(scene%look%cross_section == section_line), 'a line has no size')
-      call tally%check(all(abs(scene%look%dimensions) <= 0.0_wp), 'and gets none')
+      call tally%check(all(made%appearance%cross_section == section_line), 'a line has no size')
+      call tally%check(all(abs(made%appearance%dimensions) <= 0.0_wp), 'and gets none')
    end subroutine sizes_follow_the_kind
 
    subroutine older_spellings()
       call read_with('BEAMVIS .1 .2'//nl//'BEAMVIS CIRC 4 .3'//nl//'TRUSSVIS 9 .4 .5')
       call tally%check(diagnostics%kept == 0 .and. unused == 0, 'BEAMVIS and TRUSSVIS')
-      call tally%check(all(scene%look%cross_section == [section_rect, section_circ, section_none, section_rect]), &
+      call tally%check(all(made%appearance%cross_section == [section_rect, section_circ, section_none, section_rect]), &
                        'all beams, one beam, one bar')
-      call tally%near(reshape(scene%look%dimensions, [8]), [0.1_wp, 0.2_wp, 0.3_wp, 0.3_wp, 0.0_wp, 0.0_wp, 0.4_wp, 0.5_wp], &
+      call tally%near(reshape(made%appearance%dimensions, [8]), [0.1_wp, 0.2_wp, 0.3_wp, 0.3_wp, 0.0_wp, 0.0_wp, 0.4_wp, 0.5_wp], &
                       0.0_wp, 'their sizes')
    end subroutine older_spellings
 
    subroutine what_is_not_drawn()
       call read_with('GRAPHICS 1'//nl//'FACECOLOR 1 0 0'//nl//'LINESTYLE -'//nl//'INITIAL'//nl//'COLOR 0 0 1'//nl// &
                      'FACECOLOR 0 0 1'//nl//'LIGHT'//nl//'AXISPROPS'//nl//'LIMITS 0 1'//nl//'TRAJECT 1')
-      call tally%near(scene%look%colour(:, 1), [1.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, 'INITIAL paints no element')
+      call tally%near(made%appearance%colour(:, 1), [1.0_wp, 0.0_wp, 0.0_wp], 0.0_wp, 'INITIAL paints no element')
       call tally%check(unused == 8 .and. diagnostics%count(severity_note) == 1, 'and is counted as not used')
    end subroutine what_is_not_drawn
 
    subroutine unknown_groups()
       call read_with('BEAMPROPS 1'//nl//'CROSSTYPE RECT'//nl//'WHEELPROPS 4'//nl//'CROSSTYPE CIRC'//nl//'GRAPHIC 7'//nl// &
                      'FACECOLOR 1 0 0'//nl//'BEAMPROPS 4'//nl//'SHINE 3'//nl//'CROSSTYPE LINE')
-      call tally%check(all(scene%look%cross_section == [section_rect, section_line, section_none, section_none]), &
+      call tally%check(all(made%appearance%cross_section == [section_rect, section_line, section_none, section_none]), &
                        'options of an unknown group are nobody''s, an unknown option changes nothing')
-      call tally%check(all(ieee_is_nan(scene%look%colour)), 'nor of one that is misspelt')
-      call tally%check(diagnostics%count(severity_warning) == 3 .and. unused == 2, 'three are told, two not used')
+      call tally%check(all(ieee_is_nan(made%appearance%colour)), 'nor of one that is misspelt')
+      call tally%check(diagnostics%count(severity_warning) == 3 .and. unused == 2, 'three are reported, two not used')
    end subroutine unknown_groups
 
    subroutine mistakes_are_left_out()
@@ -119,12 +122,12 @@ contains
                      'CROSSDIM 1 nan'//nl//'CROSSDIM'//nl//'BEAMVIS 5 .1 .1'//nl//'DONOTDRAW'//nl//'BEAMPROPS 4 7'//nl// &
                      'CROSSTYPE RECT'//nl//'CROSSDIM 1'//nl//'BEAMPROPS 9'//nl//'CROSSTYPE CIRC'//nl//'CROSSDIM .1 .2')
       call tally%check(.not. diagnostics%has_errors(), 'a picture stops no analysis')
-      call tally%check(diagnostics%count(severity_warning) == 13, 'each mistake is told once')
-      associate (look => scene%look)
-         call tally%check(all(look%cross_section == [section_none, section_rect, section_rect, section_circ]), 'kinds')
-         call tally%near(look%dimensions(1, :), [0.0_wp, 0.0_wp, 0.0_wp, 0.1_wp], 0.0_wp, 'sizes')
-         call tally%check(all(ieee_is_nan(look%colour)) .and. all(ieee_is_nan(look%opacity)), 'no colour')
-         call tally%check(all(look%drawn), 'all are drawn')
+      call tally%check(diagnostics%count(severity_warning) == 13, 'each mistake is reported once')
+      associate (appearance => made%appearance)
+         call tally%check(all(appearance%cross_section == [section_none, section_rect, section_rect, section_circ]), 'kinds')
+         call tally%near(appearance%dimensions(1, :), [0.0_wp, 0.0_wp, 0.0_wp, 0.1_wp], 0.0_wp, 'sizes')
+         call tally%check(all(ieee_is_nan(appearance%colour)) .and. all(ieee_is_nan(appearance%opacity)), 'no colour')
+         call tally%check(all(appearance%drawn), 'all are drawn')
       end associate
    end subroutine mistakes_are_left_out
 

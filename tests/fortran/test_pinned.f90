@@ -1,17 +1,21 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The pinned factorisation and what is found with it: how many singular values
 !> are below t, the smallest ones, and both null spaces, of matrices whose values
 !> are known. Some are narrow, the others are factorised by CHOLMOD.
 program test_pinned
    use, intrinsic :: iso_c_binding, only: c_associated
-   use flexact_answer, only: options_t
-   use flexact_basis, only: basis_t, new_basis
    use flexact_cholmod, only: cholmod_is_there
+   use flexact_error, only: error_t, is_kind, error_library, error_memory, error_not_definite
    use flexact_kinds, only: wp
-   use flexact_null_space, only: operator_t, seek_pins, repin, low_end, pinned_space, next_space, left_null_space
-   use flexact_pinned, only: pinned_t, make_pinned, lift, pin, apply_inverse, release, pinned_fine, pinned_no_memory, &
-                             pinned_not_definite, pinned_no_library
-   use flexact_sparse, only: sparse_t, times, times_transposed
-   use flexact_test_matrices, only: identity, sparse_of, operator_of, random_orthogonal, banded, grid, path
+   use flexact_lanczos, only: next_space
+   use flexact_left_null_space, only: left_null_space
+   use flexact_pin_search, only: seek_pins, repin, low_end
+   use flexact_pinned, only: pinned_t, make_pinned, shift, pin, apply_inverse, release
+   use flexact_pinned_space, only: pinned_space
+   use flexact_progress, only: progress_t
+   use flexact_sparse, only: sparse_t, operator_t, operator_of, times, times_transposed
+   use flexact_sparse_basis, only: sparse_basis_t, new_sparse_basis
+   use flexact_test_matrices, only: identity, sparse_of, random_orthogonal, banded, grid, path
    use flexact_testing, only: tally_t, set_random
    implicit none
    real(wp), parameter :: pi = acos(-1.0_wp)
@@ -36,7 +40,7 @@ program test_pinned
       call planted_values('wide', 120, 120, [(0.0_wp, i=1, 40)])
       call planted_values('wide', 130, 120, [real(wp) ::])
       call too_few_pins('wide', 100)
-      call lifting_brings_forth_the_null_space()
+      call shifting_brings_forth_the_null_space()
       call memory_that_does_not_suffice()
    else
       call without_the_library()
@@ -46,16 +50,17 @@ program test_pinned
 contains
 
    !> Each column is a group of its own.
-   subroutine factorise(a, pinned, status, memory)
+   subroutine factorise(a, pinned, error, memory)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(out) :: pinned
-      integer, intent(out) :: status
+      type(error_t), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: memory
-      type(options_t) :: options
+      real(wp) :: most
       integer :: j
 
-      if (present(memory)) options%memory = memory
-      call make_pinned(a%by_column, a%by_row, [(j, j=1, a%by_column%columns)], options, pinned, status)
+      most = huge(most)
+      if (present(memory)) most = memory
+      call make_pinned(a, [(j, j=1, a%by_column%columns)], most, progress_t(), pinned, error)
    end subroutine factorise
 
    function product_with(matrix, x) result(y)
@@ -91,10 +96,10 @@ contains
       character(len=*), intent(in) :: name
       real(wp), allocatable, intent(out) :: vectors(:, :)
       real(wp) :: none(a%by_column%rows, 0)
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call left_null_space(a, pinned, none, wanted, vectors, status)
-      call tally%check(status == 0, name//': left null space')
+      call left_null_space(a, pinned, none, wanted, vectors, error)
+      call tally%check(.not. allocated(error), name//': left null space')
       call tally%check(size(vectors, 1) == a%by_column%rows .and. size(vectors, 2) == wanted, name//': its size')
       call check_orthonormal(vectors, 1.0e-13_wp, name//': left, orthonormal')
       call tally%check(all(abs(product_with(a%by_row, vectors)) <= 1.0e-13_wp), name//': what A'' leaves')
@@ -106,13 +111,13 @@ contains
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(in) :: lowest(:, :), expected(:), tolerance
       character(len=*), intent(in) :: name
-      type(basis_t) :: apart
+      type(sparse_basis_t) :: deflated
       real(wp), allocatable :: vectors(:, :), values(:)
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call new_basis(apart)
-      call next_space(a, pinned, apart, lowest, size(expected), .true., vectors, values, status)
-      call tally%check(status == 0, name//': next values')
+      call new_sparse_basis(deflated)
+      call next_space(a, pinned, deflated, lowest, size(expected), .true., vectors, values, error)
+      call tally%check(.not. allocated(error), name//': next values')
       call tally%check(size(values) > 0 .and. size(values) <= size(expected), name//': some of them')
       call tally%near(values, expected(:size(values)), tolerance, name//': what they are')
       call check_singular(a, vectors, values, name//', next')
@@ -126,11 +131,12 @@ contains
       type(pinned_t) :: pinned
       real(wp), allocatable :: left(:, :)
       real(wp) :: none(n, 0)
-      integer :: status, k
+      type(error_t), allocatable :: error
+      integer :: k
 
       a = operator_of(path(n, .false.))
-      call factorise(a, pinned, status)
-      call tally%check(status == pinned_fine .and. pinned%is_narrow .and. pinned%pins == 0, 'path: no pins')
+      call factorise(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%is_narrow .and. pinned%pins == 0, 'path: no pins')
       call check_next(a, pinned, none, [(2*sin(k*pi/(2*(n + 1))), k=1, 6)], 1.0e-12_wp, 'path')
       call check_left(a, pinned, 1, 'path', left)
       call tally%near(left(:, 1)/left(1, 1), spread(1.0_wp, 1, n + 1), 1.0e-11_wp, 'path: the left null vector')
@@ -142,16 +148,16 @@ contains
       integer, parameter :: n = 90
       type(operator_t) :: a
       type(pinned_t) :: pinned
-      type(basis_t) :: apart
+      type(sparse_basis_t) :: deflated
       real(wp), allocatable :: vectors(:, :), values(:), left(:, :)
-      integer :: status
+      type(error_t), allocatable :: error
 
       a = operator_of(path(n, .true.))
-      call factorise(a, pinned, status)
-      call tally%check(status == pinned_fine .and. pinned%is_narrow .and. pinned%pins == 1, 'ring: one pin')
-      call new_basis(apart)
-      call pinned_space(a, pinned, pinned%pin, apart, vectors, values, status)
-      call tally%check(status == 0, 'ring: pinned space')
+      call factorise(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%is_narrow .and. pinned%pins == 1, 'ring: one pin')
+      call new_sparse_basis(deflated)
+      call pinned_space(a, pinned, pinned%pin, deflated, vectors, values, error)
+      call tally%check(.not. allocated(error), 'ring: pinned space')
       call tally%near(values, [0.0_wp], 1.0e-14_wp, 'ring: its value')
       call tally%near(vectors(:, 1)/vectors(1, 1), spread(1.0_wp, 1, n), 1.0e-13_wp, 'ring: its vector')
       call check_next(a, pinned, vectors, 2*sin([1, 1, 2, 2, 3, 3]*pi/n), 1.0e-12_wp, 'ring')
@@ -170,8 +176,9 @@ contains
       type(sparse_t) :: matrix
       type(operator_t) :: a
       type(pinned_t) :: pinned
-      type(basis_t) :: apart
-      integer :: status, k
+      type(sparse_basis_t) :: deflated
+      type(error_t), allocatable :: error
+      integer :: k
 
       allocate (values(n), source=1.0_wp)
       values(50::100) = 0.0_wp
@@ -179,11 +186,11 @@ contains
       call banded(values, matrix, lefts, rights)
       a = operator_of(matrix)
       low = pack([(k, k=1, n)], values < 0.5_wp)
-      call factorise(a, pinned, status)
-      call tally%check(status == pinned_fine .and. pinned%is_narrow, 'equal values: narrow')
+      call factorise(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%is_narrow, 'equal values: narrow')
       call tally%check(pinned%pins == size(low), 'equal values: as many pins as are low')
-      call new_basis(apart)
-      call pinned_space(a, pinned, pinned%pin, apart, vectors, found, status)
+      call new_sparse_basis(deflated)
+      call pinned_space(a, pinned, pinned%pin, deflated, vectors, found, error)
       expected = 0.0_wp
       expected(n/100 + 1:) = 1.0e-9_wp
       call tally%near(found, expected, 1.0e-15_wp, 'equal values: the low ones')
@@ -192,8 +199,8 @@ contains
       call tally%check(all(abs(vectors) <= 1.0e-13_wp), 'equal values: the space of the known vectors')
       call check_next(a, pinned, rights(:, low), spread(1.0_wp, 1, 6), 1.0e-13_wp, 'equal values')
       associate (zero => pack(low, values(low) <= 0), held => pack(low, values(low) > 0))
-         call left_null_space(a, pinned, lefts(:, held), size(zero), left, status)
-         call tally%check(status == 0, 'equal values: left')
+         call left_null_space(a, pinned, lefts(:, held), size(zero), left, error)
+         call tally%check(.not. allocated(error), 'equal values: left')
          call check_orthonormal(left, 1.0e-13_wp, 'equal values: left, orthonormal')
          left = left - matmul(lefts(:, zero), matmul(transpose(lefts(:, zero)), left))
          call tally%check(all(abs(left) <= 1.0e-12_wp), 'equal values: the left null space')
@@ -240,21 +247,21 @@ contains
       integer, intent(in) :: pins
       type(pinned_t), intent(out) :: pinned
       character(len=*), intent(in) :: name
-      type(basis_t) :: apart
+      type(sparse_basis_t) :: deflated
       real(wp), allocatable :: vectors(:, :), values(:)
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call factorise(a, pinned, status)
-      if (status == pinned_not_definite) call seek_pins(a, pinned, status)
-      call tally%check(status == 0 .and. pinned%pins >= pins, name//': enough pins')
+      call factorise(a, pinned, error)
+      if (is_kind(error, error_not_definite)) call seek_pins(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%pins >= pins, name//': enough pins')
       if (pinned%pins > pins) then
-         call new_basis(apart)
-         call pinned_space(a, pinned, pinned%pin, apart, vectors, values, status)
+         call new_sparse_basis(deflated)
+         call pinned_space(a, pinned, pinned%pin, deflated, vectors, values, error)
          associate (low => count(values <= low_end*pinned%least))
-            call repin(a, vectors(:, :low), [integer ::], pinned, status)
+            call repin(a, vectors(:, :low), [integer ::], pinned, error)
          end associate
       end if
-      call tally%check(status == pinned_fine, name//': definite')
+      call tally%check(.not. allocated(error), name//': definite')
       call tally%check(pinned%pins == pins .and. size(pinned%pin) == pins, name//': no more than that are low')
    end subroutine prove
 
@@ -263,13 +270,13 @@ contains
       type(pinned_t), intent(in) :: pinned
       real(wp), allocatable, intent(out) :: vectors(:, :)
       real(wp), intent(out) :: values(:)
-      type(basis_t) :: apart
+      type(sparse_basis_t) :: deflated
       real(wp), allocatable :: found(:)
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call new_basis(apart)
-      call pinned_space(a, pinned, pinned%pin, apart, vectors, found, status)
-      call tally%check(status == 0 .and. size(found) == size(values), 'vectors of the pins')
+      call new_sparse_basis(deflated)
+      call pinned_space(a, pinned, pinned%pin, deflated, vectors, found, error)
+      call tally%check(.not. allocated(error) .and. size(found) == size(values), 'vectors of the pins')
       values = found
    end subroutine find_low
 
@@ -281,10 +288,10 @@ contains
       integer, intent(in) :: wanted
       real(wp), allocatable, intent(out) :: left(:, :)
       character(len=*), intent(in) :: name
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call left_null_space(a, pinned, held, wanted, left, status)
-      call tally%check(status == 0 .and. size(left, 2) == wanted, name//': left')
+      call left_null_space(a, pinned, held, wanted, left, error)
+      call tally%check(.not. allocated(error) .and. size(left, 2) == wanted, name//': left')
       call check_orthonormal(left, 1.0e-13_wp, name//': left, orthonormal')
       call tally%check(all(abs(product_with(a%by_row, left)) <= 1.0e-13_wp), name//': what A'' leaves')
    end subroutine find_left
@@ -298,7 +305,7 @@ contains
       type(operator_t) :: a
       type(pinned_t) :: pinned
       logical :: is_pinned(n)
-      integer :: status
+      type(error_t), allocatable :: error
 
       s = 1.0_wp
       s(:2) = 0.0_wp
@@ -308,15 +315,15 @@ contains
       call prove(a, 2, pinned, name)
       is_pinned = .false.
       is_pinned(pinned%pin(1)) = .true.
-      call pin(a%by_row, is_pinned, pinned, status)
-      call tally%check(status == pinned_not_definite, name//': one pin is too few')
+      call pin(a, is_pinned, pinned, error)
+      call tally%check(is_kind(error, error_not_definite), name//': one pin is too few')
       call tally%check(pinned%failed >= 1 .and. pinned%failed <= n, name//': where it failed')
       is_pinned(pinned%failed) = .true.
-      call pin(a%by_row, is_pinned, pinned, status)
-      call tally%check(status == pinned_fine .and. pinned%pins == 2, name//': a pin there mends it')
+      call pin(a, is_pinned, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%pins == 2, name//': a pin there fixes it')
       is_pinned = .true.
-      call pin(a%by_row, is_pinned, pinned, status)
-      call tally%check(status == pinned_fine .and. pinned%pins == n, name//': too many do no harm')
+      call pin(a, is_pinned, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%pins == n, name//': too many do no harm')
       call release(pinned)
       call tally%check(.not. c_associated(pinned%handle), name//': released')
       call release(pinned)
@@ -330,7 +337,8 @@ contains
       type(sparse_t) :: matrix
       type(operator_t) :: a
       type(pinned_t) :: pinned
-      integer :: status, k
+      type(error_t), allocatable :: error
+      integer :: k
 
       t = 0.0_wp
       do k = 0, 2
@@ -338,10 +346,10 @@ contains
          if (k > 0) values(n/2) = 0.25_wp*t*4**k/2
          call banded(values, matrix, left, right)
          a = operator_of(matrix)
-         call factorise(a, pinned, status)
+         call factorise(a, pinned, error)
          t = pinned%least
-         call pin(a%by_row, spread(.false., 1, n), pinned, status)
-         call tally%check((status == pinned_fine) .eqv. k /= 1, 'what is below t is seen')
+         call pin(a, spread(.false., 1, n), pinned, error)
+         call tally%check((.not. allocated(error)) .eqv. k /= 1, 'what is below t is seen')
          call release(pinned)
       end do
       call tally%check(t > 1.0e-7_wp .and. t < 1.0e-6_wp, 'where t is')
@@ -354,11 +362,11 @@ contains
       type(pinned_t) :: pinned
       real(wp), allocatable :: left(:, :)
       real(wp) :: none(n**2, 0)
-      integer :: status
+      type(error_t), allocatable :: error
 
       a = operator_of(grid(n, .false.))
-      call factorise(a, pinned, status)
-      call tally%check(status == pinned_fine .and. .not. pinned%is_narrow .and. pinned%pins == 0, 'grid: no pins')
+      call factorise(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. .not. pinned%is_narrow .and. pinned%pins == 0, 'grid: no pins')
       call check_next(a, pinned, none, sqrt([lines(1) + lines(1), lines(1) + lines(2), lines(1) + lines(2), &
                                              lines(2) + lines(2)]), 1.0e-10_wp, 'grid')
       call check_left(a, pinned, 5, 'grid', left)
@@ -384,44 +392,44 @@ contains
    end subroutine a_torus
 
    !> What A leaves is short, since t**2 is added to squares of 1.
-   subroutine lifting_brings_forth_the_null_space()
+   subroutine shifting_brings_forth_the_null_space()
       integer, parameter :: n = 90
       real(wp) :: u(n, n), v(n, n), s(n), x(n, 1)
       type(operator_t) :: a
       type(pinned_t) :: pinned
-      integer :: status
+      type(error_t), allocatable :: error
 
       s = 1.0_wp
       s(n) = 0.0_wp
       u = random_orthogonal(n)
       v = random_orthogonal(n)
       a = operator_of(sparse_of(matmul(u*spread(s, 1, n), transpose(v))))
-      call factorise(a, pinned, status)
-      call lift(pinned, status)
-      call tally%check(status == pinned_fine, 'lifted')
+      call factorise(a, pinned, error)
+      call shift(pinned, error)
+      call tally%check(.not. allocated(error), 'shifted')
       call random_number(x)
-      call apply_inverse(pinned, x, status)
+      call apply_inverse(pinned, x, error)
       x = x/norm2(x)
       call tally%near(abs([dot_product(x(:, 1), v(:, n))]), [1.0_wp], 1.0e-10_wp, 'the null vector')
-      call seek_pins(a, pinned, status)
-      call tally%check(status == pinned_fine .and. pinned%pins == 1, 'and the pin that holds it')
+      call seek_pins(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%pins == 1, 'and the pin that holds it')
       call release(pinned)
-   end subroutine lifting_brings_forth_the_null_space
+   end subroutine shifting_brings_forth_the_null_space
 
    subroutine memory_that_does_not_suffice()
       type(pinned_t) :: pinned
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call factorise(operator_of(grid(80, .false.)), pinned, status, 1000.0_wp)
-      call tally%check(status == pinned_no_memory .and. pinned%bytes > 8*80**2, 'what is needed is told')
+      call factorise(operator_of(grid(80, .false.)), pinned, error, 1000.0_wp)
+      call tally%check(is_kind(error, error_memory) .and. pinned%bytes > 8*80**2, 'what is needed is reported')
       call release(pinned)
    end subroutine memory_that_does_not_suffice
 
    subroutine without_the_library()
       type(pinned_t) :: pinned
-      integer :: status
+      type(error_t), allocatable :: error
 
-      call factorise(operator_of(grid(80, .false.)), pinned, status)
-      call tally%check(status == pinned_no_library, 'the library is missed')
+      call factorise(operator_of(grid(80, .false.)), pinned, error)
+      call tally%check(is_kind(error, error_library), 'the library is missed')
    end subroutine without_the_library
 end program test_pinned

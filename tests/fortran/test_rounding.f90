@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> How well numbers are known, by their digits and by their bits.
 program test_rounding
    use flexact_kinds, only: wp
@@ -31,7 +32,7 @@ contains
       number = decimal(sqrt(0.75_wp))
       call tally%check(.not. number%short, 'known to the last bit')
       number = decimal(1.0e300_wp)
-      call tally%check(.not. number%short, 'beyond any scene')
+      call tally%check(.not. number%short, 'beyond any model')
    end subroutine digits_of_numbers
 
    !> Half a unit in the last place, for six coordinates: 1.25 units.
@@ -86,12 +87,12 @@ contains
       half = half_units(decimal(values), looks_rounded(decimal(values)))
    end function half
 
-   !> Storing rounds by half of epsilon; what it made of the scene before it was
+   !> Storing rounds by half of epsilon; what it made of the model before it was
    !> moved does not grow with the place.
    subroutine bits_of_numbers()
       call tally%check(last_bits(-2.0_wp, 2.0_wp) >= epsilon(1.0_wp), 'a negative number')
       call tally%check(last_bits(1.0e8_wp, 1.0_wp) >= 1.0e8_wp*epsilon(1.0_wp)/2, 'covers what is stored')
       call tally%check(last_bits(1.0e8_wp, 1.0_wp) < last_bits(1.0e8_wp, 1.0e8_wp)/2, &
-                       'a small scene far away is known better than a large one')
+                       'a small model far away is known better than a large one')
    end subroutine bits_of_numbers
 end program test_rounding

@@ -1,8 +1,10 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> What small changes of the geometry make of singular values.
 program test_sensitivity
    use flexact_kinds, only: wp
-   use flexact_model, only: model_t, node_position, node_orientation
-   use flexact_element_table, only: kind_truss, kind_beam, kind_hinge, kind_pinbody
+   use flexact_model, only: model_t
+   use flexact_slots, only: node_position, node_orientation
+   use flexact_element_table, only: find_element_kind
    use flexact_jacobian, only: jacobian_t, make_jacobian
    use flexact_sensitivity, only: sensitivity_t, find_sensitivities
    use flexact_variation, only: variation_t, make_variation
@@ -31,7 +33,7 @@ contains
       model = new_model(2, 1)
       call set_node(model, 1, node_position, [0.0_wp, 0.0_wp, 0.0_wp])
       call set_node(model, 2, node_position, q)
-      call set_element(model, 1, kind_truss, [1, 0, 2, 0])
+      call set_element(model, 1, find_element_kind('TRUSS'), [1, 0, 2, 0])
       call fix(model, [1])
    end function bar
 
@@ -84,7 +86,7 @@ contains
       model = new_model(2, 1)
       call set_node(model, 1, node_orientation, upright)
       call set_node(model, 2, node_orientation, upright)
-      call set_element(model, 1, kind_hinge, [0, 1, 0, 2], [0.0_wp, 0.0_wp, 3.0_wp])
+      call set_element(model, 1, find_element_kind('HINGE'), [0, 1, 0, 2], [0.0_wp, 0.0_wp, 3.0_wp])
       call fix(model, [1])
       u = [1.0_wp, 0.0_wp, 0.0_wp]
       found = one_pair(model, u, [0.6_wp, 0.8_wp, 0.0_wp])
@@ -153,7 +155,7 @@ contains
       call set_node(model, 2, node_orientation, upright)
       call set_node(model, 3, node_position, [1.3_wp, -0.2_wp, 0.9_wp])
       call set_node(model, 4, node_orientation, upright)
-      call set_element(model, 1, kind_beam, [1, 2, 3, 4], vector)
+      call set_element(model, 1, find_element_kind('BEAM'), [1, 2, 3, 4], vector)
       call make_variation(model, 1, alone, variation)
       do i = 1, 3
          model%node_value(i, 3) = model%node_value(i, 3) + step
@@ -201,7 +203,7 @@ contains
       call set_node(model, 1, node_position, [1.0_wp, 2.0_wp, 3.0_wp])
       call set_node(model, 2, node_orientation, upright)
       call set_node(model, 3, node_position, [1.0_wp, 2.0_wp, 3.0_wp])
-      call set_element(model, 1, kind_pinbody, [1, 2, 3, 0])
+      call set_element(model, 1, find_element_kind('PINBODY'), [1, 2, 3, 0])
       call fix(model, [1])
       found = one_pair(model, [0.0_wp, 1.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
       call tally%near([found%by_move], [1.0_wp], 1.0e-9_wp, 'a body without length')

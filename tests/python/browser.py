@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A headless Chromium that shows pages from disk, with its network cut."""
 
 import io
@@ -5,6 +6,7 @@ import json
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,7 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.report import page
+from flexact.page import page
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")
@@ -37,6 +39,17 @@ _DRAWN = """
 """
 
 
+def _paged(model: Any) -> tuple[flexact.Analysis, str]:
+    analysis = flexact.analyse(model)
+    return analysis, page(analysis)
+
+
+@cache
+def paged(deck: Path) -> tuple[flexact.Analysis, str]:
+    """The result of a deck and its page, made once for all tests."""
+    return _paged(deck)
+
+
 class Browser:
     """A page in the browser, and what is asked of it."""
 
@@ -53,9 +66,9 @@ class Browser:
 
     def show(self, model: Any, folder: Path) -> flexact.Analysis:
         """Analyse a model or deck and open its page, at rest."""
-        analysis = flexact.analyse(model)
+        analysis, text = paged(model) if isinstance(model, Path) else _paged(model)
         target = folder / "page.html"
-        target.write_text(page(analysis), encoding="utf-8")
+        target.write_text(text, encoding="utf-8")
         self.open(target)
         self.run("flexact.play(false)")
         self.drawn()
@@ -153,9 +166,9 @@ def browsing(*more: str) -> Iterator[Browser]:
         driver.quit()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def chromium() -> Iterator[Browser]:
-    """One browser for the tests of a module."""
+    """One browser for all tests."""
     with browsing() as browser:
         yield browser
 

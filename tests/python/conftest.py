@@ -1,12 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Fixtures that several tests share, and what a build without SuiteSparse leaves out."""
 
 from collections.abc import Generator
 from pathlib import Path
 
 import pytest
+from browser import browser, chromium  # noqa: F401
+from left_out import pytest_make_collect_report, pytest_runtest_makereport  # noqa: F401
 from small_decks import DECKS, write
+from wording import AsStored
 
 import flexact
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--renew-wording", action="store_true", help="write the texts that tests compare with"
+    )
+
+
+@pytest.fixture
+def as_stored(request: pytest.FixtureRequest) -> AsStored:
+    """Compares a text with a file; see wording.py."""
+    return AsStored(request.config.getoption("--renew-wording"))
 
 
 @pytest.fixture
@@ -19,7 +35,7 @@ def decks(tmp_path: Path) -> Path:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_call() -> Generator[None, None, None]:
-    """Skip what needs the method sparse where the build has none."""
+    """Skip what needs the method sparse where the build has none; see left_out.py on CI."""
     try:
         return (yield)
     except flexact.AnalysisError as error:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Models that are exact by construction and close to a change of verdict."""
 
 from __future__ import annotations

@@ -1,6 +1,9 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Models that several tests share."""
 
 import math
+
+import numpy as np
 
 from flexact import Model
 
@@ -48,3 +51,71 @@ def folded_sheet(clamped: bool, beams: int = 1, size: float = 1.0) -> Model:
     if clamped:
         model.fix(c)
     return model
+
+
+def sheet_clamped_twice() -> Model:
+    """Three self-stresses, and D(c) has no columns."""
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.sheet(a, b, (0, 0, 1), name="leaf <1>")
+    model.fix(a)
+    model.fix(b)
+    return model
+
+
+def guide(beams: int = 1, size: float = 1.0) -> Model:
+    """Two parallel sheets and a stage: one motion, one self-stress."""
+    model = Model()
+    a, b = model.node(0, 0, 0), model.node(size, 0, 0)
+    c, d = model.node(0, size / 4, 0), model.node(size, size / 4, 0)
+    model.sheet(a, b, (0, 0, 1), beams)
+    model.sheet(c, d, (0, 0, 1), beams)
+    model.rigid(b, d)
+    model.fix(a)
+    model.fix(c)
+    return model
+
+
+def hinges_in_a_point() -> Model:
+    """Two hinges in a row at one point, nothing else: a mechanism without extent."""
+    model = Model()
+    a = model.node(0, 0, 0)
+    b = model.hinge(a, (0, 0, 1))
+    model.hinge(b, (0, 1, 0))
+    return model
+
+
+def bar_driven_twice() -> Model:
+    """A bar driven at its one free end, its elongation independent as well: (0, 1)."""
+    model = Model(planar=True)
+    a, b = model.node(0, 0), model.node(2, 0)
+    bar = model.truss(a, b)
+    model.fix(a)
+    model.fix(b, "y")
+    model.independent(b, "x")
+    model.independent(bar, 1)
+    return model
+
+
+def frame(size: float) -> Model:
+    """Four beams in a skew ring, held at one corner: six self-stresses, no support loaded."""
+    model = Model()
+    places = size * np.array([[0, 0, 0], [1, 0.3, 0.2], [1.1, 1.3, 0.7], [0, 1, 0.4]])
+    corners = [model.node(*place) for place in places]
+    for k in range(4):
+        model.beam(corners[k], corners[(k + 1) % 4])
+    model.fix(corners[0])
+    return model
+
+
+def rounded(model: Model, turn: np.ndarray, form: str) -> Model:
+    """Bars of a model turned, their coordinates printed in a form and read back."""
+    made = Model()
+    places = (turn @ model.positions.T).T
+    nodes = [made.node(*(float(format(part, form)) for part in place)) for place in places]
+    for p, _, q, _ in model.element_nodes.tolist():
+        made.truss(nodes[p], nodes[q])
+    fixed = (model.coordinate_classes == 1).all(axis=1)
+    for index in np.flatnonzero(fixed):
+        made.fix(nodes[index])
+    return made

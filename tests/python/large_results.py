@@ -1,10 +1,11 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Results that stand for those of large models: fewer values or vectors than there are."""
 
 import dataclasses
 from typing import Any
 
 from flexact import Analysis
-from flexact.exchange import Basis
+from flexact.core.basis import Basis
 
 
 def changed(analysis: Analysis, **raw: Any) -> Analysis:

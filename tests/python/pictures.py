@@ -1,4 +1,5 @@
-"""What the tests of pictures share: decks, analyses of texts, pixels at points of a scene."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of pictures share: decks, analyses of texts, pixels at points of a drawing."""
 
 import io
 import math
@@ -28,8 +29,13 @@ def of_text(folder: Path, text: str) -> flexact.Analysis:
     return flexact.analyse(path)
 
 
+def collection(figure: Any) -> Any:
+    """What a vector file shows of the first panel."""
+    return figure.axes[0].get_children()[0].canvas.collection()
+
+
 class Pixels:
-    """The pixels of a figure of one panel, found by points of the scene."""
+    """The pixels of a figure of one panel, found by points of the drawing."""
 
     def __init__(
         self, figure: Any, planar: bool = False, eye: tuple[float, float] = (AZIMUTH, ELEVATION)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random models for property tests: frameworks of bars, and mixed mechanisms."""
 
 import numpy as np

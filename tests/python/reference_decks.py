@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The decks of input_decks that are sound, and what is known of them."""
 
 import importlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Decks of a few lines for tests of the command, one of each verdict, and what surrounds them.
 
 The verdicts follow from counting bars and joints in the plane by hand.

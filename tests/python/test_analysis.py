@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The analysis against published and classical answers.
 
 Sources: the paper (Aarts, Meijaard, Jonker 2011) by section and table; classical cases

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Properties that hold of every model: decks read back, counts agree, frames do not matter."""
 
 import numpy as np

@@ -1,26 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How certain a rank is: no wrong one may be called certain, and healthy decks are.
 
 Truths come from the stored references (each names its source), from the paper's twelve trusses,
 and from geometry that is exact by construction.
 """
 
-import dataclasses
 import importlib
 import json
-import math
-import re
 import sys
 from typing import Any
 
 import numpy as np
 import pytest
-from known_models import ring, twelve_trusses
+from known_models import guide, ring, rounded, sheet_clamped_twice, twelve_trusses
+from large_results import changed
 from reference_decks import NAMES, ROOT, text_of, transform, truth_of
-from verdicts import counts
+from verdicts import assert_right_or_nearly, counts
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.exchange import FloatArray
+from flexact.core.arrays import FloatArray
 
 sys.path.append(str(ROOT / "tests" / "benchmarks"))
 families: Any = importlib.import_module("families")
@@ -28,14 +27,9 @@ families: Any = importlib.import_module("families")
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
 
 
-def assert_right_or_nearly(analysis: Analysis, truth: tuple[int, int]) -> None:
-    if analysis.certainty is flexact.Certainty.CERTAIN:
-        assert counts(analysis) == truth
-        assert analysis.nearly is None
-        assert analysis.doubts == ()
-    else:
-        assert analysis.nearly is not None
-        assert analysis.doubts
+def codes(analysis: Analysis) -> list[str]:
+    """Of the doubts."""
+    return [doubt.code for doubt in analysis.assessment.doubts]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -51,10 +45,10 @@ def test_lengths_places_and_turns_leave_the_counts(name: str) -> None:
     planar = flexact.read_text(text).planar
     length = analyse(flexact.read_text(text)).characteristic_length
     direction = np.array([0.7310585786300049, -0.5963, 0.0 if planar else 0.4123105625617661])
-    changed = [transform.scaled(text, factor) for factor in (1e-9, 1e-3, 1e3, 1e9)]
-    changed += [transform.moved(text, far * length * direction) for far in (1.0, 1e4, 1e6, 1e8)]
-    changed += [transform.turned(text, turn) for turn in (TURN, *random_turns(6))]
-    for other in filter(None, changed):
+    others = [transform.scaled(text, factor) for factor in (1e-9, 1e-3, 1e3, 1e9)]
+    others += [transform.moved(text, far * length * direction) for far in (1.0, 1e4, 1e6, 1e8)]
+    others += [transform.turned(text, turn) for turn in (TURN, *random_turns(6))]
+    for other in filter(None, others):
         for method in ("svd", "sparse"):
             analysis = analyse(flexact.read_text(other), method=method)
             assert counts(analysis) == truth
@@ -76,12 +70,13 @@ def test_families_are_certain(letter: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize("power", [15, 16, 17, 18])
-def test_an_angle_below_the_rounding_is_nearly_zero(power: int) -> None:
-    """The bars' directions differ by it, and it is typed: nothing was rounded."""
+def test_an_angle_below_the_rounding_is_not_certain(power: int) -> None:
+    """The bars' directions differ by it, and it is typed: nothing was rounded, and the truth is
+    (0, 0). That it is not among the answers is in test_extreme_conditioning.py, `BEYOND`.
+    """
     analysis = analyse(two_wires(10.0**-power))
-    assert analysis.nearly == counts(analysis) == (1, 1)
-    (doubt,) = analysis.doubts
-    assert re.search(f"5.0e-{power + 1:02d} is left|more than the rounding", doubt)
+    assert analysis.certainty is flexact.Certainty.NEARLY
+    assert codes(analysis) == ["close-decision"]
 
 
 def test_no_angle_at_all_is_certain() -> None:
@@ -90,19 +85,6 @@ def test_no_angle_at_all_is_certain() -> None:
 
 
 # Digits
-
-
-def rounded(model: Model, turn: FloatArray, form: str) -> Model:
-    """Bars of a model turned, their coordinates printed in a form and read back."""
-    made = Model()
-    places = (turn @ model.positions.T).T
-    nodes = [made.node(*(float(format(part, form)) for part in place)) for place in places]
-    for p, _, q, _ in model.element_nodes.tolist():
-        made.truss(nodes[p], nodes[q])
-    fixed = (model.coordinate_classes == 1).all(axis=1)
-    for index in np.flatnonzero(fixed):
-        made.fix(nodes[index])
-    return made
 
 
 def random_turns(number: int) -> list[FloatArray]:
@@ -121,16 +103,12 @@ def test_rounded_trusses_of_the_paper_are_nearly_both(digits: int, kind: str) ->
         assert analysis.nearly.under_constrained == 1
 
 
-def test_digits_explain_in_words() -> None:
+def test_digits_explain_a_value_that_is_not_zero() -> None:
     analysis = analyse(rounded(twelve_trusses(), TURN, ".3e"))
     assert counts(analysis) == (0, 0)
-    (doubt,) = analysis.doubts
-    assert doubt.startswith("full rank, but a rounding of the deck's own digits explains it")
-    assert [item.message for item in analysis.warnings] == [doubt]
-    text = analysis.describe().replace("\n", " ")
-    assert (
-        "if every singular value in doubt is zero, the mechanism is under-constrained by 1" in text
-    )
+    (doubt,) = analysis.assessment.doubts
+    assert (doubt.code, doubt.values) == ("rounded-geometry", 1)
+    assert [item.code for item in analysis.warnings] == [doubt.code]
     data = json.loads(analysis.to_json())
     assert data["certainty"] == "nearly"
     assert data["nearly"] == {"under_constrained": 1, "over_constrained": 1}
@@ -151,7 +129,6 @@ def test_rounded_rings_of_even_number_are_right_or_nearly(n: int, digits: int) -
     for turn in random_turns(10):
         analysis = analyse(rounded(ring(n), turn, f".{digits - 1}e"))
         assert_right_or_nearly(analysis, (1, 1))
-        assert (1, 1) in (counts(analysis), analysis.nearly)
 
 
 def test_zeros_that_count_because_of_digits_are_nearly() -> None:
@@ -193,12 +170,11 @@ def two_wires(angle: float, shift: float = 0.0) -> Model:
     return model
 
 
-@pytest.mark.parametrize("power", range(1, 16))
+@pytest.mark.parametrize("power", range(1, 14))
 def test_two_wires_at_an_angle_are_right_or_nearly(power: int) -> None:
     analysis = analyse(two_wires(10.0**-power))
     assert_right_or_nearly(analysis, (0, 0))
-    if power <= 13:
-        assert counts(analysis) == (0, 0)
+    assert counts(analysis) == (0, 0)
     if power <= 11:
         assert analysis.certainty is flexact.Certainty.CERTAIN
 
@@ -210,19 +186,6 @@ def test_two_wires_far_from_the_origin_are_right_or_nearly(power: int, shift: fl
     if 10.0**-power > 2e-16 * 8 * shift:
         analysis = analyse(two_wires(10.0**-power, shift))
         assert_right_or_nearly(analysis, (0, 0))
-
-
-def guide(beams: int, size: float) -> Model:
-    """Two parallel sheets and a stage: one motion, one self-stress."""
-    model = Model()
-    a, b = model.node(0, 0, 0), model.node(size, 0, 0)
-    c, d = model.node(0, size / 4, 0), model.node(size, size / 4, 0)
-    model.sheet(a, b, (0, 0, 1), beams)
-    model.sheet(c, d, (0, 0, 1), beams)
-    model.rigid(b, d)
-    model.fix(a)
-    model.fix(c)
-    return model
 
 
 @pytest.mark.parametrize("size", [0.06, 60.0, 6e4])
@@ -242,7 +205,7 @@ def test_a_tolerance_that_was_given_is_honest() -> None:
     analysis = analyse(model, tolerance=1e-3)
     assert counts(analysis) == (1, 1)
     assert analysis.nearly == (1, 1)
-    assert "the tolerance that was given says so" in analysis.doubts[0]
+    assert codes(analysis) == ["given-tolerance"]
     assert [item.code for item in analysis.warnings] == ["given-tolerance"]
     assert analyse(model, tolerance=1e-6).certainty is flexact.Certainty.CERTAIN
 
@@ -255,19 +218,11 @@ def test_noise_that_counts_because_of_a_tolerance_is_nearly() -> None:
 
 def test_a_rank_that_is_not_confirmed_is_not_certain() -> None:
     analysis = analyse(ring(5))
-    unsure = analysis.raw._replace(confirmed=False, method="qr")
-    estimate = dataclasses.replace(analysis, raw=unsure)
-    assert estimate.nearly == (0, 0)
-    assert estimate.doubts == (
-        "the method qr estimates: its values may be larger than the singular values are",
-    )
+    estimate = changed(analysis, confirmed=False)
+    assert (counts(estimate), estimate.nearly) == ((0, 0), (0, 0))
+    assert codes(estimate) == ["unconfirmed-rank"]
 
 
 def test_nothing_is_in_doubt_without_columns() -> None:
-    model = Model()
-    a, b = model.node(0, 0, 0), model.node(math.pi, 0, 0)
-    model.sheet(a, b, (0, 0, 1))
-    model.fix(a)
-    model.fix(b)
-    analysis = analyse(model)
+    analysis = analyse(sheet_clamped_twice())
     assert (analysis.certainty.value, analysis.nearly, analysis.doubts) == ("certain", None, ())

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The command as a person and a script meet it: verdicts, files, exit codes."""
 
 import os
@@ -10,21 +11,23 @@ from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
 
 import flexact
 from flexact.cli.main import main
+from flexact.cli.outcome import ExitCode
 
 # Verdicts and exit codes
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_words_say_the_verdict_under_the_path(
+def test_words_stand_under_the_path_and_json_has_the_verdict(
     name: str, decks: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = decks / f"{name}.dat"
     assert main(["analyse", str(path)]) == 0
     out, err = capsys.readouterr()
-    first, second = out.splitlines()[:2]
-    assert first == str(path)
-    assert re.sub(r" by \d+", "", second).startswith(f"{VERDICTS[name].capitalize()}: ")
-    assert err == ""
+    assert (out.splitlines()[0], err) == (str(path), "")
+    assert len(out.splitlines()) > 5
+    assert main(["analyse", "--json", str(path)]) == 0
+    (result,) = json_lines(capsys.readouterr().out)
+    assert result["verdict"] == VERDICTS[name]
 
 
 @pytest.mark.parametrize("expected", VERDICTS)
@@ -39,7 +42,7 @@ def test_method_and_tolerance_are_those_that_are_asked_for(
 ) -> None:
     arguments = ["analyse", str(decks / "over.dat"), "--method", "jacobi"]
     assert main(arguments) == 0
-    assert "Method: jacobi." in capsys.readouterr().out.splitlines()
+    assert "jacobi" in capsys.readouterr().out
     main([*arguments, "--tolerance", "1e-3", "--json"])
     (result,) = json_lines(capsys.readouterr().out)
     assert (result["method"], result["tolerance"], result["rank"]) == ("jacobi", 1e-3, 2)
@@ -61,7 +64,8 @@ def test_a_deck_with_errors_exits_with_2(
 
 def test_an_empty_folder_exits_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["analyse", str(tmp_path)]) == 2
-    assert "no deck" in capsys.readouterr().err
+    out, err = capsys.readouterr()
+    assert out == "" and str(tmp_path) in err
 
 
 @pytest.mark.parametrize(
@@ -91,7 +95,7 @@ def test_wrong_usage_exits_with_1(
     assert main(arguments) == 1
     out, err = capsys.readouterr()
     assert out == ""
-    assert "error: " in err
+    assert err.startswith(("flexact", "usage: flexact"))
     assert files_in(tmp_path) == []
 
 
@@ -99,7 +103,8 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--version"]) == 0
     assert capsys.readouterr().out == f"flexact {flexact.__version__}\n"
     assert main(["--help"]) == 0
-    assert "exit codes" in capsys.readouterr().out
+    reported = capsys.readouterr().out
+    assert re.findall(r"^ +(\d)  ", reported, re.MULTILINE) == [str(int(code)) for code in ExitCode]
 
 
 @pytest.mark.parametrize(
@@ -109,8 +114,8 @@ def test_a_misspelt_command_gets_a_hint(
     word: str, meant: str | None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([word, "x.dat"]) == 1
-    told = capsys.readouterr().err
-    assert (f"did you mean {meant}?" in told) if meant else ("did you mean" not in told)
+    hint = capsys.readouterr().err.strip().rpartition(";")[2]
+    assert hint.endswith(f" {meant}?") == (meant is not None)
 
 
 # Several decks
@@ -124,12 +129,12 @@ def test_one_bad_deck_does_not_stop_the_rest(
     out, err = capsys.readouterr()
     assert all(f"{name}.dat" in out for name in DECKS)
     assert "broken.dat:1:1" in err
-    summary = out[out.index("5 decks: ") :]
-    assert "1 failed" in summary
-    assert f"deck with errors: {decks / 'broken.dat'}" in summary
+    summary, *listed = out.split("\n5 ")[1].splitlines()
+    assert "1" in summary.split()
+    assert [line.endswith(f": {decks / 'broken.dat'}") for line in listed] == [True]
 
 
-def test_the_summary_says_what_is_wrong_with_each(
+def test_the_summary_names_each_that_failed(
     decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     broken, missing = write(tmp_path / "broken.dat", BROKEN), tmp_path / "missing.dat"
@@ -137,12 +142,9 @@ def test_the_summary_says_what_is_wrong_with_each(
     empty.mkdir()
     arguments = [str(decks / "exact.dat"), str(broken), str(missing), str(empty)]
     assert main(["analyse", *arguments]) == 2
-    out = capsys.readouterr().out
-    assert out[out.index("4 decks: ") :].splitlines()[1:] == [
-        f"  deck with errors: {broken}",
-        f"  cannot be read: {missing}",
-        f"  no decks: {empty}",
-    ]
+    listed = capsys.readouterr().out.split("\n4 ")[1].splitlines()[1:]
+    assert [line.split(": ")[1] for line in listed] == [str(broken), str(missing), str(empty)]
+    assert len({line.split(": ")[0] for line in listed}) == 3, "each for its own reason"
 
 
 def test_a_folder_that_cannot_be_searched_does_not_stop_the_rest(
@@ -164,8 +166,7 @@ def test_a_folder_that_cannot_be_searched_does_not_stop_the_rest(
     assert {name: results[name]["verdict"] for name in DECKS} == VERDICTS
     (diagnostic,) = results["closed"]["error"]["diagnostics"]
     assert diagnostic["code"] == "cannot-read"
-    assert f"{closed}: this folder cannot be searched: permission denied" in err
-    assert f"cannot be read: {closed}" in err
+    assert len([line for line in err.splitlines() if str(closed) in line]) == 2
     assert main(["check", str(closed)]) == 2
 
 
@@ -199,7 +200,7 @@ def test_json_is_one_object_a_line(decks: Path, capsys: pytest.CaptureFixture[st
     assert (diagnostic["line"], diagnostic["column"]) == (1, 1)
     assert results["broken"]["deck"] == str(broken)
     assert "broken.dat:1:1" in err
-    assert "5 decks: " in err
+    assert any(line.startswith("5 ") for line in err.splitlines()), "the summary"
 
 
 def test_json_counts_all_errors_and_lists_a_hundred(
@@ -233,14 +234,14 @@ def test_too_large_an_analysis_is_told_in_json(
     decks: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def refuse(*_: object, **__: object) -> None:
-        raise flexact.AnalysisError("a matrix of 9 x 9 needs more memory than there is")
+        raise flexact.AnalysisError("a matrix of 9 x 9")
 
-    monkeypatch.setattr(flexact, "analyse", refuse)
+    monkeypatch.setattr("flexact.cli.analysed.result_of", refuse)
     assert main(["analyse", "--json", str(decks / "exact.dat")]) == 1
     out, err = capsys.readouterr()
     (diagnostic,) = json_lines(out)[0]["error"]["diagnostics"]
-    assert diagnostic["line"] == 0
-    assert diagnostic["message"].startswith("a matrix of 9 x 9")
+    assert (diagnostic["code"], diagnostic["line"]) == ("not-analysed", 0)
+    assert diagnostic["message"] == "a matrix of 9 x 9"
     assert "a matrix of 9 x 9" in err
 
 
@@ -250,8 +251,9 @@ def test_too_large_an_analysis_is_told_in_json(
 def test_check_says_what_is_wrong(decks: Path, capsys: pytest.CaptureFixture[str]) -> None:
     good, broken = decks / "exact.dat", write(decks / "broken.dat", BROKEN)
     assert main(["check", str(good)]) == 0
-    assert capsys.readouterr() == (f"{good}: no errors\n", "")
+    said = capsys.readouterr()
+    assert said.out.startswith(f"{good}: ") and said.err == ""
     assert main(["check", str(broken), str(good)]) == 2
     out, err = capsys.readouterr()
-    assert f"{good}: no errors" in out
-    assert f"{broken}:1:1" in err
+    assert said.out in out and str(broken) in out
+    assert f"{broken}:1:1" in err and str(good) not in err

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Names of files that could move a cursor, or that are no text at all, are shown harmlessly."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The command in a process of its own: encodings, pipes, full disks, noise."""
 
 import os
@@ -29,6 +30,11 @@ def process_environment() -> dict[str, str]:
     package = str(Path(flexact.__file__).parent.parent)
     path = os.pathsep.join(filter(None, (package, os.environ.get("PYTHONPATH", ""))))
     return {**os.environ, "PYTHONPATH": path}
+
+
+def assert_one_line_of_the_command(reported: bytes) -> None:
+    """No traceback, and the command says who speaks."""
+    assert reported.startswith(b"flexact: ") and reported.count(b"\n") == 1
 
 
 @pytest.mark.parametrize(
@@ -107,7 +113,7 @@ def test_a_broken_pipe_ends_quietly(arguments: tuple[str, ...], decks: Path) -> 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("arguments", [("analyse", "{decks}"), ("analyse", "--help")])
-def test_a_full_disk_behind_stdout_is_told(
+def test_a_full_disk_behind_stdout_is_reported(
     arguments: tuple[str, ...], unbuffered: str, decks: Path
 ) -> None:
     with open("/dev/full", "wb") as full:
@@ -119,7 +125,7 @@ def test_a_full_disk_behind_stdout_is_told(
             check=False,
         )
     assert done.returncode == 1
-    assert done.stderr == (b"flexact: error: cannot write the results: no space left on device\n")
+    assert_one_line_of_the_command(done.stderr)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
@@ -139,10 +145,10 @@ def test_a_full_disk_behind_stderr_does_not_cost_the_results(decks: Path) -> Non
 
 @pytest.mark.skipif(os.name != "posix", reason="a shell of POSIX")
 @pytest.mark.parametrize("arguments", ["--version", "analyse {decks}", "check {decks}"])
-def test_a_closed_stdout_is_told(arguments: str, decks: Path) -> None:
+def test_a_closed_stdout_is_reported(arguments: str, decks: Path) -> None:
     line = f"exec '{sys.executable}' -m flexact {arguments.format(decks=decks)} >&-"
     done = subprocess.run(
         ["sh", "-c", line], stderr=subprocess.PIPE, env=process_environment(), check=False
     )
     assert done.returncode == 1
-    assert done.stderr == (b"flexact: error: cannot write the results: standard output is closed\n")
+    assert_one_line_of_the_command(done.stderr)

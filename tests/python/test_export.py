@@ -1,10 +1,10 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The verb export: its choices, its errors, and what it does to files."""
 
 import re
 import sys
 from pathlib import Path
 
-import meshio
 import numpy as np
 import pytest
 import vtk_files
@@ -13,7 +13,7 @@ from small_decks import DECKS, files_in, write
 
 import flexact
 from flexact.cli.main import main
-from flexact.shown import chosen_motion
+from flexact.drawing.selection import select_motion
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 #: Two bars in line: two motions in space.
@@ -126,8 +126,8 @@ def test_a_file_is_wanted(deck: Path, capsys: pytest.CaptureFixture[str]) -> Non
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("x.nonsense", "'nonsense' is not known; there are .* vtu .*pvd, which plays, or vtp"),
-        ("x.stl", "stl cannot hold lines and quads with data; .*pvd, which plays, or vtp"),
+        ("x.nonsense", "'nonsense' is not known: it is one of vtu, .*pvd, which plays, and vtp"),
+        ("x.stl", "'stl' is not known: it is one of vtu, vtk, xdmf, "),
         ("x.dat", "'dat' is not known"),
         ("x", r"the suffix of .*x is to say what to write: \.vtu, \.pvd"),
     ],
@@ -235,13 +235,6 @@ def test_missing_packages_are_named(
     assert files_in(tmp_path) == ["deck.dat", "x.vtu"]
 
 
-def test_gmsh_files_keep_the_modes(deck: Path, tmp_path: Path) -> None:
-    target = tmp_path / "x.msh"
-    assert main(["export", str(deck), "-o", str(target)]) == 0
-    found = meshio.read(target, file_format="gmsh")
-    assert {"displacement", "motion_2", "selfstress_1_N"} <= set(found.point_data)
-
-
 def test_a_motion_that_cannot_be_found_does_not_cost_the_results(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -252,8 +245,8 @@ def test_a_motion_that_cannot_be_found_does_not_cost_the_results(
 
     source = ROOT / "input_decks" / "linkages" / "four_bar_planar_driven.dat"
     analysis = flexact.analyse(source)
-    monkeypatch.setattr("flexact.analysis.analyse", fail)
-    assert chosen_motion(analysis) is None
+    monkeypatch.setattr("flexact.result.freedoms.Block.motion", fail)
+    assert select_motion(analysis) is None
     assert not analysis.to_meshio().point_data["displacement"].any()
     with pytest.raises(flexact.AnalysisError, match="did not converge"):
-        chosen_motion(analysis, freedom=1)
+        select_motion(analysis, freedom=1)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What stands in a mesh file: shapes, names, what is left out, and other formats."""
 
 from collections.abc import Callable
@@ -12,8 +13,7 @@ from vtk_files import LINE, QUAD, VERTEX
 
 import flexact
 from flexact.mesh import content, mesh_of
-from flexact.mesh.file import find_format
-from flexact.mesh.names import named_bytes
+from flexact.mesh.file import find_format, named_bytes
 
 Read = Callable[[str], flexact.Analysis]
 
@@ -168,7 +168,7 @@ def test_many_names_come_back(tmp_path: Path) -> None:
     for i in range(1000):
         model.truss(points[i], points[i + 1], name=f"truss {i} \u00e9 of a thousand")
     model.fix(*points[:1])
-    made = content.Meshes(flexact.analyse(model, method="qr")).still()
+    made = content.Meshes(flexact.analyse(model, method="sparse")).still()
     path = tmp_path / "many.vtu"
     path.write_bytes(named_bytes(made, find_format("vtu")))
     found = vtk_files.read(path)
@@ -185,7 +185,7 @@ def test_what_is_not_drawn_has_its_line_and_numbers_alone(
     text = "PLTRUSS 1 1 2\nPLTRUSS 2 2 3\nX 1 -1 0\nX 3 1 0\nFIX 1\nFIX 3\nEND\nHALT\n"
     whole = written(analyse(text), ".vtu", tmp_path)
     analysis = analyse(f"{text}VISUALIZATION\nDONOTDRAW {hidden}\nEND\n")
-    assert analysis.data.look.drawn.tolist() == [hidden != 1, hidden != 2]
+    assert analysis.data.appearance.drawn.tolist() == [hidden != 1, hidden != 2]
     found = written(analysis, ".vtu", tmp_path)
     drawn = 3 - hidden
     assert len(found.cells_of(hidden, QUAD)) == 0

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The cycle that plays: time steps, what moves where, and that its files belong together."""
 
 from collections.abc import Callable
@@ -12,9 +13,9 @@ from test_export_values import written
 from vtk_files import LINE, QUAD
 
 import flexact
+from flexact.drawing.selection import select_motion
+from flexact.files.outputs import OutputError
 from flexact.mesh.cycle import Cycle, write_cycle
-from flexact.outputs import OutputError
-from flexact.shown import chosen_motion
 
 #: A rigid arm of length 2 that turns about z at (1, 0, 0).
 ARM = """\
@@ -32,7 +33,7 @@ RLSE 1 1
 @pytest.fixture
 def play(tmp_path: Path) -> Callable[[flexact.Analysis], Path]:
     def to_file(analysis: flexact.Analysis) -> Path:
-        chosen = chosen_motion(analysis)
+        chosen = select_motion(analysis)
         target = tmp_path / "x.pvd"
         write_cycle(Cycle(analysis, None if chosen is None else chosen.motion, target))
         return target
@@ -143,7 +144,7 @@ def test_a_step_of_an_earlier_cycle_is_not_named(
     moving = flexact.analyse(ROOT / "input_decks" / "linkages" / "sarrus.dat")
     assert len(steps_of(play(moving))) == 25
     still = flexact.analyse(ROOT / "input_decks" / "flexures" / "six_wires.dat")
-    assert chosen_motion(still) is None
+    assert select_motion(still) is None
     ((time, path),) = steps_of(play(still))
     assert time == 0.0
     assert not vtk_files.read(path).point_data["displacement"].any()

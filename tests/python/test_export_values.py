@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The numbers in mesh files against those of the analysis, and against statics and kinematics.
 
 VTK's readers read the files. Expected values are looked up by node and element here, and come
@@ -14,16 +15,18 @@ from reference_decks import NAMES, ROOT
 from vtk_files import LINE, QUAD, VERTEX, Read
 
 import flexact
-from flexact.elements import element_kinds
+from flexact.core.elements import Member, Role, element_kinds
+from flexact.drawing import Moving
 from flexact.mesh import mesh_of
-from flexact.mesh.file import find_format
-from flexact.mesh.names import named_bytes
+from flexact.mesh.file import find_format, named_bytes
 from flexact.mesh.polydata import polydata_bytes
-from flexact.scene import Moving
 
-BEAMS = ("BEAM", "PLBEAM")
-LINKS = ("RBEAM", "PINBODY", "PLRBEAM")
-FORMS = {"TRUSS": 3, "PLTRUSS": 3, "RBEAM": 5, "PINBODY": 5, "PLRBEAM": 5, "HINGE": 0, "PLHINGE": 0}
+KINDS = {kind.keyword: kind for kind in element_kinds()}
+BEAMS, LINKS, BARS, JOINTS = (
+    {word for word, kind in KINDS.items() if kind.member == member}
+    for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE)
+)
+FORMS = {**dict.fromkeys(BARS, 3), **dict.fromkeys(LINKS, 5), **dict.fromkeys(JOINTS, 0)}
 
 
 def written(analysis: flexact.Analysis, suffix: str, folder: Path) -> Read:
@@ -65,7 +68,7 @@ def test_nodes_and_members_have_the_numbers_of_the_analysis(name: str, tmp_path:
     found = written(analysis, ".vtu", tmp_path)
     arrays = analysis.data.arrays
     for index, (number, keyword, (p, op, q, oq)) in enumerate(elements(analysis)):
-        if q < 0:
+        if keyword in JOINTS:
             check_hinge(found, analysis, index, number, keyword, (op, oq))
             continue
         bends = keyword in BEAMS and not is_rigid(analysis, index)
@@ -111,10 +114,12 @@ def check_hinge(
         turned = found.point_data[f"motion_{k}_rotation"][point]
         np.testing.assert_array_equal(turned, motion.rotation[turns[0]])
     for k, stress in enumerate(analysis.self_stresses, start=1):
-        m = stress.moments[index]
-        values = dict(zip(("T", "My", "Mz"), m[:3], strict=True))
-        if keyword == "PLHINGE":
-            values = {"T": 0.0, "My": 0.0, "Mz": m[0]}
+        m = dict(zip(KINDS[keyword].role, stress.moments[index], strict=True))
+        about = (Role.ROTATION, Role.TILT_Y, Role.TILT_Z)
+        values = {
+            name: m.get(role, 0.0) for name, role in zip(("T", "My", "Mz"), about, strict=True)
+        }
+        values["Mz"] += m.get(Role.ANGLE, 0.0)
         for quantity, value in values.items():
             array = found.point_data[f"selfstress_{k}_{quantity}"]
             assert array[point] == pytest.approx(value, abs=1e-12)
@@ -238,7 +243,9 @@ def test_the_shown_motion_is_a_tenth_of_the_size(name: str, tmp_path: Path) -> N
     size = np.linalg.norm(np.ptp(positions, axis=1))
     scale = scale_by_nodes(analysis, found, motion)
     axis = np.unique(
-        np.concatenate([found.points_of(n, LINE) for n, _, e in elements(analysis) if e[2] >= 0])
+        np.concatenate(
+            [found.points_of(n, LINE) for n, word, _ in elements(analysis) if word not in JOINTS]
+        )
     )
     largest = np.linalg.norm(moved[axis], axis=1).max() / (0.1 * size)
     largest_turn = scale * np.linalg.norm(motion.rotation, axis=1).max()
@@ -252,8 +259,10 @@ def test_the_shown_motion_is_a_tenth_of_the_size(name: str, tmp_path: Path) -> N
 def scale_by_nodes(analysis: flexact.Analysis, found: Read, motion: Moving) -> float:
     """What the motion of the nodes was multiplied by; the same for all."""
     given, shown = [], []
-    for number, _, (p, op, q, oq) in elements(analysis):
-        ends = zip(found.ends_of(number), ((p, op), (q, oq)), strict=True) if q >= 0 else ()
+    for number, keyword, (p, op, q, oq) in elements(analysis):
+        if keyword in JOINTS:
+            continue
+        ends = zip(found.ends_of(number), ((p, op), (q, oq)), strict=True)
         for point, (node, turn) in ends:
             given.append(motion.displacement[node])
             shown.append(found.point_data["displacement"][point])

@@ -1,4 +1,8 @@
-"""Mechanisms close to a change of verdict: right, or not certain, by every method.
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mechanisms close to a change of verdict: the truth is among the answers, by every method.
+
+The answers are the counts given and, where they are not certain, those that hold if what is in
+doubt is zero. Where no double can tell, `BEYOND` keeps the truth and what is answered instead.
 
 Truths hold by construction; ranks of bars are counted in exact arithmetic besides
 (tests/benchmarks/exact_rank.py), and the smallest singular values with 60 digits.
@@ -8,6 +12,8 @@ import importlib
 import itertools
 import math
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,23 +22,20 @@ import numpy as np
 import pytest
 from ill_conditioned_models import levers, spokes, two_fold_lines, two_wire_flexures, two_wires
 from reference_decks import text_of, transform
-from verdicts import METHODS, assert_right, assert_right_or_nearly, counts
+from verdicts import (
+    DENSE,
+    METHODS,
+    Counts,
+    assert_right,
+    assert_right_or_nearly,
+    never_wrong,
+)
 
 from flexact import Analysis, Certainty, Model, analyse, read_text
 
 sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
 families: Any = importlib.import_module("families")
 exact_rank: Any = importlib.import_module("exact_rank")
-
-DENSE = ("svd", "jacobi", "qr")
-
-
-def never_wrong(model: Model, truth: tuple[int, int], method: str) -> Analysis:
-    """Certain of the truth, or not certain."""
-    analysis = analyse(model, method=method)
-    assert analysis.certainty is not Certainty.CERTAIN or counts(analysis) == truth
-    return analysis
-
 
 # Two constraints at an angle
 
@@ -44,8 +47,10 @@ def never_wrong(model: Model, truth: tuple[int, int], method: str) -> Analysis:
 def test_two_wires_at_an_angle(make: Any, truth: tuple[int, int], power: int) -> None:
     """The coordinates are typed: 1e-16 is no rounding of zero."""
     for method in METHODS:
-        analysis = never_wrong(make(10.0**-power), truth, method)
-        if power <= 11 and method != "qr":
+        analysis = never_wrong(analyse(make(10.0**-power), method=method), truth)
+        if power <= 13:
+            assert_right_or_nearly(analysis, truth)
+        if power <= 11:
             assert_right(analysis, truth)
 
 
@@ -53,8 +58,10 @@ def test_two_wires_at_an_angle(make: Any, truth: tuple[int, int], power: int) ->
 def test_two_fold_lines_at_an_angle(power: int) -> None:
     """Down to singular values of 2e-15, which the stored coordinates hold to a few bits."""
     for method in METHODS:
-        analysis = never_wrong(two_fold_lines(10.0**-power), (6, 0), method)
-        if power <= 11 and method != "qr":
+        analysis = never_wrong(analyse(two_fold_lines(10.0**-power), method=method), (6, 0))
+        if power <= 13:
+            assert_right_or_nearly(analysis, (6, 0))
+        if power <= 11:
             assert_right(analysis, (6, 0))
 
 
@@ -65,7 +72,7 @@ def test_two_constraints_at_no_angle() -> None:
 
 
 def test_smallest_value_of_two_fold_lines_is_proportional_to_their_angle() -> None:
-    """As known of them (references.md): full rank down to where doubles end."""
+    """tests/reference/known_answers.md, Numerics: full rank down to where doubles end."""
     ratios = []
     for power in range(2, 13):
         values = analyse(two_fold_lines(10.0**-power), method="jacobi").singular_values
@@ -136,23 +143,25 @@ def test_levers_that_amplify_are_right_or_nearly(ratio: float, power: int) -> No
     model = levers(number, ratio)
     assert exact_rank.rank_of_bars(model) == 2 * number
     for method in METHODS:
-        analysis = never_wrong(model, (0, 0), method)
+        analysis = never_wrong(analyse(model, method=method), (0, 0))
+        if power <= 12:
+            assert_right_or_nearly(analysis, (0, 0))
         if power <= 9 and method in ("svd", "jacobi"):
             assert_right(analysis, (0, 0))
 
 
-@pytest.mark.parametrize(
-    ("number", "ratio"), [(100, 2.0), (60, 4.0), (20, 10.0), (40, 10.0), (30, 300.0), (12, 1e4)]
-)
-def test_levers_that_amplify_beyond_the_doubles_are_nearly(number: int, ratio: float) -> None:
+LONG_LEVERS = [(100, 2.0), (60, 4.0), (20, 10.0), (40, 10.0), (30, 300.0), (12, 1e4)]
+
+
+@pytest.mark.parametrize(("number", "ratio"), LONG_LEVERS)
+def test_levers_that_amplify_beyond_the_doubles_are_not_certain(number: int, ratio: float) -> None:
     """Their determinant is not zero, though their smallest singular value is below 1e-19."""
     model = levers(number, ratio)
     assert exact_rank.rank_of_bars(model) == 2 * number
     for method in METHODS:
-        analysis = never_wrong(model, (0, 0), method)
-        assert analysis.nearly == counts(analysis) == (1, 1)
-        if method != "qr":
-            assert "beyond the digits of the arithmetic" in analysis.doubts[0]
+        analysis = never_wrong(analyse(model, method=method), (0, 0))
+        assert analysis.certainty is Certainty.NEARLY
+        assert analysis.assessment.doubts[0].code == "close-decision"
 
 
 @pytest.mark.parametrize("arm", [1.6, 1.1, 1.01])
@@ -160,13 +169,22 @@ def test_levers_that_amplify_beyond_the_doubles_are_nearly(number: int, ratio: f
 def test_amplifying_stages_are_right_or_nearly(arm: float, side: int) -> None:
     case = families.ill_conditioned(42 * side**2, arm=arm)
     for method in METHODS:
-        never_wrong(case.model, (0, 0), method)
+        assert_right_or_nearly(analyse(case.model, method=method), (0, 0))
 
 
-@pytest.mark.parametrize(("arm", "side"), [(1.6, 10), (1.6, 16), (1.1, 20), (1.01, 14)])
-def test_very_many_amplifying_stages_are_right_or_nearly(arm: float, side: int) -> None:
-    """Down to singular values that vanish beside the rounding: still no motion in truth."""
-    never_wrong(families.ill_conditioned(42 * side**2, arm=arm).model, (0, 0), "sparse")
+def many_stages(arm: float, side: int) -> Model:
+    """Singular values that vanish beside the rounding: still no motion in truth."""
+    model: Model = families.ill_conditioned(42 * side**2, arm=arm).model
+    return model
+
+
+def test_many_amplifying_stages_are_right_or_nearly() -> None:
+    assert_right_or_nearly(analyse(many_stages(1.6, 10), method="sparse"), (0, 0))
+
+
+@pytest.mark.parametrize(("arm", "side"), [(1.6, 16), (1.1, 20), (1.01, 14)])
+def test_very_many_amplifying_stages_are_not_certain(arm: float, side: int) -> None:
+    never_wrong(analyse(many_stages(arm, side), method="sparse"), (0, 0))
 
 
 @pytest.mark.parametrize("beams", [100, 300, 1000])
@@ -189,20 +207,28 @@ def test_long_strips_are_right(beams: int) -> None:
 # Matrices with a name
 
 
+def laeuchli(power: int) -> Model:
+    mu = 10.0**-power
+    return spokes(np.array([[1.0, 0.0, 0.0], [1.0, mu, 0.0], [1.0, 0.0, mu], [1.0, mu, mu]]))
+
+
 @pytest.mark.parametrize("power", range(1, 19))
 def test_laeuchli_as_spokes(power: int) -> None:
     """Rows that agree but for mu, in one joint: three constraints, any more are over."""
-    mu = 10.0**-power
-    model = spokes(np.array([[1.0, 0.0, 0.0], [1.0, mu, 0.0], [1.0, 0.0, mu], [1.0, mu, mu]]))
+    model = laeuchli(power)
     assert exact_rank.rank_of_bars(model) == 3
     for method in METHODS:
-        analysis = never_wrong(model, (0, 1), method)
-        if power <= 11 and method != "qr":
+        analysis = never_wrong(analyse(model, method=method), (0, 1))
+        if power <= 13:
+            assert_right_or_nearly(analysis, (0, 1))
+        if power <= 11:
             assert_right(analysis, (0, 1))
 
 
 def test_graded_rows_of_rank_two() -> None:
-    """[1 2 3; 4 5 6; 7 8 9] with rows times any powers of ten is of rank 2 (references.md)."""
+    """[1 2 3; 4 5 6; 7 8 9] with rows times any powers of ten is of rank 2
+    (tests/reference/known_answers.md, Numerics).
+    """
     rows = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]])
     for power in range(16):
         graded = rows * np.array([[1.0], [10.0**-power], [10.0**power]])
@@ -228,14 +254,16 @@ def test_random_removal_is_right_or_nearly(columns: int) -> None:
         rank = exact_rank.rank_of_bars(case.model)
         truth = (case.columns - rank, case.rows - rank)
         for method in (*DENSE, "sparse") if columns < 400 else ("sparse", "auto"):
-            analysis = never_wrong(case.model, truth, method)
+            analysis = analyse(case.model, method=method)
+            assert_right_or_nearly(analysis, truth)
             assert max(residuals(analysis)) <= 1e-10, (seed, method, residuals(analysis))
 
 
 def test_random_removal_at_three_thousand_columns() -> None:
     case = families.random_removal(3000)
     rank = exact_rank.rank_of_bars(case.model)
-    analysis = never_wrong(case.model, (case.columns - rank, case.rows - rank), "sparse")
+    analysis = analyse(case.model, method="sparse")
+    assert_right_or_nearly(analysis, (case.columns - rank, case.rows - rank))
     assert max(residuals(analysis)) <= 1e-10
 
 
@@ -256,3 +284,48 @@ def test_the_smallest_values_fall_as_they_should() -> None:
     ]
     for before, after in itertools.pairwise(smallest):
         assert after == pytest.approx(before / 4, rel=0.05)
+
+
+# Beyond what doubles can tell: the counts given, and those if what is in doubt is zero, are one,
+# and the truth is neither. A value that counts as zero and may be tiny is told, not counted.
+
+#: What is made, the truth, and what is answered instead, by every method.
+BEYOND: dict[str, tuple[Callable[[], Model], Counts, Counts]] = {
+    **{f"bars at 1e-{p}": (partial(two_wires, 10.0**-p), (0, 0), (1, 1)) for p in range(14, 19)},
+    **{
+        f"wires at 1e-{p}": (partial(two_wire_flexures, 10.0**-p), (4, 0), (5, 1))
+        for p in range(14, 19)
+    },
+    **{f"laeuchli 1e-{p}": (partial(laeuchli, p), (0, 1), (2, 3)) for p in range(14, 19)},
+    "fold lines at 1e-14": (partial(two_fold_lines, 1e-14), (6, 0), (7, 1)),
+    **{
+        f"{number} levers by {ratio:g}": (partial(levers, number, ratio), (0, 0), (1, 1))
+        for number, ratio in ((44, 2.0), (47, 2.0), (22, 4.0), (24, 4.0), (14, 10.0), *LONG_LEVERS)
+    },
+}
+#: The same, by the method sparse alone: the others take too long.
+BEYOND_SPARSE: dict[str, tuple[Callable[[], Model], Counts, Counts]] = {
+    f"stages {arm:g}, {side} a side": (partial(many_stages, arm, side), (0, 0), (side, side))
+    for arm, side in ((1.6, 16), (1.1, 20), (1.01, 14))
+}
+
+
+def not_yet(name: str, method: str) -> Any:
+    """A case that is expected to fail, with what it answers today."""
+    case = (BEYOND | BEYOND_SPARSE)[name]
+    reason = f"answers {case[2]}, and {case[2]} if what is in doubt is zero; the truth is {case[1]}"
+    marks = pytest.mark.xfail(strict=True, raises=AssertionError, reason=reason)
+    return pytest.param(*case[:2], method, id=f"{name} {method}", marks=marks)
+
+
+@pytest.mark.parametrize(
+    ("make", "truth", "method"),
+    [
+        *(not_yet(name, method) for name in BEYOND for method in METHODS),
+        *(not_yet(name, "sparse") for name in BEYOND_SPARSE),
+    ],
+)
+def test_the_truth_is_among_the_answers(
+    make: Callable[[], Model], truth: Counts, method: str
+) -> None:
+    assert_right_or_nearly(analyse(make(), method=method), truth)

@@ -1,6 +1,8 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Geometry typed with 3, 4 or 6 digits: right, or `nearly` with the counts that were meant.
 
-The counts meant are those of references.md, in the geometry with all its digits.
+The counts meant are those of tests/reference/known_answers.md, in the geometry with all its
+digits.
 """
 
 import math

@@ -1,4 +1,5 @@
-"""Lengths from 1e-9 to 1e9, also within one scene; slender ones; many beams a sheet."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lengths from 1e-9 to 1e9, also within one drawing; slender ones; many beams a sheet."""
 
 import pytest
 from known_models import folded_sheet
@@ -98,7 +99,7 @@ def test_a_single_sheet_of_very_many_beams() -> None:
         assert_right(analyse(model, method="sparse"), (3 * (beams - 1), 3))
 
 
-# Lengths that differ within one scene
+# Lengths that differ within one drawing
 
 
 RATIOS = [1e2, 1e4, 1e6, 1e8]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Subnormal and huge numbers: an answer without NaN, or a clear error; memory that is short."""
 
 import json
@@ -7,10 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from known_models import folded_sheet, twelve_trusses
-from verdicts import METHODS, assert_all_right, counts
+from verdicts import DENSE, METHODS, assert_all_right, counts
+from wrong_use import code_of
 
 import flexact
-from flexact import Analysis, Model, analyse, memory
+from flexact import Analysis, Model, analyse
+from flexact.base import memory
 from flexact.cli.main import main
 
 LEAST = 5e-324
@@ -44,8 +47,10 @@ def test_lengths_that_are_far_from_one(size: float) -> None:
 
 @pytest.mark.parametrize("size", [LEAST, 1e-310, 1e-200, 9e-91, 2e90, 1e200, 1e308])
 def test_lengths_out_of_range_are_refused(size: float) -> None:
-    with pytest.raises(flexact.ModelError, match=r"1e-90 to 1e90|zero length"):
+    with pytest.raises(flexact.ModelError) as error:
         analyse(folded_sheet(True, size=size))
+    codes = {item.code for item in error.value.diagnostics}
+    assert codes <= {"length-out-of-range", "zero-length"}
 
 
 @pytest.mark.filterwarnings("error")
@@ -76,8 +81,9 @@ def test_coordinates_that_swallow_the_rest(far: float) -> None:
     model.fix(a)
     model.fix(c)
     if far > 1e16:
-        with pytest.raises(flexact.ModelError, match="zero length"):
+        with pytest.raises(flexact.ModelError) as error:
             analyse(model)
+        assert {item.code for item in error.value.diagnostics} == {"zero-length"}
         return
     for method in METHODS:
         analysis = analyse(model, method=method)
@@ -90,8 +96,9 @@ def test_ends_at_opposite_ends_of_the_numbers() -> None:
     """Their difference overflows."""
     model = Model()
     model.truss(model.node(-HUGE, 0, 0), model.node(HUGE, 0, 0))
-    with pytest.raises(flexact.ModelError, match="1e-90 to 1e90"):
+    with pytest.raises(flexact.ModelError) as error:
         analyse(model)
+    assert [item.code for item in error.value.diagnostics] == ["length-out-of-range"]
 
 
 @pytest.mark.filterwarnings("error")
@@ -128,8 +135,9 @@ def test_axes_of_any_length(size: float) -> None:
 
 @pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
 def test_what_is_no_number_is_refused(number: float) -> None:
-    with pytest.raises(ValueError, match="finite"):
+    with pytest.raises(flexact.ModelError) as error:
         Model().node(number, 0, 0)
+    assert code_of(error) == "bad-number"
 
 
 @pytest.mark.parametrize("word", ["4.9e-324", "1e-400", "1.7e308", "1e400"])
@@ -162,13 +170,14 @@ def braced_strip(bays: int) -> Model:
     return model
 
 
-@pytest.mark.parametrize("method", ["svd", "jacobi", "qr"])
+@pytest.mark.parametrize("method", DENSE)
 def test_dense_methods_refuse_a_hundred_thousand_columns(method: str) -> None:
     """D(c) alone takes 8e10 bytes, and its decomposition has two bases of the same size."""
     model = braced_strip(25_000)
-    with pytest.raises(flexact.AnalysisError, match=r"100000 columns; .* GB of memory") as caught:
+    with pytest.raises(flexact.AnalysisError) as caught:
         analyse(model, method=method)
     words = str(caught.value).split()
+    assert "100000" in words
     assert 3 * 80 <= float(words[words.index("GB") - 1]) <= 12 * 80
     assert "\n" not in str(caught.value)
 
@@ -184,7 +193,7 @@ def test_the_command_refuses_in_one_line(
     assert code not in (0, 3)
     assert out == ""
     assert len(err.splitlines()) == 1
-    assert "2400 columns" in err and "GB of memory" in err
+    assert "2400" in err.split() and str(path) in err
     assert main(["analyse", str(path), "--method", "sparse"]) == 0
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A mechanism that stands up to 1e8 of its lengths from the origin keeps its verdict.
 
 The stored coordinates have lost eight digits there, so that a certain answer cannot be asked
@@ -13,7 +14,7 @@ from flexact import Model, analyse, read_text
 
 
 def size_of(model: Model) -> float:
-    """Largest extent of the scene along an axis."""
+    """Largest extent of the drawing along an axis."""
     return float(np.max(np.ptp(model.positions, axis=0), initial=0.0))
 
 
@@ -24,7 +25,7 @@ def direction_of(model: Model) -> np.ndarray:
 @pytest.mark.parametrize("far", [1e4, 1e8])
 @pytest.mark.parametrize("name", NAMES)
 def test_every_method_far_from_the_origin(name: str, far: float) -> None:
-    """In characteristic lengths, and in sizes of the whole scene."""
+    """In characteristic lengths, and in sizes of the whole drawing."""
     here = read_text(text_of(name))
     for length in {analyse(here).characteristic_length, size_of(here)}:
         there = read_text(transform.moved(text_of(name), far * length * direction_of(here)))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the benchmarks hold for true of their families, at sizes that numpy can decompose."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The answer does not depend on units, on where a mechanism stands, or on how it is turned.
 
 Decks are rewritten by tests/reference/transform.py, which shares nothing with the package; the

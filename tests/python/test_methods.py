@@ -1,4 +1,5 @@
-"""The choice of a method and of a tolerance: what is taken, what is refused, what is said."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""The choice of a method and of a tolerance: what is taken, what is refused, what is given."""
 
 import re
 from typing import Any
@@ -7,13 +8,15 @@ import numpy as np
 import pytest
 from known_models import folded_sheet, ring, twelve_trusses
 from large_results import changed
+from verdicts import DENSE
 
 import flexact
-from flexact import Analysis, Model, _boundary, analyse, memory
-from flexact.log import log_text
-from flexact.words import describe
-
-DENSE = ("svd", "jacobi", "qr")
+from flexact import Analysis, Model, analyse
+from flexact.base import memory
+from flexact.core import calls
+from flexact.core.arrays import FloatArray
+from flexact.text.describe import describe
+from flexact.text.log import log_text
 
 
 @pytest.mark.parametrize("method", DENSE)
@@ -28,26 +31,26 @@ def test_every_dense_method_finds_the_known_counts(
     assert (analysis.under_constrained, analysis.over_constrained) == (under, over)
     assert analysis.method == method and analysis.asked.method == method
     assert analysis.singular_values_given == "all"
-    assert f"Method: {method}" in describe(analysis)
 
 
 def test_what_is_no_method_is_refused_with_the_choices() -> None:
-    with pytest.raises(ValueError, match=r"no method 'SVD'; .* auto, svd, jacobi, qr, sparse"):
+    with pytest.raises(ValueError) as error:
         analyse(twelve_trusses(), method="SVD")
+    assert all(name in str(error.value) for name in ("'SVD'", *calls.METHODS))
     for method in (None, 3, b"svd"):
-        with pytest.raises(TypeError, match="a method is given by its name"):
+        with pytest.raises(TypeError):
             analyse(twelve_trusses(), method=method)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("tolerance", [-1e-300, float("nan"), float("inf")])
 def test_a_tolerance_must_be_finite_and_not_negative(tolerance: float) -> None:
-    with pytest.raises(ValueError, match="must be finite and not negative"):
+    with pytest.raises(ValueError):
         analyse(twelve_trusses(), tolerance=tolerance)
 
 
 @pytest.mark.parametrize("tolerance", ["1e-3", b"1", True, 1j, [1.0]])
 def test_a_tolerance_must_be_a_number(tolerance: Any) -> None:
-    with pytest.raises(TypeError, match="the tolerance must be a number"):
+    with pytest.raises(TypeError):
         analyse(twelve_trusses(), tolerance=tolerance)
 
 
@@ -64,34 +67,29 @@ def test_a_tolerance_decides_and_is_echoed() -> None:
     assert coarse.asked.tolerance == 1.01 * smallest and plain.asked.tolerance is None
 
 
-def failing(status: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    raw = analyse(ring(3)).raw._replace(status=status, bytes_needed=3.5e9)
-    monkeypatch.setattr(_boundary, "analyse_model", lambda *_: raw)
+def failing(error: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    raw = analyse(ring(3)).raw._replace(error=error, bytes_needed=3.5e9)
+    monkeypatch.setattr(calls, "analyse_model", lambda *_: raw)
 
 
-@pytest.mark.parametrize(
-    ("status", "words"),
-    [
-        (1, "did not converge"),
-        (2, r"9 rows and 9 columns; its decomposition needs about 3\.5 GB of memory, more than"),
-        (5, r"has no SuiteSparse, .* \(apt-get install libsuitesparse-dev\), then build Flexact"),
-        (9, r"the core failed \(status 9\)"),
-    ],
-)
-def test_failures_of_the_core_say_what_to_do(
-    status: int, words: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("failure", [each for each in calls.ERRORS if each != "none"])
+def test_failures_of_the_core_are_errors_of_the_analysis(
+    failure: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    failing(status, monkeypatch)
-    with pytest.raises(flexact.AnalysisError, match=words):
+    """What they say to do stands in golden/messages/failed_analyses.txt."""
+    failing(failure, monkeypatch)
+    with pytest.raises(flexact.AnalysisError) as error:
         analyse(ring(3))
+    if failure == "memory":
+        assert re.findall(r"\d[\d.]*", str(error.value)) == ["9", "9", "3.5"]
 
 
 def test_memory_that_runs_out_on_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr(_boundary, "analyse_model", full)
-    with pytest.raises(flexact.AnalysisError, match="needs more memory than there is"):
+    monkeypatch.setattr(calls, "analyse_model", full)
+    with pytest.raises(flexact.AnalysisError):
         analyse(ring(3))
 
 
@@ -103,18 +101,22 @@ def test_what_is_not_worth_a_look_may_always_be_used(monkeypatch: pytest.MonkeyP
 
 def test_method_is_told_where_it_is_not_the_plain_one() -> None:
     analysis = analyse(folded_sheet(False))
-    assert "Method:" not in describe(analysis)
-    large = changed(analysis, method="sparse", parts=300, largest_part=(36, 35))
-    wanted = "Method: sparse (chosen automatically), in 300 parts, the largest 36 x 35."
-    assert wanted in describe(large).splitlines()
+    plain = set(describe(analysis).splitlines())
+    assert not any("svd" in line for line in plain)
+    large = changed(analysis, method="sparse", components=300, largest_component=(36, 35))
+    (line,) = (line for line in describe(large).splitlines() if "sparse" in line)
+    assert re.findall(r"\d+", line) == ["300", "36", "35"]
 
 
 def smallest_only(analysis: Analysis, kept: int) -> Analysis:
-    return changed(
-        analysis,
-        singular_values=analysis.singular_values[-kept:],
-        scaled_values=analysis.scaled_singular_values[-kept:],
-    )
+    part = changed(analysis, scaled_values=analysis.scaled_singular_values[-kept:])
+    return given(part, analysis.singular_values[-kept:])
+
+
+def given(analysis: Analysis, values: FloatArray) -> Analysis:
+    """The analysis with these singular values of D(c) itself, as if it had been asked for them."""
+    vars(analysis)["singular_values"] = values
+    return analysis
 
 
 def test_smallest_singular_values_alone() -> None:
@@ -123,17 +125,21 @@ def test_smallest_singular_values_alone() -> None:
     assert part.singular_values_given == "smallest" and part.gap == whole.gap
     assert part.to_dict()["singular_values_given"] == "smallest"
     assert smallest_only(analyse(ring(3)), 3).condition_number is None
-    text = log_text(part)
-    (section,) = re.findall(r"The smallest singular values of D\(c\).*?tolerance", text, re.S)
-    assert re.findall(r"^ +(\d+) ", section, re.M) == ["10", "11", "12"]
-    assert section.count("counts as zero") == 1 and " 12 " in section.split("counts")[0][-60:]
+    assert [number for number, *_ in values_reported(part)] == [10, 11, 12]
+    assert [remark != "" for *_, remark in values_reported(part)] == [False, False, True]
+
+
+def values_reported(analysis: Analysis) -> list[tuple[int, str, str, str]]:
+    """Number, value, scaled value, and the remark behind them, as the log lists them."""
+    number = r"(-|\d\.\d{16}e[+-]\d+)"
+    rows = re.findall(rf"^ +(\d+) +{number} +{number} *(.*)$", log_text(analysis), re.MULTILINE)
+    return [(int(first), *rest) for first, *rest in rows]  # type: ignore[misc]
 
 
 def test_singular_values_of_the_scaled_matrix_alone() -> None:
-    part = changed(smallest_only(analyse(twelve_trusses()), 2), singular_values=np.zeros(0))
+    part = given(smallest_only(analyse(twelve_trusses()), 2), np.zeros(0))
     assert part.singular_values_given == "smallest"
-    lines = [line.split() for line in log_text(part).splitlines()]
-    assert [line[:2] for line in lines if line[1:2] == ["-"]] == [["11", "-"], ["12", "-"]]
+    assert [reported[:2] for reported in values_reported(part)] == [(11, "-"), (12, "-")]
 
 
 def test_gap_where_zeros_alone_are_given() -> None:
@@ -145,8 +151,7 @@ def test_gap_where_zeros_alone_are_given() -> None:
     assert none.gap == (None, whole.gap.largest_zero)
 
 
-def test_words_say_why_another_method_was_used() -> None:
-    """A tolerance above what the sparse route can prove leaves the count to svd."""
+def test_a_tolerance_that_the_sparse_route_cannot_prove_leaves_the_count_to_svd() -> None:
     analysis = flexact.analyse(twelve_trusses(), method="sparse", tolerance=1e-3)
     assert (analysis.method, analysis.under_constrained) == ("svd", 1)
-    assert "Method: svd (sparse could not confirm the count)." in analysis.describe()
+    assert analysis.asked.method == "sparse"

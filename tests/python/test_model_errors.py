@@ -1,44 +1,25 @@
-"""What the builder says to wrong use: a ModelError with a code, at once."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wrong use of the builder: a ModelError with a code, at once, and nothing is changed.
+
+The words of each stand in golden/messages.
+"""
 
 import numpy as np
 import pytest
+from wrong_use import BUILDER, Call, code_of, each, two_nodes_and_a_bar
 
 import flexact
 from flexact import Model, ModelError
 
 
-def code_of(error: pytest.ExceptionInfo[ModelError]) -> str:
-    return error.value.diagnostics[0].code
-
-
-WRONG_USE = {
-    "component-out-of-range": lambda m, a, b, e: m.fix(a, "w"),
-    "class-conflict": lambda m, a, b, e: (m.fix(a, "x"), m.independent(a, "x")),
-    "other-model": lambda m, a, b, e: m.truss(a, Model().node(0, 0, 0)),
-    "no-such-element": lambda m, a, b, e: m.release(99, 1),
-    "no-such-node": lambda m, a, b, e: m.fix(99, "x"),
-    "two-kinds-of-node": lambda m, a, b, e: m.truss(a.orientation, b),
-    "bad-number": lambda m, a, b, e: m.node(float("nan"), 0, 0),
-    "zero-vector": lambda m, a, b, e: m.beam(a, b, y=(0, 0, 0)),
-    "missing-vector": lambda m, a, b, e: m.hinge(a),
-    "not-a-point": lambda m, a, b, e: m.wire(1, 3),
-    "ambiguous-number": lambda m, a, b, e: m.independent(1),
-    "two-positions": lambda m, a, b, e: m.hinge(a, (0, 0, 1), b),
-    "out-of-range": lambda m, a, b, e: m.sheet(a, b, (0, 0, 1), beams=0),
-    "not-an-element": lambda m, a, b, e: m.release(a, 1),
-    "not-a-node": lambda m, a, b, e: m.fix(e),
-}
-
-
-@pytest.mark.parametrize("code", WRONG_USE)
-def test_wrong_use_is_a_model_error_at_once(code: str) -> None:
-    model = Model()
-    a, b = model.node(0, 0, 0), model.node(1, 0, 0)
-    element = model.truss(a, b)
+@pytest.mark.parametrize(("code", "call"), each(BUILDER))
+def test_wrong_use_is_a_model_error_at_once(code: str, call: Call) -> None:
+    model, a, b, bar = two_nodes_and_a_bar()
     with pytest.raises(ModelError) as error:
-        WRONG_USE[code](model, a, b, element)
+        call(model, a, b, bar)
     assert code_of(error) == code
     assert str(error.value).startswith(f"error[{code}]: ")
+    assert model.element_numbers.tolist() == [1]
 
 
 @pytest.mark.parametrize(
@@ -47,40 +28,35 @@ def test_wrong_use_is_a_model_error_at_once(code: str) -> None:
 )
 def test_bad_vectors_are_model_errors(bad: object) -> None:
     model = Model()
-    with pytest.raises(ModelError, match="three numbers"):
+    with pytest.raises(ModelError) as error:
         model.beam(model.node(0, 0, 0), model.node(1, 0, 0), y=bad)  # type: ignore[arg-type]
+    assert code_of(error) == "bad-number"
 
 
 def test_coordinates_in_quotes_are_refused() -> None:
     for bad in (("1", 0, 0), (0, b"1", 0), (0, 0, 1j)):
-        with pytest.raises(ModelError, match="the position must be three numbers"):
+        with pytest.raises(ModelError) as error:
             Model().node(*bad)  # type: ignore[arg-type]
+        assert code_of(error) == "bad-number"
     assert Model().node(np.float32(1), np.int64(2), True).position == 1
 
 
 @pytest.mark.parametrize("bad", [5, b"bar", ["x"], None])
 def test_names_are_text(bad: object) -> None:
-    with pytest.raises(ModelError, match="the name of a model must be text, not "):
-        Model(name=bad)  # type: ignore[arg-type]
     model = Model()
     a, b = model.node(0, 0, 0), model.node(1, 0, 0)
-    named = {
-        "an element": (
-            lambda: model.truss(a, b, bad),  # type: ignore[arg-type]
-            lambda: model.beam(a, b, name=bad),  # type: ignore[arg-type]
-            lambda: model.wire(a, b, name=bad),  # type: ignore[arg-type]
-            lambda: model.rigid(a, b, name=bad),  # type: ignore[arg-type]
-            lambda: model.hinge(a, (0, 0, 1), name=bad),  # type: ignore[arg-type]
-        ),
-        "a sheet": (
-            lambda: model.sheet(a, b, (0, 0, 1), 2, bad),  # type: ignore[arg-type]
-        ),
-    }
-    for what, calls in named.items():
-        for call in calls:
-            with pytest.raises(ModelError, match=f"the name of {what} must be text, not ") as error:
-                call()
-            assert code_of(error) == "bad-name"
+    for call in (
+        lambda: Model(name=bad),  # type: ignore[arg-type]
+        lambda: model.truss(a, b, bad),  # type: ignore[arg-type]
+        lambda: model.beam(a, b, name=bad),  # type: ignore[arg-type]
+        lambda: model.wire(a, b, name=bad),  # type: ignore[arg-type]
+        lambda: model.rigid(a, b, name=bad),  # type: ignore[arg-type]
+        lambda: model.hinge(a, (0, 0, 1), name=bad),  # type: ignore[arg-type]
+        lambda: model.sheet(a, b, (0, 0, 1), 2, bad),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(ModelError) as error:
+            call()
+        assert code_of(error) == "bad-name"
     assert model.element_numbers.size == 0
     assert model.node(0, 0, 0).position == 5, "no node was added"
 
@@ -88,13 +64,14 @@ def test_names_are_text(bad: object) -> None:
 @pytest.mark.parametrize("parts", [2.0, "2", None])
 def test_number_of_beams_is_whole(parts: object) -> None:
     model = Model()
-    with pytest.raises(ModelError, match="the number of beams must be a whole number, not "):
+    with pytest.raises(ModelError) as error:
         model.sheet(
             model.node(0, 0, 0),
             model.node(1, 0, 0),
             (0, 0, 1),
             parts,  # type: ignore[arg-type]
         )
+    assert code_of(error) == "bad-number"
 
 
 def test_wrong_use_changes_nothing() -> None:
@@ -104,17 +81,11 @@ def test_wrong_use_changes_nothing() -> None:
     model.independent(a, "y")
     model.independent(wire, 3)
     for wrong in (lambda: model.fix(a), lambda: model.release(wire)):
-        with pytest.raises(ModelError, match="two classes"):
+        with pytest.raises(ModelError) as error:
             wrong()
+        assert code_of(error) == "class-conflict"
     assert model.coordinate_classes[0].tolist() == [2, 3, 2]
     assert model.deformation_classes[0].tolist() == [1, 1, 3, 1, 1, 1]
-
-
-def test_deformation_out_of_range() -> None:
-    model = Model()
-    bar = model.truss(model.node(0, 0, 0), model.node(1, 0, 0))
-    with pytest.raises(ModelError, match="element 1 has no deformation 2"):
-        model.release(bar, 2)
 
 
 def test_core_checks_are_model_errors() -> None:
@@ -128,7 +99,9 @@ def test_core_checks_are_model_errors() -> None:
             call(model)
         codes = [item.code for item in error.value.diagnostics]
         assert codes == ["zero-length", "parallel-vector", "same-node"]
-        assert "TRUSS 1" in str(error.value)
+        named = ("TRUSS 1", "BEAM 2", "TRUSS 3")
+        for item, element in zip(error.value.diagnostics, named, strict=True):
+            assert element in item.message
 
 
 def test_a_width_along_the_sheet_is_told_where_it_is_given() -> None:
@@ -137,7 +110,6 @@ def test_a_width_along_the_sheet_is_told_where_it_is_given() -> None:
     with pytest.raises(ModelError) as error:
         model.sheet(a, b, width=(2, 0, 0))
     assert code_of(error) == "parallel-vector"
-    assert "width" in str(error.value)
     assert model.element_numbers.size == 0
 
 
@@ -161,12 +133,13 @@ def test_a_model_can_be_looked_at_while_it_is_made() -> None:
     a, b, c = (model.node(x, 0, 0) for x in range(3))
     for node in (a, b, c):
         model.fix(node)
-    assert repr(model) == "<flexact model: 0 nodes, 0 elements>"
+    assert repr(model)
     model.truss(a, b)
     assert model.positions.tolist() == [[0, 0, 0], [1, 0, 0]]
     assert [item.code for item in model.diagnostics] == ["no-such-node"]
-    with pytest.raises(ModelError, match="no element uses it"):
+    with pytest.raises(ModelError) as error:
         model.to_deck()
+    assert code_of(error) == "no-such-node"
     model.truss(b, c)
     assert model.diagnostics == ()
 
@@ -178,11 +151,15 @@ def test_class_of_a_node_that_nobody_uses() -> None:
     model.fix(a)
     assert model.coordinate_classes[0].tolist() == [1, 1, 1]
     model.fix(c)
-    with pytest.raises(ModelError, match=f"node {c.position} .* no element uses it"):
+    with pytest.raises(ModelError) as error:
         flexact.analyse(model)
+    assert code_of(error) == "no-such-node"
+    assert f"node {c.position} " in error.value.diagnostics[0].message
     other = Model()
     a, b = other.node(0, 0, 0), other.node(1, 0, 0)
     other.truss(a, b)
     other.fix(a, "rx")
-    with pytest.raises(ModelError, match=f"node {a.orientation} "):
+    with pytest.raises(ModelError) as error:
         flexact.analyse(other)
+    assert code_of(error) == "no-such-node"
+    assert f"node {a.orientation} " in error.value.diagnostics[0].message

@@ -1,4 +1,5 @@
-"""One mistake is told once: what only follows from it is not told as well."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""One mistake is reported once: what only follows from it is not reported as well."""
 
 from __future__ import annotations
 

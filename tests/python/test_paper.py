@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Every deck against its reference, and the paper's twelve trusses against closed forms.
 
 The references under tests/reference are computed by tests/reference/oracle.py, which shares
@@ -11,8 +12,8 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.regress import differences
-from flexact.stored_answer import answer_of, read_answer
+from flexact.regress.comparison import differences
+from flexact.regress.stored_answer import answer_of, read_answer
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"

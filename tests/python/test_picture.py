@@ -1,6 +1,7 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures: what stands where in them, and in which colour.
 
-Points of the scenes are projected here, and the pixels there are looked at.
+Points of the drawings are projected here, and the pixels there are looked at.
 """
 
 import itertools
@@ -8,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pictures import SWINGING, VIEW, Pixels, deck, hue, of_text
+from pictures import SWINGING, VIEW, Pixels, collection, deck, hue, of_text
 from small_decks import COLLINEAR, DECKS, TRIANGLE
 
 import flexact
-from flexact.scene import scene_of
-from flexact.shown import NotThereError
+from flexact.drawing import drawing_of
+from flexact.drawing.selection import NotThereError
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
@@ -71,14 +72,14 @@ def test_clamped_ends_of_a_folded_sheet_are_opposite() -> None:
     """Fig. 4(c): bending in the plane of the sheets, of opposite signs at the clamped ends."""
     analysis = deck("paper/folded_sheet_clamped")
     pixels = Pixels(draw(analysis, stress=1, view=VIEW))
-    scene = scene_of(analysis.data)
+    drawing = drawing_of(analysis.data)
     hues = []
-    clamped = set(scene.supports.node.tolist())
+    clamped = set(drawing.supports.node.tolist())
     for row in range(2):
-        p, _, q, _ = scene.members.nodes[row]
+        p, _, q, _ = drawing.members.nodes[row]
         near, far = (p, q) if p in clamped else (q, p)
-        start, end = scene.reference.position[[near, far]]
-        width = scene.members.section[row, 1] * scene.members.frame[row, :, 2]
+        start, end = drawing.reference.position[[near, far]]
+        width = drawing.members.section[row, 1] * drawing.members.frame[row, :, 2]
         # Beside the diagram, which is on one side of the axis.
         sides = [hue(pixels.at(0.93 * start + 0.07 * end + s * width)) for s in (-0.4, 0.4)]
         assert sides[0] == sides[1] != 0
@@ -137,7 +138,7 @@ def test_a_bending_diagram_has_its_height_and_its_value(tmp_path: Path) -> None:
     )
     largest = np.abs(stress.moments).max()
     figure = draw(analysis, stress=number, quantity="Mz")
-    paths = figure.axes[0].collections[0].get_paths()
+    paths = collection(figure).get_paths()
     heights = np.abs(np.concatenate([path.vertices for path in paths])[:, 1])
     assert heights.max() == pytest.approx(0.08 * 2.0, rel=1e-6)
     words = {text.get_text() for text in figure.texts}
@@ -157,10 +158,10 @@ def test_a_bending_diagram_hides_its_sheet(tmp_path: Path) -> None:
     """A sheet with a constant moment: within the diagram only its pale colour and grey ribs."""
     analysis = of_text(tmp_path, TWO_SHEETS)
     pixels = Pixels(draw(analysis, stress=1, view=VIEW))
-    scene = scene_of(analysis.data)
+    drawing = drawing_of(analysis.data)
     moment = analysis.self_stresses[0].moments[1, 2]
-    start, end = scene.reference.position[scene.members.nodes[1, [0, 2]]]
-    top = 0.08 * scene.size * np.sign(moment) * scene.members.frame[1, :, 2]
+    start, end = drawing.reference.position[drawing.members.nodes[1, [0, 2]]]
+    top = 0.08 * drawing.size * np.sign(moment) * drawing.members.frame[1, :, 2]
     blueness = [
         pixels.at(start + share * (end - start) + height * top) @ (-1, 0, 1)
         for share in np.linspace(0.05, 0.8, 1600)
@@ -180,7 +181,7 @@ def test_the_largest_displacement_is_a_tenth_of_the_size(tmp_path: Path) -> None
         figure = draw(analysis, motion=1, phase=phase)
         pixels = Pixels(figure, planar=True)
         side = phase * np.sign(analysis.motions[0].displacement[1, 1])
-        bar = 255 * scene_of(analysis.data).members.colour[0]
+        bar = 255 * drawing_of(analysis.data).members.colour[0]
         for x in (-0.6, 0.6):
             moved = pixels.at((x, 0.2 * side * (1 - abs(x)), 0.0))
             np.testing.assert_allclose(moved, bar, atol=2)
@@ -220,15 +221,15 @@ def test_a_sliding_support_goes_with_its_node(tmp_path: Path) -> None:
     """A slider on a line of ground; the joint at the other end moves up and down."""
     rod = "PLTRUSS 1 1 2\nX 1 0 0\nX 2 0.6 0.8\nFIX 1 2\nFIX 2 1\n"
     analysis = of_text(tmp_path, rod)
-    scene = scene_of(analysis.data)
-    from flexact.scene import move
+    drawing = drawing_of(analysis.data)
+    from flexact.drawing import move
 
-    moved = move(scene, analysis.motions[0]).pose(1.0).position
+    moved = move(drawing, analysis.motions[0]).pose(1.0).position
     assert abs(moved[0, 0]) > 0.05
     pixels = Pixels(draw(analysis, motion=1), planar=True)
     dark = [
         int(np.sum(pixels.near(point - (0.0, 0.06, 0.0), 4).min(axis=1) < 90))
-        for point in (moved[0], scene.reference.position[0])
+        for point in (moved[0], drawing.reference.position[0])
     ]
     assert dark[0] > 0
     assert dark[1] == 0
@@ -253,15 +254,15 @@ def test_a_motion_that_only_turns_has_turning_arrows(tmp_path: Path) -> None:
     assert Pixels(draw(analysis, motion=1, phase=0.0, view=VIEW)).count(ARROW) == 0
 
 
-# What is drawn of a scene
+# What is drawn of a drawing
 
 
-def test_planar_scenes_are_flat(tmp_path: Path) -> None:
+def test_planar_drawings_are_flat(tmp_path: Path) -> None:
     """Whatever their direction, bars have one colour; x is to the right and y upwards."""
     analysis = of_text(tmp_path, TRIANGLE)
     figure = draw(analysis, view="left")
     pixels = Pixels(figure, planar=True)
-    bar = np.rint(255 * scene_of(analysis.data).members.colour[0])
+    bar = np.rint(255 * drawing_of(analysis.data).members.colour[0])
     middles = ((0.25, 0.5, 0.0), (0.75, 0.5, 0.0))
     for middle in middles:
         np.testing.assert_allclose(pixels.at(middle), bar, atol=1)
@@ -273,7 +274,7 @@ def test_planar_scenes_are_flat(tmp_path: Path) -> None:
 def test_solids_are_shaded() -> None:
     """Three sides of a block of ground are seen, each with another brightness."""
     figure = draw(deck("flexures/sheet_clamped_both_ends"), stress=1, view=VIEW)
-    colours = figure.axes[0].collections[0].get_facecolor()[:, :3]
+    colours = collection(figure).get_facecolor()[:, :3]
     ground = np.array((0.72, 0.73, 0.74))
     share = colours / ground
     sides = share[np.ptp(share, axis=1) < 1e-9][:, 0]
@@ -287,7 +288,7 @@ def test_solids_are_shaded() -> None:
 def test_supports_stand_below_what_they_hold(tmp_path: Path) -> None:
     analysis = of_text(tmp_path, TRIANGLE)
     pixels = Pixels(draw(analysis), planar=True)
-    size = scene_of(analysis.data).size
+    size = drawing_of(analysis.data).size
     for node, is_held in (((0.0, 0.0), True), ((1.0, 0.0), True), ((0.5, 1.0), False)):
         below = pixels.near((node[0], node[1] - 0.045 * size, 0.0), 4)
         assert bool(np.any(below.max(axis=1) < 90)) == is_held
@@ -295,7 +296,7 @@ def test_supports_stand_below_what_they_hold(tmp_path: Path) -> None:
 
 def test_hinges_are_cylinders_in_their_colour() -> None:
     analysis = deck("linkages/sarrus")
-    purple = scene_of(analysis.data).hinges.colour[0]
+    purple = drawing_of(analysis.data).hinges.colour[0]
     figure = draw(analysis, motion=1, phase=0.0, view=VIEW)
     rgb = Pixels(figure).rgb / np.maximum(Pixels(figure).rgb.max(axis=-1, keepdims=True), 1)
     shaded = np.all(np.abs(rgb - purple / purple.max()) < 0.03, axis=-1)
@@ -319,7 +320,7 @@ def test_what_is_not_drawn_leaves_no_trace(tmp_path: Path) -> None:
     assert pixels.at((0.75, 0.5, 0.0)).tolist() != [255, 255, 255]
 
 
-def test_a_scene_of_which_nothing_is_drawn_makes_a_picture(tmp_path: Path) -> None:
+def test_a_drawing_of_which_nothing_is_drawn_makes_a_picture(tmp_path: Path) -> None:
     text = f"{TRIANGLE}{BLOCKS}BEAMPROPS 1 2\nDONOTDRAW 1 2\n"
     assert picture_bytes(of_text(tmp_path, text), ".png").startswith(b"\x89PNG")
 
@@ -436,29 +437,31 @@ def test_named_views_look_along_the_axes() -> None:
         "top": 2.0 / 2.0,
         "bottom": 2.0 / 2.0,
     }
-    from flexact.picture.view import view_of
+    from flexact.drawing.view import view_of
 
-    scene = scene_of(analysis.data)
+    drawing = drawing_of(analysis.data)
     for name, quotient in expected.items():
-        view = view_of(name, scene)
+        view = view_of(name, drawing)
         np.testing.assert_allclose(view.axes @ view.axes.T, np.eye(3), atol=1e-15)
         assert np.linalg.det(view.axes) == pytest.approx(1.0)
-        flat = view.project(scene.reference.position)
+        flat = view.project(drawing.reference.position)
         across, up = np.ptp(flat[:, 0]), np.ptp(flat[:, 1])
         assert across / up == pytest.approx(quotient)
     for first, second in itertools.pairwise(("front", "back")):
-        x = [view_of(name, scene).project(np.array([1.0, 0.0, 0.0]))[0] for name in (first, second)]
+        x = [
+            view_of(name, drawing).project(np.array([1.0, 0.0, 0.0]))[0] for name in (first, second)
+        ]
         assert x == pytest.approx([1.0, -1.0])
 
 
 def test_the_view_that_is_chosen_shows_sheets_from_no_edge() -> None:
     """Two sheets at right angles, one of them edge-on from any side along the axes."""
-    from flexact.picture.view import view_of
+    from flexact.drawing.view import view_of
 
     for name in ("paper/folded_sheet_clamped", "paper/six_folded_sheets", "flexures/cross_hinge"):
-        scene = scene_of(deck(name).data)
-        towards = view_of(None, scene).axes[2]
-        sheets = scene.members.frame[scene.members.form == 1]
+        drawing = drawing_of(deck(name).data)
+        towards = view_of(None, drawing).axes[2]
+        sheets = drawing.members.frame[drawing.members.form == 1]
         facing = np.abs(
             np.max(np.abs(np.stack([sheets[..., 1] @ towards, sheets[..., 2] @ towards])), axis=0)
         )

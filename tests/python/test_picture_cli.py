@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The command ``flexact picture``: what it writes, and what it says where it cannot."""
 
 import os
@@ -8,7 +9,7 @@ from pathlib import Path
 import pytest
 from small_decks import BROKEN, DECKS, files_in, write
 
-from flexact.batch import BatchError
+from flexact.base.errors import BatchError
 from flexact.cli.main import main
 
 pytest.importorskip("matplotlib")
@@ -128,7 +129,7 @@ def test_an_existing_picture_stays_until_the_new_one_is_complete(
         raise BatchError("in the middle")
 
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.picture.raster.png_bytes", fail)
+        patch.setattr("flexact.picture.make.png_bytes", fail)
         assert main(["picture", str(decks / "both.dat"), "-o", str(target)]) == 1
     assert target.read_text() == "old"
     assert files_in(target.parent) == ["x.png"]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Files of pictures: PNG, SVG and GIF, whatever a name contains, and the same each time."""
 
 import importlib.util
@@ -106,7 +107,7 @@ def test_what_does_not_move_is_turned(tmp_path: Path) -> None:
     assert steps[0] < 2 * np.median(steps)
 
 
-def test_a_planar_scene_that_does_not_move_is_one_frame(tmp_path: Path) -> None:
+def test_a_planar_drawing_that_does_not_move_is_one_frame(tmp_path: Path) -> None:
     assert len(frames_of(picture_bytes(of_text(tmp_path, TRIANGLE), ".gif"))) == 1
 
 
@@ -159,7 +160,7 @@ def test_names_are_text_whatever_they_contain(name: str) -> None:
     tags = {element.tag.rpartition("}")[2] for element in root.iter()}
     assert "script" not in tags
     assert not any("onload" in element.attrib for element in root.iter())
-    from flexact.rendering import harmless
+    from flexact.base.plain_text import harmless
 
     told = [element.text for element in root.iter(f"{SVG}text")]
     assert harmless(name) in told

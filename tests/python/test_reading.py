@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Files and texts: how they are named, how much memory they take, what is refused."""
 
 import json
@@ -30,12 +31,12 @@ def test_a_small_file_takes_little_memory(path: Path) -> None:
     assert peak < 2**22
 
 
-@pytest.mark.parametrize("told", [0, 10])
+@pytest.mark.parametrize("reported", [0, 10])
 def test_a_file_that_grows_is_read_whole(
-    told: int, path: Path, monkeypatch: pytest.MonkeyPatch
+    reported: int, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     true = os.stat(path)
-    status = os.stat_result((*true[:6], told, *true[7:10]))
+    status = os.stat_result((*true[:6], reported, *true[7:10]))
     monkeypatch.setattr(os, "stat", lambda *_, **__: status)
     model = flexact.read(path)
     assert model.coordinate_classes.tolist() == [[1, 1, 0], [2, 1, 0]]
@@ -67,11 +68,11 @@ def test_texts_of_every_kind() -> None:
 @pytest.mark.parametrize("bad", [5, ["a"], None, 1.5])
 def test_what_is_no_text_is_a_type_error(bad: object) -> None:
     kind = type(bad).__name__
-    with pytest.raises(TypeError, match=f"must be text or bytes, not {kind}"):
+    with pytest.raises(TypeError, match=kind):
         flexact.read_text(bad)  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match=f"name of a deck must be text, not {kind}"):
+    with pytest.raises(TypeError, match=kind):
         flexact.read_text(DECK, bad)  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match=f"a model or the path of a deck .* not {kind}"):
+    with pytest.raises(TypeError, match=kind):
         flexact.analyse(bad)  # type: ignore[arg-type]
     with pytest.raises(TypeError):
         flexact.read(bad)  # type: ignore[arg-type]
@@ -79,7 +80,7 @@ def test_what_is_no_text_is_a_type_error(bad: object) -> None:
 
 @pytest.mark.parametrize("bad", [5, b"x"])
 def test_name_of_a_result_is_text(bad: object, path: Path) -> None:
-    with pytest.raises(TypeError, match="the name of a result must be text, not "):
+    with pytest.raises(TypeError, match=type(bad).__name__):
         flexact.analyse(path, name=bad)  # type: ignore[arg-type]
 
 

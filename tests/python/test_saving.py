@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A result saved from Python: the suffix says what the file is."""
 
 from pathlib import Path

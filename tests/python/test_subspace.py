@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Subspaces of sparse vectors against the same by dense matrices."""
 
 from __future__ import annotations
@@ -5,10 +6,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from flexact import subspace
-from flexact.exchange import Basis, FloatArray
-from flexact.images import fixed_vectors, project
-from flexact.subspace import Sparse, norms_of_product, orthonormal, row_norms, support_of
+from flexact.core.arrays import FloatArray
+from flexact.core.basis import Basis
+from flexact.regress.projections import fixed_vectors, project
+from flexact.result import sparse_basis as subspace
+from flexact.result.sparse_basis import Sparse, norms_of_product, orthonormal, row_norms, support_of
 
 SIZE = 60
 

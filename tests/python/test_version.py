@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One version everywhere."""
 
 from __future__ import annotations

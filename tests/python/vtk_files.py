@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Mesh files as VTK's own readers see them, which are ParaView's."""
 
 from __future__ import annotations

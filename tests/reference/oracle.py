@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Compute the reference values of the decks, by a route of its own.
 
 ``python tests/reference/oracle.py`` rewrites all reference files; ``--check`` compares them with a

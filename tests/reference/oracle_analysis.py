@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """D(c) of a deck, its rank beyond doubt, and its null spaces.
 
 Rank is decided on a scaled matrix (rotations times a characteristic length, rows of unit norm). A

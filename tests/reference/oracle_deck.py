@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Read a valid deck: the part of the deck language that the reference computation needs.
 
 This reader is written for the reference values alone and shares nothing with flexact. It trusts its
@@ -23,26 +24,19 @@ class ElementType:
         deformations: number of deformations.
         planar: whether the element lives in the xy plane.
         vector: whether three numbers may follow the nodes.
+        free_axes: groups of deformations along or about axes that follow the global ones, not
+            the element, so that a turned deck shares them out anew.
     """
 
     slots: str
     deformations: int
     planar: bool = False
     vector: bool = False
+    free_axes: tuple[str, ...] = ()
 
 
-ELEMENT_TYPES = {
-    "TRUSS": ElementType("pp", 1),
-    "BEAM": ElementType("popo", 6, vector=True),
-    "RBEAM": ElementType("pop", 3, vector=True),
-    "PINBODY": ElementType("pop", 3),
-    "HINGE": ElementType("oo", 3, vector=True),
-    "PLTRUSS": ElementType("pp", 1, planar=True),
-    "PLBEAM": ElementType("popo", 3, planar=True),
-    "PLRBEAM": ElementType("pop", 2, planar=True),
-    "PLTOR": ElementType("oo", 1, planar=True),
-    "PLHINGE": ElementType("oo", 1, planar=True),
-}
+#: By keyword; filled by `oracle_elements.element`.
+ELEMENT_TYPES: dict[str, ElementType] = {}
 
 CLASS_OF_COORDINATE = {
     "FIX": "fixed",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Deformation functions of the elements and their derivatives by the complex step.
 
 The functions are written for finite displacements: a node's position is x + u and its triad is
@@ -12,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from oracle_deck import Deck, Element
+from oracle_deck import ELEMENT_TYPES, Deck, Element, ElementType
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -37,7 +38,7 @@ def default_vector(direction: Real) -> Real:
     """The global axis along which a direction is smallest; the first of several zeros.
 
     Raises:
-        ValueError: the choice hangs on rounding, so the deck should give a vector.
+        ValueError: the choice depends on rounding, so the deck should give a vector.
     """
     size = np.abs(direction) / np.linalg.norm(direction)
     order = np.sort(size)
@@ -87,12 +88,38 @@ class Placed:
                 self.turn.append(rotation(change))
 
 
+Function = Callable[[Placed], list[np.complex128]]
+FUNCTIONS: dict[str, Function] = {}
+
+
+def element(
+    *keywords: str,
+    slots: str,
+    deformations: int,
+    planar: bool = False,
+    vector: bool = False,
+    free_axes: tuple[str, ...] = (),
+) -> Callable[[Function], Function]:
+    """What some keywords mean, beside the function that gives their deformations."""
+
+    def register(function: Function) -> Function:
+        for keyword in keywords:
+            ELEMENT_TYPES[keyword] = ElementType(slots, deformations, planar, vector, free_axes)
+            FUNCTIONS[keyword] = function
+        return function
+
+    return register
+
+
+@element("TRUSS", slots="pp", deformations=1)
+@element("PLTRUSS", slots="pp", deformations=1, planar=True)
 def elongation(placed: Placed) -> list[np.complex128]:
     """Elongation of a truss, equation (2)."""
     length = np.linalg.norm(placed.start[1] - placed.start[0])
     return [norm(placed.place[1] - placed.place[0]) - length]
 
 
+@element("BEAM", slots="popo", deformations=6, vector=True)
 def beam(placed: Placed) -> list[np.complex128]:
     """Six deformations of a beam, equations (3) and (4), with c_t = 0 (second order in e2)."""
     chord0 = placed.start[1] - placed.start[0]
@@ -117,6 +144,8 @@ def beam(placed: Placed) -> list[np.complex128]:
     ]
 
 
+@element("RBEAM", slots="pop", deformations=3, vector=True)
+@element("PINBODY", slots="pop", deformations=3, free_axes=("123",))
 def position_in_frame(placed: Placed) -> list[np.complex128]:
     """Change of the position of q in the frame carried by p: RBEAM and PINBODY."""
     arm0 = placed.start[1] - placed.start[0]
@@ -125,6 +154,7 @@ def position_in_frame(placed: Placed) -> list[np.complex128]:
     return list((placed.turn[0] @ triad).T @ arm - triad.T @ arm0)
 
 
+@element("HINGE", slots="oo", deformations=3, vector=True, free_axes=("23",))
 def hinge(placed: Placed) -> list[np.complex128]:
     """Relative rotation in rad about the axis and the two directions perpendicular to it."""
     triad = frame(np.array(placed.element.vector))
@@ -133,8 +163,9 @@ def hinge(placed: Placed) -> list[np.complex128]:
     return [(relative[i, j] - relative[j, i]) / 2 for i, j in pairs]
 
 
+@element("PLBEAM", slots="popo", deformations=3, planar=True)
 def planar_beam(placed: Placed) -> list[np.complex128]:
-    """Elongation and two bendings of a planar beam, signs as in deck-language.md."""
+    """Elongation and two bendings of a planar beam, signs as in docs/decks.md."""
     chord0 = placed.start[1] - placed.start[0]
     chord = placed.place[1] - placed.place[0]
     length = np.linalg.norm(chord0)
@@ -145,6 +176,7 @@ def planar_beam(placed: Placed) -> list[np.complex128]:
     return [norm(chord) - length + (2 * e2**2 + e2 * e3 + 2 * e3**2) / (30 * length), e2, e3]
 
 
+@element("PLRBEAM", slots="pop", deformations=2, planar=True)
 def planar_position_in_frame(placed: Placed) -> list[np.complex128]:
     """Change of the position of q in the frame carried by p, x along the element."""
     arm0 = placed.start[1] - placed.start[0]
@@ -154,24 +186,19 @@ def planar_position_in_frame(placed: Placed) -> list[np.complex128]:
     return list((placed.turn[0] @ triad).T @ arm - triad.T @ arm0)
 
 
+@element("PLTOR", "PLHINGE", slots="oo", deformations=1, planar=True)
 def planar_hinge(placed: Placed) -> list[np.complex128]:
     """Relative rotation in rad."""
     relative = placed.turn[0].T @ placed.turn[1]
     return [(relative[1, 0] - relative[0, 1]) / 2]
 
 
-FUNCTIONS: dict[str, Callable[[Placed], list[np.complex128]]] = {
-    "TRUSS": elongation,
-    "BEAM": beam,
-    "RBEAM": position_in_frame,
-    "PINBODY": position_in_frame,
-    "HINGE": hinge,
-    "PLTRUSS": elongation,
-    "PLBEAM": planar_beam,
-    "PLRBEAM": planar_position_in_frame,
-    "PLTOR": planar_hinge,
-    "PLHINGE": planar_hinge,
-}
+@element("BEARING", slots="popo", deformations=6, vector=True, free_axes=("23", "56"))
+def bearing(placed: Placed) -> list[np.complex128]:
+    """Displacement of q, in the frame of the axis that p carries, and rotation against p."""
+    triad = frame(np.array(placed.element.vector))
+    apart = placed.place[1] - placed.place[0] - placed.turn[0] @ (placed.start[1] - placed.start[0])
+    return [*((placed.turn[0] @ triad).T @ apart), *hinge(placed)]
 
 
 def derivatives(deck: Deck, element: Element) -> dict[tuple[int, str], Real]:

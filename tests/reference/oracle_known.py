@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Compare an outcome with the known answer of a deck, written by hand in known_answers.json.
 
 An entry holds ``under_constrained``, ``over_constrained`` and ``source``, and where the source says

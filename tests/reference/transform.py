@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Write a deck turned, moved or in other units, for tests of what must not depend on either.
 
 What stays the same: both counts and, for a turn or a move, the singular values and the projector of
@@ -12,11 +13,10 @@ import re
 from collections.abc import Callable
 
 import numpy as np
-from oracle_deck import Deck, Element, kinematic_statements, number, read_deck
+from oracle_deck import ELEMENT_TYPES, Deck, Element, kinematic_statements, number, read_deck
 from oracle_elements import Real, default_vector
 
 SAME = 1e-12
-FRAMED = ("BEAM", "RBEAM")
 
 Change = Callable[[Real], Real]
 
@@ -78,9 +78,9 @@ def _coordinates_survive(deck: Deck, rotation: Real) -> bool:
 
 def _deformations_survive(deck: Deck) -> bool:
     for label, element in deck.elements.items():
-        free_axes = {"HINGE": ("2", "3"), "PINBODY": ("1", "2", "3")}.get(element.keyword, ())
-        if len({deck.deformations[label, deformation] for deformation in free_axes}) > 1:
-            return False
+        for together in element.type.free_axes:
+            if len({deck.deformations[label, deformation] for deformation in together}) > 1:
+                return False
     return True
 
 
@@ -94,7 +94,7 @@ def _rewritten(text: str, deck: Deck, place: Change, axis: Change) -> str:
             node = int(operands[0])
             written.add(node)
             statement = _position(deck, node, place)
-        elif int(operands[0]) in deck.elements and keyword in (*FRAMED, "HINGE"):
+        elif keyword in ELEMENT_TYPES and ELEMENT_TYPES[keyword].vector:
             element = deck.elements[int(operands[0])]
             head = [keyword, *operands[: 1 + len(element.nodes)]]
             statement = " ".join([*head, *_words(axis(_vector(deck, element)))])

@@ -1,1 +1,2 @@
-"""The command ``flexact``: one module a verb."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command ``flexact``, a module a verb, loaded by name; uses all but `flexact.analysis`."""

@@ -1,15 +1,28 @@
-"""How the verbs analyse a deck: the choices that they share, remarks, and progress."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the verbs read and analyse a deck: the choices that they share, remarks, and progress."""
 
 from __future__ import annotations
 
 import argparse
 import math
 
-import flexact
-from flexact._boundary import METHODS
-from flexact.batch import DeckFile
-from flexact.cli import remarks
+from flexact.base import memory
+from flexact.base.plain_text import harmless
 from flexact.cli.bar import Bar
+from flexact.cli.terminal import complain
+from flexact.core.calls import METHODS
+from flexact.deck.reading import read_file
+from flexact.diagnostics.rendering import render_problems
+from flexact.files.decks import DeckFile
+from flexact.model.data import ModelData
+from flexact.result.decompose import asked_for
+from flexact.result.result import Result, result_of
+
+#: From this number of rows and columns on, people wait for the decomposition.
+LONG_WAIT = 2000
+
+#: Methods that hold D(c) in full.
+DENSE = ("svd", "jacobi")
 
 
 def add_decision(parser: argparse.ArgumentParser) -> None:
@@ -39,23 +52,46 @@ def tolerance(text: str) -> float:
     return value
 
 
-def opened(deck: DeckFile, bar: Bar) -> flexact.Model:
+def opened(deck: DeckFile, bar: Bar) -> ModelData:
     """Read a deck, while a bar says so."""
     bar.show("reading")
-    model = flexact.read(deck.path)
+    model = read_file(deck.path)
     bar.clear()
     return model
 
 
-def analysed(
-    deck: DeckFile, model: flexact.Model, chosen: argparse.Namespace, bar: Bar
-) -> flexact.Analysis:
+def report_problems(model: ModelData) -> None:
+    """Render the warnings and notes about a deck."""
+    if model.problems.kept:
+        complain(render_problems(model.problems, model.name, model.source))
+
+
+def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
-    remarks.tell_wait(deck, model, chosen.method)
-    return flexact.analyse(
+    _announce_wait(deck, model, chosen.method)
+    return result_of(
         model,
-        method=chosen.method,
-        tolerance=chosen.zero_tolerance,
-        name=deck.name,
-        progress=bar.of_analysis(model),
+        asked_for(chosen.method, chosen.zero_tolerance),
+        deck.name,
+        bar.of_analysis(model),
     )
+
+
+def read_and_analysed(deck: DeckFile, chosen: argparse.Namespace, bar: Bar) -> Result:
+    """Read a deck, report its problems, and analyse it."""
+    model = opened(deck, bar)
+    report_problems(model)
+    return analysed(deck, model, chosen, bar)
+
+
+def _announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:
+    """Say that a dense decomposition will take long."""
+    if method not in DENSE:
+        return
+    count = model.count
+    long = min(count.rows, count.columns) >= LONG_WAIT
+    if long and memory.dense_needed(count.rows, count.columns) <= memory.allowance():
+        complain(
+            f"{harmless(deck.name)}: decomposing D(c), {count.rows} x {count.columns}; the time "
+            "grows with the third power of its size, a minute or so at 5000"
+        )

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The bar that shows on a terminal how far a large deck has come, stage by stage."""
 
 from __future__ import annotations
@@ -8,12 +9,12 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from flexact._boundary import STAGES
-from flexact.rendering import harmless
+from flexact.base.plain_text import harmless
+from flexact.core.calls import STAGES
+from flexact.model.data import ModelData
 
 if TYPE_CHECKING:
-    import flexact
-    from flexact.progress import Progress
+    from flexact.core.progress import Progress
 
 #: Decks of so many bytes, or elements, are worth a bar.
 LARGE_FILE = 2**20
@@ -44,9 +45,9 @@ class Bar:
         """Wipe the bar."""
         self.clear()
 
-    def of_analysis(self, model: flexact.Model) -> Progress | None:
+    def of_analysis(self, model: ModelData) -> Progress | None:
         """What shows the progress of an analysis; None where it would show nothing."""
-        self._wanted = model.element_numbers.size >= LARGE_MODEL
+        self._wanted = model.arrays.element_number.size >= LARGE_MODEL
         return self.show if self._wanted and _is_watched() else None
 
     def show(self, stage: str, done: float = 0.0) -> None:

@@ -1,25 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """``flexact check``: the diagnostics of decks, without analysing them."""
 
 from __future__ import annotations
 
 import argparse
 
-import flexact
-from flexact.batch import DeckFile, ExitCode, Outcome, find_decks
-from flexact.cli import remarks
+from flexact.base.plain_text import harmless
+from flexact.cli.analysed import report_problems
 from flexact.cli.decks import add_decks, take
+from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import say
-from flexact.rendering import harmless
+from flexact.deck.reading import read_file
+from flexact.files.decks import DeckFile, find_decks
 
 
-def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add this verb to the command's parser."""
-    parser = verbs.add_parser(
-        "check",
-        help="the diagnostics of decks, without analysing them",
-        description="Say what is wrong with decks.",
-        allow_abbrev=False,
-    )
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = "Say what is wrong with decks."
     add_decks(parser)
     parser.set_defaults(run=check_decks)
 
@@ -30,7 +27,7 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
 
 
 def _check(deck: DeckFile) -> Outcome:
-    model = flexact.read(deck.path)
-    remarks.tell_problems(model)
+    model = read_file(deck.path)
+    report_problems(model)
     say(f"{harmless(deck.name)}: no errors")
     return Outcome(deck.name, ExitCode.ANALYSED, "without errors")

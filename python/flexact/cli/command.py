@@ -1,17 +1,20 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The command's parser, and what all verbs share: streams, errors, exit codes."""
 
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, NoReturn
 
-from flexact import __version__
-from flexact.batch import BatchError, ExitCode
-from flexact.cli import analyse, check, export, picture, regress, report
+from flexact.base.errors import BatchError
+from flexact.base.loading import load
+from flexact.base.plain_text import harmless
+from flexact.base.version import VERSION
+from flexact.cli.outcome import ExitCode
 from flexact.cli.terminal import (
     ResultsError,
     accept_every_character,
@@ -20,12 +23,20 @@ from flexact.cli.terminal import (
     finish_results,
     say,
 )
-from flexact.rendering import harmless
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
+#: The verbs, each in a module of its name.
+VERBS = {
+    "analyse": "verdict, counts, motions and self-stresses of decks",
+    "check": "the diagnostics of decks, without analysing them",
+    "regress": "compare decks with stored answers, or store them",
+    "picture": "a deck's mechanism as a picture: its motion, its self-stress",
+    "export": "a deck's mechanism with its modes as a mesh, for ParaView",
+    "report": "a page of each deck, to open in a browser and to mail",
+}
 EPILOG = """\
 exit codes:
   0  analysed (or checked, compared, stored, drawn, written)
@@ -35,6 +46,18 @@ exit codes:
 Of several decks one bad deck does not stop the rest; the code is 1 if any gave 1,
 else 2 if any gave 2, else 3 if any gave 3.
 """
+
+
+class Formatter(argparse.RawDescriptionHelpFormatter):
+    """As wide as the terminal, which argparse asks for by a package that is slow to load."""
+
+    def __init__(self, prog: str) -> None:
+        """Take the width where somebody looks."""
+        stated = os.environ.get("COLUMNS", "")
+        width = int(stated) if stated.isdigit() else 0
+        if not width and sys.stdout is not None and sys.stdout.isatty():
+            width = os.get_terminal_size(sys.stdout.fileno()).columns
+        super().__init__(prog, width=(width or 80) - 2)
 
 
 class Parser(argparse.ArgumentParser):
@@ -58,25 +81,30 @@ def _hint(message: str) -> str:
     found = re.search(r"invalid choice: '(.*)' \(choose from (.*)\)", message)
     if found is None:
         return ""
-    near = get_close_matches(found[1], re.findall(r"[\w-]+", found[2]), 1)
+    near = load("difflib").get_close_matches(found[1], re.findall(r"[\w-]+", found[2]), 1)
     return f"; did you mean {near[0]}?" if near else ""
 
 
-def make_parser() -> argparse.ArgumentParser:
-    """The parser of the whole command."""
+def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.ArgumentParser:
+    """The parser of the whole command; the verb among the words is the one that is loaded."""
     parser = Parser(
         prog="flexact",
         description=DESCRIPTION,
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Formatter,
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action="version", version=f"flexact {__version__}")
+    parser.add_argument("--version", action="version", version=f"flexact {VERSION}")
     verbs = parser.add_subparsers(
         title="commands", metavar="COMMAND", prog="flexact", required=True
     )
-    for verb in (analyse, check, regress, picture, export, report):
-        verb.add_parser(verbs)
+    called = next((word for word in words if word in VERBS), None)
+    for verb, about in VERBS.items():
+        parser_of_verb = verbs.add_parser(
+            verb, help=about, allow_abbrev=False, formatter_class=Formatter
+        )
+        if verb == called:
+            load(f"flexact.cli.{verb}", for_good=for_good).fill(parser_of_verb)
     return parser
 
 
@@ -103,7 +131,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _obey(arguments: Sequence[str] | None) -> int:
     try:
-        chosen = make_parser().parse_args(arguments)
+        words = sys.argv[1:] if arguments is None else arguments
+        chosen = make_parser(words, for_good=arguments is None).parse_args(words)
         return int(chosen.run(chosen))
     except BatchError as error:
         complain(f"flexact: error: {harmless(str(error))}")

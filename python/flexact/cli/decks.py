@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What all verbs do with decks: the argument, one after the other, the closing lines."""
 
 from __future__ import annotations
@@ -6,20 +7,14 @@ import argparse
 from collections import Counter
 from collections.abc import Callable, Sequence
 
-from flexact.analysis import AnalysisError
-from flexact.batch import (
-    SUFFIX,
-    BatchError,
-    DeckFile,
-    ExitCode,
-    FolderError,
-    Outcome,
-    exit_code,
-)
+from flexact.base.errors import BatchError
+from flexact.base.plain_text import harmless
 from flexact.cli import failures
+from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.terminal import complain, end_progress, say, show_progress
-from flexact.diagnostics import DeckError
-from flexact.rendering import harmless
+from flexact.diagnostics.errors import DeckError
+from flexact.files.decks import SUFFIX, DeckFile, FolderError
+from flexact.result.decompose import AnalysisError
 
 REMARKS = {
     ExitCode.OTHER: "failed",
@@ -64,7 +59,7 @@ def _attempt(deck: DeckFile, step: Callable[[DeckFile], Outcome], as_json: bool)
             raise deck.error
         return step(deck)
     except (DeckError, FolderError, AnalysisError, BatchError, MemoryError) as error:
-        return failures.tell(deck, error, as_json=as_json)
+        return failures.report(deck, error, as_json=as_json)
 
 
 def summarise(outcomes: Sequence[Outcome]) -> str:

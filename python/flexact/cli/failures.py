@@ -1,14 +1,17 @@
-"""How a deck's failure is told, to people and to programs."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a deck's failure is reported, to people and to programs."""
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
-from flexact.batch import DeckFile, ExitCode, FolderError, Outcome
+from flexact.base.loading import load
+from flexact.base.plain_text import harmless
+from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import complain, say
-from flexact.diagnostics import DeckError, Severity
-from flexact.rendering import harmless
+from flexact.diagnostics.diagnostic import Severity
+from flexact.diagnostics.errors import DeckError
+from flexact.files.decks import DeckFile, FolderError
 
 CODES = {
     "AnalysisError": "not-analysed",
@@ -27,21 +30,22 @@ NOT_READ = {
 }
 
 
-def tell(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
-    """Tell why a deck failed: rendered on stderr, and as one JSON line on stdout if asked."""
-    tell_people(deck, error)
+def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
+    """Report why a deck failed: rendered on stderr, and as one JSON line on stdout if asked."""
+    report_failure(deck, error)
     if as_json:
         records = _records(error)
         total = error.problems.errors if isinstance(error, DeckError) else len(records)
         failure = {"diagnostics": records, "errors": total}
-        say(json.dumps({"deck": deck.name, "error": failure}))
+        # Loaded where it is wanted: a command that starts does not wait for it.
+        say(load("json").dumps({"deck": deck.name, "error": failure}))
     of_deck = isinstance(error, DeckError | FolderError)
     code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
     return Outcome(deck.name, code, "failed", _remark(error))
 
 
-def tell_people(deck: DeckFile, error: Exception) -> None:
-    """Tell on stderr why a deck failed."""
+def report_failure(deck: DeckFile, error: Exception) -> None:
+    """Report on stderr why a deck failed."""
     if isinstance(error, DeckError):
         complain(str(error))
     elif isinstance(error, FolderError):

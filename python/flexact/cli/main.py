@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where the command starts: signals first, then all that takes time to import."""
 
 from __future__ import annotations
@@ -5,7 +6,8 @@ from __future__ import annotations
 import signal
 from collections.abc import Sequence
 
-from flexact.interruption import end_at_once, end_by
+from flexact.base.interruption import end_at_once, end_by
+from flexact.base.loading import load
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -16,14 +18,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             ends at once.
 
     Returns:
-        The exit code; see ``flexact.batch.ExitCode``. 128 and the number of a signal if one came.
+        The exit code; see ``outcome.ExitCode``. 128 and the number of a signal if one came.
     """
     if arguments is None:
         end_at_once()
     try:
-        from flexact.cli.command import run
-
-        return run(arguments)
+        code: int = load("flexact.cli.command").run(arguments)
+        return code
     except KeyboardInterrupt as stop:
         number = getattr(stop, "number", signal.SIGINT)
         if arguments is None:

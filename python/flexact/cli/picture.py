@@ -1,30 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """``flexact picture``: a deck's mechanism as a picture, still or moving."""
 
 from __future__ import annotations
 
 import argparse
 
-from flexact.batch import DeckFile, ExitCode, Outcome
-from flexact.cli import remarks
-from flexact.cli.analysed import add_decision, analysed, opened
+from flexact.base.interruption import unwinding
+from flexact.base.plain_text import harmless
+from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_deck, add_shown, number, one_deck
 from flexact.cli.terminal import say
-from flexact.interruption import unwinding
-from flexact.rendering import harmless
+from flexact.files.decks import DeckFile
+from flexact.files.outputs import plan_file, write_together
+from flexact.picture import check_packages, check_suffix, check_view, picture_bytes
 
 _QUANTITIES = ("N", "T", "My", "Mz")
 
 
-def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add this verb to the command's parser."""
-    parser = verbs.add_parser(
-        "picture",
-        help="a deck's mechanism as a picture: its motion, its self-stress",
-        description="Draw a mechanism: by default its first motion and its first self-stress.",
-        allow_abbrev=False,
-    )
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = "Draw a mechanism: by default its first motion and its first self-stress."
     add_deck(parser, "the picture: .png, .svg, or .gif, which moves")
     add_shown(parser)
     parser.add_argument(
@@ -48,8 +46,6 @@ def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> No
 
 def draw_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and draw it."""
-    from flexact.outputs import plan_file, write_together
-
     deck, target = one_deck(chosen), chosen.output
     with unwinding():
         _check(chosen)
@@ -57,12 +53,8 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
-            model = opened(deck, bar)
-            remarks.tell_problems(model)
-            analysis = analysed(deck, model, chosen, bar)
+            analysis = read_and_analysed(deck, chosen, bar)
             with unwinding():
-                from flexact.picture import picture_bytes
-
                 content = picture_bytes(
                     analysis,
                     target.suffix,
@@ -83,8 +75,6 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
 
 def _check(chosen: argparse.Namespace) -> None:
     """Find out what is wrong with the choice before anything is analysed."""
-    from flexact.picture import check_packages, check_suffix, check_view
-
     check_suffix(chosen.output.suffix)
     check_packages()
     check_view(chosen.view)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """``flexact report``: a page to open in a browser and to mail, and an index of several."""
 
 from __future__ import annotations
@@ -5,18 +6,25 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-import flexact
-from flexact.batch import BatchError, DeckFile, ExitCode, Outcome, find_decks
-from flexact.cli import failures, remarks
-from flexact.cli.analysed import add_decision, analysed, opened
+from flexact.base.errors import BatchError
+from flexact.base.interruption import unwinding
+from flexact.base.plain_text import harmless
+from flexact.cli import failures
+from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import complain, say
-from flexact.diagnostics import ProblemsError
-from flexact.interruption import unwinding
-from flexact.outputs import OutputError, plan_file, plan_files, write_together
-from flexact.rendering import harmless
-from flexact.saving import PAGES, as_bytes
+from flexact.diagnostics.errors import DeckError, ProblemsError
+from flexact.files.decks import DeckFile, find_decks
+from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
+from flexact.page import Entry, broken_page, index_page, reason_in_words
+from flexact.picture import has_packages
+from flexact.result.decompose import AnalysisError
+from flexact.result.result import Result
+from flexact.result.verdict import Verdict
+from flexact.saving import PAGES, as_bytes, page_bytes, small_picture
+from flexact.text.describe import verdict_in_words
 
 #: What the index takes the place of among the decks.
 _INDEX = DeckFile("the index", Path("index"))
@@ -26,15 +34,12 @@ _WITHOUT_PICTURES = (
 )
 
 
-def add_parser(verbs: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Add this verb to the command's parser."""
-    parser = verbs.add_parser(
-        "report",
-        help="a page of each deck, to open in a browser and to mail",
-        description="Write the result of a deck as one HTML page that opens without a network: "
-        "verdict, scene in motion, self-stresses in colour, tables, deck. A deck with errors "
-        "gives a page with its diagnostics, and exit code 2.",
-        allow_abbrev=False,
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Write the result of a deck as one HTML page that opens without a network: "
+        "verdict, drawing in motion, self-stresses in colour, tables, deck. A deck with errors "
+        "gives a page with its diagnostics, and exit code 2."
     )
     add_decks(parser)
     parser.add_argument(
@@ -62,9 +67,6 @@ class _Work:
     """One run of the verb: where each deck's page goes, and what the index will say."""
 
     def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
-        from flexact.report import Entry
-        from flexact.report.still import has_pictures
-
         self.chosen, self.decks = chosen, decks
         output: Path = chosen.output
         self.index: Path | None = None
@@ -76,44 +78,35 @@ class _Work:
             self.plan = plan_files((*decks, _INDEX), output, (".html",))
             self.index = self.plan[_INDEX.path][0]
         self.entries: dict[str, Entry] = {}
-        self.pictures = has_pictures()
-        if not self.pictures:
+        if not has_packages():
             complain(_WITHOUT_PICTURES)
 
     def step(self, deck: DeckFile) -> Outcome:
         """Analyse one deck and write its page."""
         try:
             with Bar(deck.name, deck.path) as bar:
-                model = opened(deck, bar)
-                remarks.tell_problems(model)
-                analysis = analysed(deck, model, self.chosen, bar)
+                analysis = read_and_analysed(deck, self.chosen, bar)
                 bar.show("writing")
                 self._write(deck, analysis)
-        except (flexact.DeckError, flexact.AnalysisError) as error:
+        except (DeckError, AnalysisError) as error:
             self._write_broken(deck, error)
             raise
         target = self.plan[deck.path][0]
         say(f"{harmless(deck.name)}: {analysis.verdict.value}; page in {harmless(str(target))}")
         return Outcome(deck.name, ExitCode.ANALYSED, analysis.verdict.value)
 
-    def _write(self, deck: DeckFile, analysis: flexact.Analysis) -> None:
-        from flexact.report.still import small
-        from flexact.saving import page_bytes
-        from flexact.words import sentence
-
+    def _write(self, deck: DeckFile, analysis: Result) -> None:
         with unwinding():
             content = page_bytes(analysis)
         with unwinding():
             self._put(deck, content)
             if self.index is None:
                 return
-            thumb = small(analysis) if self.pictures else None
-        words = " ".join(sentence(analysis).split()).partition(":")[0]
+            thumb = small_picture(analysis)
+        words = verdict_in_words(analysis).start
         self._enter(deck, analysis.verdict, words, thumb)
 
     def _write_broken(self, deck: DeckFile, error: Exception) -> None:
-        from flexact.report import broken_page, reason_in_words
-
         if isinstance(error, ProblemsError):
             codes = {item.code for item in error.diagnostics}
             if codes & failures.NOT_READ:
@@ -121,7 +114,7 @@ class _Work:
         try:
             self._put(deck, as_bytes(broken_page(error, deck.name)))
         except OutputError:
-            failures.tell_people(deck, error)
+            failures.report_failure(deck, error)
             raise
         self._enter(deck, None, f"Cannot be analysed: {reason_in_words(error)}")
 
@@ -129,21 +122,13 @@ class _Work:
         write_together({self.plan[deck.path][0]: content})
 
     def _enter(
-        self,
-        deck: DeckFile,
-        verdict: flexact.Verdict | None,
-        words: str,
-        picture: bytes | None = None,
+        self, deck: DeckFile, verdict: Verdict | None, words: str, picture: bytes | None = None
     ) -> None:
-        from flexact.report import Entry
-
         place = deck.relative.as_posix()
         self.entries[deck.path] = Entry(place, f"{place}.html", verdict, words, picture)
 
     def finish(self) -> None:
         """Write the index, if there is to be one."""
-        from flexact.report import Entry, index_page
-
         if self.index is None:
             return
         nothing = "Cannot be read"

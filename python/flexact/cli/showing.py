@@ -1,16 +1,13 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the verbs that show a mechanism share: the choice of the deck and of the motion."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from flexact.batch import BatchError, DeckFile, find_decks
-
-if TYPE_CHECKING:
-    import flexact
-    from flexact.shown import Shown
+from flexact.base.errors import BatchError
+from flexact.files.decks import DeckFile, find_decks
 
 
 def add_deck(parser: argparse.ArgumentParser, file: str) -> None:
@@ -51,14 +48,3 @@ def one_deck(chosen: argparse.Namespace) -> DeckFile:
     if len(decks) > 1:
         raise BatchError(f"{chosen.deck} holds {len(decks)} decks; this takes one at a time")
     return decks[0]
-
-
-def shown_motion(analysis: flexact.Analysis, chosen: argparse.Namespace) -> Shown | None:
-    """The motion that is shown; None where the mechanism does not move.
-
-    Raises:
-        BatchError: What was asked for is not there.
-    """
-    from flexact.shown import chosen_motion
-
-    return chosen_motion(analysis, chosen.motion, chosen.freedom)

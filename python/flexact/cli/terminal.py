@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a command says: results on stdout, everything else on stderr."""
 
 from __future__ import annotations
@@ -8,8 +9,8 @@ import sys
 from collections.abc import Iterator
 from typing import TextIO
 
-from flexact.batch import reason_of
-from flexact.rendering import harmless
+from flexact.base.errors import reason_of
+from flexact.base.plain_text import harmless
 
 
 class ResultsError(Exception):
@@ -72,7 +73,7 @@ def _to_stderr(text: str) -> None:
     try:
         print(text, end="", file=sys.stderr, flush=True)
     except OSError:
-        # Results count even where nobody can be told about them.
+        # Results count even where nobody can see what is reported.
         discard(sys.stderr)
 
 

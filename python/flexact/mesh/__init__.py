@@ -1,4 +1,5 @@
-"""The mechanism with its motions and self-stresses as a mesh, for ParaView and its like.
+# SPDX-License-Identifier: BSD-3-Clause
+"""A result as a mesh, for ParaView and its like; uses `drawing`, `files` and below.
 
 Every element that has two ends is a row of lines along its axis, eight where it can bend and one
 where not; an element without extent (a hinge) is a vertex where its orientation nodes stand. The
@@ -28,8 +29,8 @@ Point data
     its far end: N along itself, and the moments that the others make on the way. HINGE: T
     about its axis, My and Mz the other two. PLHINGE: Mz.
 Cell data
-    ``element``: number of the element; ``kind``: its code, see ``flexact.elements``; ``form``:
-    what it is to the eye, see ``flexact.scene.Form``, 0 for hinges; ``name``: its name, in the
+    ``element``: number of the element; ``kind``: its code, see ``flexact.core.elements``; ``form``:
+    what it is to the eye, see ``flexact.drawing.Form``, 0 for hinges; ``name``: its name, in the
     .vtu and .vtp files of ``flexact export`` alone. meshio holds no text, and does not read a
     file that has some; what ``flexact analyse`` writes it reads.
 
@@ -37,5 +38,6 @@ Of very many motions or self-stresses only the first are there; see `Meshes.most
 """
 
 from .content import Mesh, Meshes, mesh_of, to_meshio
+from .writing import mesh_writer
 
-__all__ = ["Mesh", "Meshes", "mesh_of", "to_meshio"]
+__all__ = ["Mesh", "Meshes", "mesh_of", "mesh_writer", "to_meshio"]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a mesh holds: points, cells and their data; see `flexact.mesh`."""
 
 from __future__ import annotations
@@ -10,26 +11,26 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis import Analysis
-from ..exchange import FloatArray
-from ..frozen import Frozen
-from ..model_data import ModelData
-from ..scene import Pose, Scene, scene_of
-from ..scene.forms import forms_of
-from ..scene.movement import scale_of
-from ..shown import chosen_motion
+from ..base.frozen import Frozen
+from ..core.arrays import FloatArray
+from ..drawing import Drawing, Pose, drawing_of
+from ..drawing.forms import forms_of
+from ..drawing.movement import scale_of
+from ..drawing.selection import select_motion
+from ..model.data import ModelData
+from ..result.result import Result
 from .layout import Integers, Layout, layout_of
 
 if TYPE_CHECKING:
     import meshio
 
-    from ..scene import Moving
+    from ..drawing import Moving
 
 #: With more elements than these there are no surfaces, and no motion is looked for that the
 #: analysis does not give.
 MOST_SURFACES = 5_000
 
-#: So many motions, and so many self-stresses, are in a mesh at most, and so many at least, but
+#: How many motions, and how many self-stresses, are in a mesh at most, and at least, but
 #: 1 in each mesh of a cycle; between the two it is as many as give so many numbers in all.
 _MOST = 200
 _LEAST = 6
@@ -81,7 +82,7 @@ class Mesh(Frozen):
         )
 
 
-def to_meshio(analysis: Analysis) -> meshio.Mesh:
+def to_meshio(analysis: Result) -> meshio.Mesh:
     """The mechanism with its motions and self-stresses; see the module.
 
     Raises:
@@ -90,7 +91,7 @@ def to_meshio(analysis: Analysis) -> meshio.Mesh:
     return mesh_of(analysis).to_meshio()
 
 
-def mesh_of(analysis: Analysis, shown: Moving | None = None) -> Mesh:
+def mesh_of(analysis: Result, shown: Moving | None = None) -> Mesh:
     """The mesh of an analysis; `shown` is a motion instead of the one that is chosen."""
     return Meshes(analysis).still(shown)
 
@@ -98,33 +99,33 @@ def mesh_of(analysis: Analysis, shown: Moving | None = None) -> Mesh:
 class Meshes:
     """The meshes of an analysis, still or in poses."""
 
-    def __init__(self, analysis: Analysis, count: int = 1) -> None:
+    def __init__(self, analysis: Result, count: int = 1) -> None:
         """The points and cells of an analysis, for so many meshes."""
         self.analysis = analysis
         self.count = count
         self.small = analysis.data.arrays.element_number.size <= MOST_SURFACES
-        drawn = analysis.data.look.drawn
+        drawn = analysis.data.appearance.drawn
         self.skinned = drawn if self.small else np.zeros_like(drawn)
-        self.reference = self.layout(self.scene.reference)
+        self.reference = self.layout(self.drawing.reference)
 
     @cached_property
-    def drawn_scene(self) -> Scene:
-        """The scene as it is drawn."""
-        return scene_of(self.analysis.data)
+    def drawn(self) -> Drawing:
+        """The drawing as it is drawn."""
+        return drawing_of(self.analysis.data)
 
     @cached_property
-    def scene(self) -> Scene:
-        """The scene with what is not drawn, too."""
+    def drawing(self) -> Drawing:
+        """The drawing with what is not drawn, too."""
         data = self.analysis.data
-        return self.drawn_scene if data.look.drawn.all() else scene_of(_all_drawn(data))
+        return self.drawn if data.appearance.drawn.all() else drawing_of(_all_drawn(data))
 
     def layout(self, pose: Pose) -> Layout:
         """The points and cells in a pose."""
-        return layout_of(self.scene, pose, self.skinned)
+        return layout_of(self.drawing, pose, self.skinned)
 
     @property
     def most_modes(self) -> int:
-        """So many motions, and so many self-stresses, a mesh holds at most."""
+        """How many motions, and how many self-stresses, a mesh holds at most."""
         numbers = _NUMBERS_A_POINT * len(self.reference.points) * self.count
         least = max(_LEAST // self.count, 1)
         return min(max(_NUMBERS // max(numbers, 1), least), _MOST)
@@ -132,11 +133,11 @@ class Meshes:
     def still(self, shown: Moving | None = None) -> Mesh:
         """The mesh in the reference configuration."""
         if shown is None and (self.small or self.analysis.under_constrained):
-            chosen = chosen_motion(self.analysis)
+            chosen = select_motion(self.analysis)
             shown = None if chosen is None else chosen.motion
         moved, turned = np.zeros((2, *self.reference.points.shape))
         if shown is not None:
-            scale = scale_of(self.drawn_scene, shown)
+            scale = scale_of(self.drawn, shown)
             moved, turned = self.reference.motion(shown.displacement, shown.rotation)
             moved, turned = scale * moved, scale * turned
         return self.with_data(self.reference.points, moved, turned)
@@ -177,5 +178,5 @@ class Meshes:
 
 
 def _all_drawn(data: ModelData) -> ModelData:
-    drawn = np.ones_like(data.look.drawn)
-    return replace(data, given_look=replace(data.look, drawn=drawn))
+    drawn = np.ones_like(data.appearance.drawn)
+    return replace(data, given_appearance=replace(data.appearance, drawn=drawn))

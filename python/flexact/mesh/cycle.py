@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A motion as a cycle that plays in ParaView: a .pvd file and a mesh for each time step."""
 
 from __future__ import annotations
@@ -5,21 +6,16 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
 
-from ..outputs import OutputError, write_together
-from ..scene import Movement, move
-from ..scene.rotations import vector_of
+from ..drawing import Movement, Moving, move
+from ..drawing.rotations import vector_of
+from ..files.outputs import OutputError, write_together
+from ..result.result import Result
 from .content import Mesh, Meshes
-from .file import find_format
-from .names import named_bytes
-
-if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from ..scene import Moving
+from .file import find_format, named_bytes
 
 SUFFIX = ".pvd"
 #: Time steps of a cycle, from time 0 to time 1; the last is as the first.
@@ -42,13 +38,13 @@ class Cycle(Mapping[Path, bytes]):
     mechanism that does not move has a single step.
     """
 
-    def __init__(self, analysis: Analysis, shown: Moving | None, target: Path) -> None:
+    def __init__(self, analysis: Result, shown: Moving | None, target: Path) -> None:
         """The cycle of a motion; its meshes lie in a folder beside the .pvd file `target`."""
         self.folder = folder_of(target)
         self._format = find_format("vtu")
         times = np.linspace(0.0, 1.0, STEPS + 1).tolist() if shown is not None else [0.0]
         self._meshes = Meshes(analysis, len(times))
-        self._movement = None if shown is None else move(self._meshes.drawn_scene, shown)
+        self._movement = None if shown is None else move(self._meshes.drawn, shown)
         files = [self.folder / f"{STEM}{ending}" for ending in ENDINGS]
         self._times = dict(zip(files, times, strict=False))
         self._target = target

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes as VTK's surfaces, .vtp files, by VTK's own writer."""
 
 from __future__ import annotations
@@ -10,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from .content import Mesh
-from .file import MeshFormatError
-from .names import cell_names
+from .file import MeshFormatError, cell_names
 
 
 def polydata_bytes(mesh: Mesh) -> bytes:

@@ -1,22 +1,19 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes to files of any kind: which kind a file's suffix means, and what writes it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from ..outputs import OutputError, write_together
+from ..drawing import Moving
+from ..files.outputs import OutputError, write_together
+from ..result.result import Result
 from . import cycle, polydata
 from .content import mesh_of
-from .file import MeshFormatError, MeshPackageError, find_format
-from .names import named_bytes
+from .file import find_format, named_bytes
 
-if TYPE_CHECKING:
-    from ..analysis import Analysis
-    from ..scene import Moving
-
-    Write = Callable[[Analysis, Moving | None, Path], None]
+Write = Callable[[Result, Moving | None, Path], None]
 
 
 def mesh_writer(target: Path) -> Write:
@@ -34,26 +31,17 @@ def mesh_writer(target: Path) -> Write:
     if suffix == ".vtp":
         polydata.require()
         return _write_polydata
-    return _meshio_writer(suffix)
+    form = find_format(suffix)
 
-
-def _meshio_writer(suffix: str) -> Write:
-    try:
-        form = find_format(suffix)
-    except MeshPackageError:
-        raise
-    except MeshFormatError as error:
-        raise MeshFormatError(f"{error}; and so will pvd, which plays, or vtp") from error
-
-    def write(analysis: Analysis, shown: Moving | None, target: Path) -> None:
+    def write(analysis: Result, shown: Moving | None, target: Path) -> None:
         write_together({target: named_bytes(mesh_of(analysis, shown), form)})
 
     return write
 
 
-def _write_polydata(analysis: Analysis, shown: Moving | None, target: Path) -> None:
+def _write_polydata(analysis: Result, shown: Moving | None, target: Path) -> None:
     write_together({target: polydata.polydata_bytes(mesh_of(analysis, shown))})
 
 
-def _write_cycle(analysis: Analysis, shown: Moving | None, target: Path) -> None:
+def _write_cycle(analysis: Result, shown: Moving | None, target: Path) -> None:
     cycle.write_cycle(cycle.Cycle(analysis, shown, target))

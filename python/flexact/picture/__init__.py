@@ -1,8 +1,20 @@
-"""Pictures of results by matplotlib, which is imported only when one is drawn."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of results; uses what `drawing` and `text` may, and `drawing` and `text`.
 
-from .make import SUFFIXES, PictureError, check_packages, check_suffix, draw, picture_bytes
+matplotlib and pillow are imported only when one is drawn.
+"""
+
+from ..drawing.view import ViewError, check_view
+from .make import (
+    SUFFIXES,
+    PictureError,
+    check_packages,
+    check_suffix,
+    draw,
+    has_packages,
+    picture_bytes,
+)
 from .subject import SubjectError
-from .view import ViewError, check_view
 
 __all__ = [
     "SUFFIXES",
@@ -13,5 +25,6 @@ __all__ = [
     "check_suffix",
     "check_view",
     "draw",
+    "has_packages",
     "picture_bytes",
 ]

@@ -1,4 +1,5 @@
-"""Animations: a motion through a full cosine cycle, or a scene that turns about the vertical."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Animations: a motion through a full cosine cycle, or a drawing that turns about the vertical."""
 
 from __future__ import annotations
 
@@ -7,17 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..scene import Scene
-from .drawing import Box
+from ..drawing import Drawing
+from ..drawing.view import View
+from ..result.result import Result
+from .canvas import Box
 from .figure import compose
-from .gif import gif_of
+from .files import gif_bytes as bytes_of
+from .files import pixels
 from .panel import paint
-from .raster import pixels
 from .subject import Subject
-from .view import View
 
 if TYPE_CHECKING:
-    from ..analysis import Analysis
+    from matplotlib.figure import Figure
 
 #: Frames of a cycle, and of a full turn; how long each stands [ms].
 CYCLE, TURN = 36, 48
@@ -31,8 +33,8 @@ Told = Callable[[float], None]
 
 
 def gif_bytes(
-    analysis: Analysis,
-    scene: Scene,
+    analysis: Result,
+    drawing: Drawing,
     subject: Subject,
     view: View,
     *,
@@ -44,13 +46,13 @@ def gif_bytes(
 
     All frames share one palette and one scale, so that nothing but what moves changes.
     """
-    made = []
-    order, phases, views = _schedule(scene, subject, view)
-    box = _reach(scene, subject, views)
+    made: list[np.ndarray] = []
+    order, phases, views = _schedule(drawing, subject, view)
+    box = _reach(drawing, subject, views)
     for number, (phase, each) in enumerate(zip(phases, views, strict=True)):
         figure = compose(
             analysis,
-            scene,
+            drawing,
             [subject],
             each,
             phase=phase,
@@ -58,14 +60,27 @@ def gif_bytes(
             plain=plain,
             box=box,
         )
-        made.append(pixels(figure))
+        made.append(_after(made[0], figure) if made and drawing.planar else pixels(figure))
         if progress is not None:
             progress((number + 1) / len(phases))
-    return gif_of(made, order, _DURATION)
+    return bytes_of(made, order, _DURATION)
+
+
+def _after(first: np.ndarray, figure: Figure) -> np.ndarray:
+    """The pixels of a later figure, of which only the axes differ from those of the first.
+
+    Words stand above and below planar drawings, and to draw them takes as long as the rest.
+    """
+    for words in figure.texts:
+        words.set_visible(False)
+    made, box = first.copy(), figure.axes[0].bbox
+    rows = slice(len(made) - int(np.ceil(box.y1)), len(made) - int(np.floor(box.y0)))
+    made[rows] = pixels(figure)[rows]
+    return made
 
 
 def _schedule(
-    scene: Scene, subject: Subject, view: View
+    drawing: Drawing, subject: Subject, view: View
 ) -> tuple[list[int], list[float], list[View]]:
     """Which drawings the frames show, and the phase and view of each drawing."""
     if subject.movement is not None:
@@ -74,30 +89,32 @@ def _schedule(
         phases = np.cos(np.pi * np.arange(there + 1) / there).tolist()
         order = [*range(there + 1), *range(there - 1, 0, -1)]
         return order, phases, [view] * len(phases)
-    if scene.planar:
+    if drawing.planar:
         return [0], [0.0], [view]
     views = [view.turned(360.0 * k / TURN) for k in range(TURN)]
     return list(range(TURN)), [0.0] * TURN, views
 
 
-def _reach(scene: Scene, subject: Subject, views: list[View]) -> Box:
+def _reach(drawing: Drawing, subject: Subject, views: list[View]) -> Box:
     """The box round all frames, so that the scale stays."""
     if subject.movement is not None:
-        boxes = [paint(scene, subject, views[0], phase).drawing.box for phase in _LOOKED_AT]
+        boxes = [paint(drawing, subject, views[0], phase).canvas.box for phase in _LOOKED_AT]
     else:
-        boxes = [paint(scene, subject, view).drawing.box for view in views[:: len(views) // 4 or 1]]
-        boxes += [_cylinder(scene, view) for view in views]
+        boxes = [
+            paint(drawing, subject, view).canvas.box for view in views[:: len(views) // 4 or 1]
+        ]
+        boxes += [_cylinder(drawing, view) for view in views]
     low, high = zip(*boxes, strict=True)
     return np.min(low, axis=0), np.max(high, axis=0)
 
 
-def _cylinder(scene: Scene, view: View) -> Box:
-    """The box round the upright cylinder in which a turning scene stays."""
-    nodes = np.unique(scene.members.nodes[:, [0, 2]])
-    offset = scene.reference.position[nodes] - scene.centre
+def _cylinder(drawing: Drawing, view: View) -> Box:
+    """The box round the upright cylinder in which a turning drawing stays."""
+    nodes = np.unique(drawing.members.nodes[:, [0, 2]])
+    offset = drawing.reference.position[nodes] - drawing.centre
     radius = np.linalg.norm(offset[:, :2], axis=1).max(initial=0.0)
-    flat = view.project(scene.centre)[:2]
-    rise = np.abs(view.axes[1, 2]) * (scene.high[2] - scene.low[2]) / 2
+    flat = view.project(drawing.centre)[:2]
+    rise = np.abs(view.axes[1, 2]) * (drawing.high[2] - drawing.low[2]) / 2
     rise += np.hypot(*view.axes[1, :2]) * radius
     half = np.array((radius, rise))
     return flat - half, flat + half

@@ -1,29 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Arrows: what a motion moves or turns, and declared degrees of freedom; always in front."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..elements import NodeKind
-from ..exchange import FloatArray
-from ..scene import Pose, Scene, frames_along, reach_of
-from ..scene.colours import ARROW, FREEDOM
-from ..scene.rotations import unit, vector_of
-from .drawing import OVER, Drawing
-from .symbols import turn_about
+from ..core.arrays import FloatArray
+from ..drawing import Drawing, Pose, reach_of
+from ..drawing.colours import ARROW, FREEDOM
+from ..drawing.rotations import frames_along, matrix_of, unit, vector_of
+from .canvas import OVER, Canvas
 
 #: Displacements below this part of the largest get no arrow, and no more than so many get one.
 _LEAST, _MOST = 0.3, 28
-#: Arrows whose nodes are nearer than this part of the scene's size are one.
+#: Arrows whose nodes are nearer than this part of the drawing's size are one.
 _APART = 0.06
-#: A motion that displaces nothing by more than this part of the scene's size has turning arrows,
+#: A motion that displaces nothing by more than this part of the drawing's size has turning arrows,
 #: no more than so many, no nearer to each other than this part.
 _STILL, _MOST_TURNING, _TURNING_APART = 0.02, 4, 0.15
 #: Less than this part of a whole turning arrow is not drawn.
 _LEAST_TURNING = 0.15
-#: Lengths of arrows of freedoms, and radius of turning ones: parts of the scene's size.
+#: Lengths of arrows of freedoms, and radius of turning ones: parts of the drawing's size.
 _LENGTH, _RADIUS = 0.13, 0.055
-#: Length and width of a head: parts of the scene's size, and at most of the arrow's length.
+#: Length and width of a head: parts of the drawing's size, and at most of the arrow's length.
 _HEAD, _HEAD_PART = (0.03, 0.02), 0.5
 _WIDTH = 1.9
 _CASE = (1.0, 1.0, 1.0)
@@ -31,67 +30,64 @@ _CASE = (1.0, 1.0, 1.0)
 _MOST_FREEDOMS = 60
 
 
-def add_displacements(drawing: Drawing, scene: Scene, pose: Pose) -> None:
+def add_displacements(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Arrows from where nodes were to where they are, of the largest displacements."""
-    start, end = _largest(scene, pose)
-    _add_straight(drawing, start, end, ARROW, scene.size)
+    start, end = _largest(drawing, pose)
+    _add_straight(canvas, start, end, ARROW, drawing.size)
 
 
-def add_rotations(drawing: Drawing, scene: Scene, pose: Pose, end: Pose) -> None:
+def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> None:
     """Turning arrows at the largest rotations of a motion that displaces hardly anything.
 
     Args:
-        drawing: Where to.
-        scene: The scene.
+        canvas: Where to.
+        drawing: The drawing.
         pose: Where the nodes are.
         end: Where they are at the end of the motion; arrows are whole there.
     """
-    if reach_of(scene, [end])[0] >= _STILL * scene.size:
+    if reach_of(drawing, [end])[0] >= _STILL * drawing.size:
         return
-    node, turn = _turned_places(scene)
+    node, turn = _turned_places(drawing)
     farthest = np.linalg.norm(vector_of(end.rotation[turn]), axis=1)
     order = _by_size(farthest, 1.0)
-    place = scene.reference.position[node]
+    place = drawing.reference.position[node]
     rotation = vector_of(pose.rotation[turn])
-    for row in _apart(place, order, _TURNING_APART * scene.size, _MOST_TURNING):
+    for row in _apart(place, order, _TURNING_APART * drawing.size, _MOST_TURNING):
         share = float(np.linalg.norm(rotation[row]) / farthest[row])
         if share > _LEAST_TURNING:
             axis = unit(rotation[row])
-            _add_turning(drawing, place[row], axis, scene.size, ARROW, share)
+            _add_turning(canvas, place[row], axis, drawing.size, ARROW, share)
 
 
-def _turned_places(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+def _turned_places(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
     """(n,) position nodes and (n,) orientation nodes there, of members and of hinges."""
-    members, hinges = scene.members.nodes, scene.hinges.nodes
+    members, hinges = drawing.members.nodes, drawing.hinges.nodes
     pairs = (members[:, :2], members[:, 2:], hinges[:, [0, 1]], hinges[:, [0, 2]])
     every = np.unique(np.concatenate(pairs), axis=0)
     known = every[np.all(every >= 0, axis=1)]
     return known[:, 0], known[:, 1]
 
 
-def add_freedoms(drawing: Drawing, scene: Scene) -> None:
+def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
     """Arrows of the declared degrees of freedom, straight or turning."""
-    arrows = scene.arrows
+    arrows = drawing.arrows
     if len(arrows) > _MOST_FREEDOMS:
         return
-    place = scene.reference.position[arrows.node]
+    place = drawing.reference.position[arrows.node]
     straight = ~arrows.turning
     start = place[straight]
-    end = start + _LENGTH * scene.size * arrows.direction[straight]
-    _add_straight(drawing, start, end, FREEDOM, scene.size)
+    end = start + _LENGTH * drawing.size * arrows.direction[straight]
+    _add_straight(canvas, start, end, FREEDOM, drawing.size)
     for row in np.flatnonzero(arrows.turning).tolist():
-        _add_turning(drawing, place[row], arrows.direction[row], scene.size, FREEDOM)
+        _add_turning(canvas, place[row], arrows.direction[row], drawing.size, FREEDOM)
 
 
-def _largest(scene: Scene, pose: Pose) -> tuple[FloatArray, FloatArray]:
+def _largest(drawing: Drawing, pose: Pose) -> tuple[FloatArray, FloatArray]:
     """Starts and ends (n, 3) of the arrows of the largest displacements, not too close."""
-    shown = np.unique(scene.members.nodes[:, [0, 2]])
-    shown = shown[shown >= 0]
-    kind = scene.data.arrays.node_kind[shown]
-    shown = shown[kind <= NodeKind.POSITION]
-    start, end = scene.reference.position[shown], pose.position[shown]
+    shown = np.unique(drawing.members.nodes[:, [0, 2]])
+    start, end = drawing.reference.position[shown], pose.position[shown]
     length = np.linalg.norm(end - start, axis=1)
-    chosen = _apart(start, _by_size(length, scene.size), _APART * scene.size, _MOST)
+    chosen = _apart(start, _by_size(length, drawing.size), _APART * drawing.size, _MOST)
     return start[chosen], end[chosen]
 
 
@@ -114,7 +110,7 @@ def _apart(place: FloatArray, order: np.ndarray, apart: float, most: int) -> lis
 
 
 def _add_straight(
-    drawing: Drawing,
+    canvas: Canvas,
     start: FloatArray,
     end: FloatArray,
     colour: tuple[float, float, float],
@@ -122,7 +118,7 @@ def _add_straight(
 ) -> None:
     """Straight arrows, their heads in the plane of the picture."""
     way = end - start
-    towards = drawing.view.axes[2]
+    towards = canvas.view.axes[2]
     flat = way - (way @ towards)[:, None] * towards
     length = np.linalg.norm(flat, axis=1)
     able = length > 1.0e-3 * size
@@ -132,14 +128,11 @@ def _add_straight(
     # The shaft ends where the head begins; in the picture, whatever its depth.
     neck = end - (0.85 * head)[:, None] * along
     shaft = np.stack((start, neck), axis=1)
-    wing = np.cross(towards, along) * (head * _HEAD[1] / _HEAD[0] / 2)[:, None]
-    back = end - head[:, None] * along
-    heads = np.stack((end, back + wing, back - wing), axis=1)
-    _add(drawing, shaft, heads, colour, size)
+    _add(canvas, shaft, end, along, head, colour, size)
 
 
 def _add_turning(
-    drawing: Drawing,
+    canvas: Canvas,
     place: FloatArray,
     axis: FloatArray,
     size: float,
@@ -147,31 +140,34 @@ def _add_turning(
     share: float = 1.0,
 ) -> None:
     """A share of three quarters of a circle about an axis, with a head."""
-    frame = frames_along(axis[None], np.zeros((1, 3)))[0]
+    frame = frames_along(axis[None])[0]
     radius = _RADIUS * size
     angle = np.linspace(0.0, 1.5 * np.pi * min(share, 1.0), 28)
-    circle = place + radius * (turn_about(axis, angle) @ frame[:, 1])
+    circle = place + radius * (matrix_of(angle[:, None] * axis) @ frame[:, 1])
     head = 0.8 * _HEAD[0] * size
     along = circle[-1] - circle[-2]
-    towards = drawing.view.axes[2]
+    towards = canvas.view.axes[2]
     flat = unit(along - (along @ towards) * towards)
     tip = circle[-1] + 0.7 * head * flat
-    wing = np.cross(towards, flat) * head * _HEAD[1] / _HEAD[0] / 2
-    back = tip - head * flat
-    heads = np.stack((tip, back + wing, back - wing))[None]
-    _add(drawing, circle[None], heads, colour, size)
+    _add(canvas, circle[None], tip[None], flat[None], np.array([head]), colour, size)
 
 
 def _add(
-    drawing: Drawing,
+    canvas: Canvas,
     shafts: FloatArray,
-    heads: FloatArray,
+    tip: FloatArray,
+    along: FloatArray,
+    head: FloatArray,
     colour: tuple[float, float, float],
     size: float,
 ) -> None:
+    """Shafts (n, c, 3), and heads of lengths (n,) that end at tips (n, 3) along directions."""
+    wing = np.cross(canvas.view.axes[2], along) * (head * _HEAD[1] / _HEAD[0] / 2)[:, None]
+    back = tip - head[:, None] * along
+    heads = np.stack((tip, back + wing, back - wing), axis=1)
     given, case = np.array(colour), np.array(_CASE)
-    drawing.lines(shafts, case, _WIDTH + 1.6, layer=OVER)
-    drawing.polygons(heads, case, edge=case, width=1.6, layer=OVER)
+    canvas.lines(shafts, case, _WIDTH + 1.6, layer=OVER)
+    canvas.polygons(heads, case, edge=case, width=1.6, layer=OVER)
     above = 10 * size  # over the cases of all
-    drawing.lines(shafts, given, _WIDTH, layer=OVER, nearer=above)
-    drawing.polygons(heads, given, edge=given, width=0.4, layer=OVER, nearer=above)
+    canvas.lines(shafts, given, _WIDTH, layer=OVER, nearer=above)
+    canvas.polygons(heads, given, edge=given, width=0.4, layer=OVER, nearer=above)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The picture as a figure of matplotlib: panels, titles, legend, axes."""
 
 from __future__ import annotations
@@ -9,23 +10,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..exchange import FloatArray
-from ..rendering import harmless
-from ..scene import Scene, reach_of
-from ..scene.colours import MEANINGS, diverging
-from ..scene.movement import AMPLITUDE
-from ..words import sentence
-from .drawing import Box
+from ..base.plain_text import harmless
+from ..core.arrays import FloatArray
+from ..drawing import Drawing, reach_of
+from ..drawing.colours import MEANINGS, diverging
+from ..drawing.movement import AMPLITUDE
+from ..drawing.view import View
+from ..text.describe import verdict_in_words
+from .canvas import Box
 from .panel import Panel, is_simplified, paint
 from .stress import UNITS, Stress
 from .subject import Subject
-from .view import View
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ..analysis import Analysis
+    from ..result.result import Result
 
 #: Pixels an inch, as wide as one panel is [px], and its height.
 DPI = 100
@@ -48,8 +49,8 @@ _APART = np.array((52.0, 16.0))
 
 
 def compose(
-    analysis: Analysis,
-    scene: Scene,
+    analysis: Result,
+    drawing: Drawing,
     subjects: list[Subject],
     view: View,
     *,
@@ -62,7 +63,7 @@ def compose(
 
     Args:
         analysis: The result, of which the verdict is the title.
-        scene: Its scene.
+        drawing: Its drawing.
         subjects: What is shown, a panel each.
         view: From where.
         phase: Of movements, from -1 to 1.
@@ -80,9 +81,9 @@ def compose(
     for number, subject in enumerate(subjects):
         left, right = (width * n / len(subjects) for n in (number, number + 1))
         fineness = 0.2 + 0.6 * scale if plain else scale
-        panel = paint(scene, subject, view, phase, fineness)
-        seen = panel.drawing.box if box is None else box
-        _add_panel(frame, scene, subject, panel, seen, (left, right), top, plain)
+        panel = paint(drawing, subject, view, phase, fineness)
+        seen = panel.canvas.box if box is None else box
+        _add_panel(frame, drawing, subject, panel, seen, (left, right), top, plain)
     return figure
 
 
@@ -133,14 +134,14 @@ class _Frame:
         return _SIZES[kind] * self.scale * 1.25 * 1.32
 
 
-def _add_verdict(frame: _Frame, analysis: Analysis) -> float:
+def _add_verdict(frame: _Frame, analysis: Result) -> float:
     """The name and the verdict; where they end [px]."""
     left, y = 18 * frame.scale, 14 * frame.scale
     name = harmless(os.path.basename(analysis.name))
     if name:
         frame.text(left, y, _cut(name, frame, "name"), "name", color=_FAINT)
         y += frame.line("name")
-    words = " ".join(sentence(analysis).split())
+    words = str(verdict_in_words(analysis))
     for line in _balanced(words, _letters(frame, "title")):
         frame.text(left, y, line, "title", color=analysis.verdict.colour, weight="bold")
         y += frame.line("title")
@@ -175,7 +176,7 @@ def _cut(text: str, frame: _Frame, kind: str) -> str:
 
 def _add_panel(
     frame: _Frame,
-    scene: Scene,
+    drawing: Drawing,
     subject: Subject,
     panel: Panel,
     box: Box,
@@ -190,7 +191,7 @@ def _add_panel(
         for line in textwrap.wrap(subject.title, _letters(frame, "panel", right - left)):
             frame.text(left + pad, top, line, "panel")
             top += frame.line("panel")
-        words = caption(scene, subject)
+        words = caption(drawing, subject)
         lines = textwrap.wrap(words, _letters(frame, "caption", right - left))
         bottom -= frame.line("caption") * len(lines) + 0.6 * pad
         for number, line in enumerate(lines):
@@ -204,13 +205,13 @@ def _add_panel(
         _add_values(frame, axes, panel)
         if subject.stress is not None:
             _add_legend(frame, subject.stress, (left + pad, right - pad), bottom)
-        if not scene.planar:
-            _add_triad(frame, panel.drawing.view, left + 3.4 * pad, bottom - 3.0 * pad)
+        if not drawing.planar:
+            _add_triad(frame, panel.canvas.view, left + 3.4 * pad, bottom - 3.0 * pad)
 
 
 def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None:
-    """Put the drawing into its axes, as large as it fits."""
-    axes.add_collection(panel.drawing.collection(), autolim=False)
+    """Put the canvas into its axes, as large as it fits."""
+    axes.add_artist(panel.canvas.artist())
     low, high = box
     extent = np.maximum(high - low, 1.0e-9 * np.max(high - low, initial=1.0e-300))
     pixels = np.array(room) * (1 - 2 * _MARGIN)
@@ -220,28 +221,23 @@ def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None
     axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
 
 
-def caption(scene: Scene, subject: Subject) -> str:
+def caption(drawing: Drawing, subject: Subject) -> str:
     """What is to be known of a panel."""
-    if _is_nowhere(scene):
+    hinges = drawing.hinges
+    if len(hinges) and not len(drawing.members) and not np.any(hinges.nodes[:, 0] >= 0):
         return "Nothing can be placed: the hinges stand at no node whose position is known."
-    simply = f" {len(scene.members)} members, drawn simply." if is_simplified(scene) else ""
-    return f"{_about(scene, subject)}{simply}".strip()
+    simply = f" {len(drawing.members)} members, drawn simply." if is_simplified(drawing) else ""
+    return f"{_about(drawing, subject)}{simply}".strip()
 
 
-def _is_nowhere(scene: Scene) -> bool:
-    """Whether there is nothing but hinges, and it is not known where they stand."""
-    hinges = scene.hinges
-    return len(hinges) > 0 and not len(scene.members) and not np.any(hinges.nodes[:, 0] >= 0)
-
-
-def _about(scene: Scene, subject: Subject) -> str:
+def _about(drawing: Drawing, subject: Subject) -> str:
     movement, stress = subject.movement, subject.stress
     if stress is not None:
         return "Relative values, only their ratios matter."
     if movement is None:
-        return "Arrows: declared degrees of freedom." if len(scene.arrows) else ""
-    largest, turned = reach_of(scene, [movement.pose(1.0)])
-    part = largest / scene.size
+        return "Arrows: declared degrees of freedom." if len(drawing.arrows) else ""
+    largest, turned = reach_of(drawing, [movement.pose(1.0)])
+    part = largest / drawing.size
     size = f"largest displacement {100 * part:.0f} % of the model's size"
     if part < _UNMOVED and turned > _UNTURNED:
         size = f"largest rotation {turned:.1f} rad"
@@ -274,23 +270,21 @@ def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: 
 
 def _add_values(frame: _Frame, axes: Axes, panel: Panel) -> None:
     """The values at the peaks of diagrams; of those that coincide one."""
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=2.4 * frame.scale, foreground="white")]
     told: list[FloatArray] = []
     for peak in panel.peaks:
-        ends = panel.drawing.view.project(np.array((peak.foot, peak.place)))[:, :2]
+        ends = panel.canvas.view.project(np.array((peak.foot, peak.place)))[:, :2]
         foot, top = np.asarray(axes.transData.transform(ends))
         away = top - foot
         place = top + 14 * frame.scale * away / max(float(np.hypot(*away)), 1.0e-9)
         if any(np.all(np.abs(place - each) < _APART * frame.scale) for each in told):
             continue
         told.append(place)
-        _halo_text(frame, float(place[0]), frame.height - float(place[1]), f"{peak.value:+.3g}")
-
-
-def _halo_text(frame: _Frame, x: float, y: float, text: str) -> None:
-    from matplotlib.patheffects import withStroke
-
-    halo = [withStroke(linewidth=2.4 * frame.scale, foreground="white")]
-    frame.text(x, y, text, "legend", va="center", ha="center", path_effects=halo)
+        x, y = float(place[0]), frame.height - float(place[1])
+        words = f"{peak.value:+.3g}"
+        frame.text(x, y, words, "legend", va="center", ha="center", path_effects=halo)
 
 
 def _add_triad(frame: _Frame, view: View, x: float, y: float) -> None:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a result: a figure, or the bytes of a file."""
 
 from __future__ import annotations
@@ -8,19 +9,22 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..batch import BatchError
-from ..rendering import harmless
-from ..scene import scene_of
-from ..words import sentence
+from ..base.errors import BatchError
+from ..base.plain_text import harmless
+from ..drawing import drawing_of
+from ..drawing.view import view_of
+from ..text.describe import verdict_in_words
+from .animation import gif_bytes
+from .figure import compose
+from .files import png_bytes, svg_bytes
 from .subject import Chosen, moving_subject, subjects_of
-from .view import view_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..analysis import Analysis
+    from ..result.result import Result
 
 #: Suffixes of the files that a picture can be.
 SUFFIXES = (".png", ".gif", ".svg")
@@ -49,16 +53,24 @@ def check_packages() -> None:
     Raises:
         PictureError: It is not.
     """
-    needed = {"matplotlib": "matplotlib", "PIL": "pillow"}
-    missing = [name for package, name in needed.items() if find_spec(package) is None]
-    if missing:
+    if missing := _missing():
         raise PictureError(
             f"pictures need the package {missing[0]}: pip install 'flexact[pictures]'"
         )
 
 
+def has_packages() -> bool:
+    """Whether what is needed for pictures is installed."""
+    return not _missing()
+
+
+def _missing() -> list[str]:
+    needed = {"matplotlib": "matplotlib", "PIL": "pillow"}
+    return [name for package, name in needed.items() if find_spec(package) is None]
+
+
 def draw(
-    analysis: Analysis,
+    analysis: Result,
     *,
     motion: int | None = None,
     freedom: int | None = None,
@@ -95,91 +107,67 @@ def draw(
         SubjectError: Something chosen is not there.
         ViewError: There is no such view.
     """
-    from .figure import compose
+    return _figure(analysis, Chosen(motion, freedom, stress, quantity), view, phase, size, plain)
 
+
+def _figure(
+    analysis: Result,
+    chosen: Chosen,
+    view: str | None,
+    phase: float,
+    size: tuple[int, int] | None,
+    plain: bool,
+) -> Figure:
     check_packages()
-    chosen = Chosen(motion, freedom, stress, quantity)
-    scene = scene_of(analysis.data)
-    subjects = subjects_of(analysis, scene, chosen)
-    seen = view_of(view, scene)
-    return compose(analysis, scene, subjects, seen, phase=phase, size=size, plain=plain)
+    drawing = drawing_of(analysis.data)
+    subjects = subjects_of(analysis, drawing, chosen)
+    seen = view_of(view, drawing)
+    return compose(analysis, drawing, subjects, seen, phase=phase, size=size, plain=plain)
 
 
 def picture_bytes(
-    analysis: Analysis,
+    analysis: Result,
     suffix: str,
     *,
-    motion: int | None = None,
-    freedom: int | None = None,
-    stress: int | None = None,
-    quantity: str | None = None,
     view: str | None = None,
     size: tuple[int, int] | None = None,
     plain: bool = False,
     progress: Callable[[float], None] | None = None,
+    **chosen: Any,
 ) -> bytes:
     """A picture as the content of a file; the same result gives the same bytes.
 
     Args:
         analysis: The result.
         suffix: `.png`, `.svg`, or `.gif`, which moves.
-        motion: As of `draw`, and the others likewise.
-        freedom: See there.
-        stress: See there.
-        quantity: See there.
-        view: See there.
+        view: As of `draw`.
         size: See there.
         plain: See there.
         progress: Called with the part of a GIF's frames that is drawn, from 0 to 1.
+        chosen: `motion`, `freedom`, `stress` and `quantity`, as of `draw`.
 
     Raises:
         PictureError: There is no such kind of picture, or a package is missing; else as `draw`.
     """
     kind = check_suffix(suffix)
     check_packages()
-    chosen = Chosen(motion, freedom, stress, quantity)
+    asked = Chosen(**chosen)
     with _quiet():
         if kind == ".gif":
-            return _moving(analysis, chosen, view, size, plain, progress)
-        figure = draw(
-            analysis,
-            motion=motion,
-            freedom=freedom,
-            stress=stress,
-            quantity=quantity,
-            view=view,
-            size=size,
-            plain=plain,
-        )
+            drawing = drawing_of(analysis.data)
+            subject, seen = moving_subject(analysis, drawing, asked), view_of(view, drawing)
+            return gif_bytes(
+                analysis, drawing, subject, seen, size=size, plain=plain, progress=progress
+            )
+        figure = _figure(analysis, asked, view, 1.0, size, plain)
         if kind == ".svg":
-            from .vector import svg_bytes
-
             return svg_bytes(figure, *_words(analysis))
-        from .raster import png_bytes
-
         return png_bytes(figure)
 
 
-def _moving(
-    analysis: Analysis,
-    chosen: Chosen,
-    view: str | None,
-    size: tuple[int, int] | None,
-    plain: bool,
-    progress: Callable[[float], None] | None,
-) -> bytes:
-    from .animation import gif_bytes
-
-    scene = scene_of(analysis.data)
-    subject = moving_subject(analysis, scene, chosen)
-    seen = view_of(view, scene)
-    return gif_bytes(analysis, scene, subject, seen, size=size, plain=plain, progress=progress)
-
-
-def _words(analysis: Analysis) -> tuple[str, str]:
-    return harmless(os.path.basename(analysis.name)) or "Mechanism", " ".join(
-        sentence(analysis).split()
-    )
+def _words(analysis: Result) -> tuple[str, str]:
+    name = harmless(os.path.basename(analysis.name)) or "Mechanism"
+    return name, str(verdict_in_words(analysis))
 
 
 @contextmanager
@@ -189,15 +177,9 @@ def _quiet() -> Iterator[None]:
     level = logger.level
     logger.setLevel(logging.ERROR)
     try:
-        with _unwarned():
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", message="Glyph .* missing from", category=UserWarning)
+            warnings.filterwarnings("ignore", message="Matplotlib currently does not support")
             yield
     finally:
         logger.setLevel(level)
-
-
-@contextmanager
-def _unwarned() -> Iterator[None]:
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph .* missing from", category=UserWarning)
-        warnings.filterwarnings("ignore", message="Matplotlib currently does not support")
-        yield

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A self-stress on the members: colours along them, and bending diagrams beside them."""
 
 from __future__ import annotations
@@ -6,16 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..exchange import FloatArray
-from ..frozen import Frozen
-from ..scene import QUANTITIES, Resultants, Scene
-from ..scene.colours import diverging
-from .drawing import Drawing
+from ..base.frozen import Frozen
+from ..core.arrays import FloatArray
+from ..drawing import QUANTITIES, Drawing, Resultants, stations
+from ..drawing.colours import diverging
+from .canvas import Canvas
 from .surfaces import OUTLINE
-from .visible import visible_stations
 
 UNITS = {"N": "N", "T": "N m", "My": "N m", "Mz": "N m"}
-#: Height of the largest bending moment in a diagram, a part of the scene's size.
+#: Height of the largest bending moment in a diagram, a part of the drawing's size.
 _HEIGHT = 0.08
 #: Column of the local frame along which a diagram stands off the axis.
 _OFF = {"My": 2, "Mz": 1}
@@ -101,7 +101,7 @@ def stress_of(values: Resultants, quantity: str | None) -> Stress:
     return Stress(values, chosen, values.largest(chosen))
 
 
-def add_diagrams(drawing: Drawing, scene: Scene, stress: Stress) -> list[Peak]:
+def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]:
     """Draw bending diagrams beside the members; where their peaks are.
 
     The diagram stands off the axis in the plane of bending, on the side of the local axis where
@@ -110,8 +110,8 @@ def add_diagrams(drawing: Drawing, scene: Scene, stress: Stress) -> list[Peak]:
     if not stress.has_diagram or not stress.largest > 0.0:
         return []
     peaks: list[Peak] = []
-    column, height = _OFF[stress.quantity], _HEIGHT * scene.size / stress.largest
-    for strip in visible_stations(scene.members, scene.reference, PIECES):
+    column, height = _OFF[stress.quantity], _HEIGHT * drawing.size / stress.largest
+    for strip in stations(drawing.members, drawing.reference, PIECES, drawing.members.seen):
         value = stress.values.along(stress.quantity, strip.member, strip.at)
         rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
         if not rows.size:
@@ -122,20 +122,20 @@ def add_diagrams(drawing: Drawing, scene: Scene, stress: Stress) -> list[Peak]:
         value = stress.values.along(stress.quantity, strip.member[rows], at)
         tops = centre + height * value[..., None] * off
         colour = stress.colours(strip.member[rows], at)
-        above = _ABOVE * scene.size + _depth(drawing, scene, strip.member[rows], column)
-        _add_outlined(drawing, centre, tops, colour, above)
+        above = _ABOVE * drawing.size + _depth(canvas, drawing, strip.member[rows], column)
+        _add_outlined(canvas, centre, tops, colour, above)
         for row, peak in enumerate(np.abs(value).argmax(axis=1).tolist()):
             place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
             peaks.append(Peak(place, foot, float(value[row, peak])))
     return _to_be_named(peaks, stress.largest)
 
 
-def _depth(drawing: Drawing, scene: Scene, member: np.ndarray, column: int) -> FloatArray:
+def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, column: int) -> FloatArray:
     """(k,) how far behind a member's surface its axis lies, where a diagram is along a column."""
     other = 3 - column
-    normal = scene.members.frame[member][..., other]
-    cosine = np.maximum(np.abs(normal @ drawing.view.axes[2]), _OBLIQUE)
-    return np.asarray(scene.members.section[member, other - 1] / 2 / cosine)
+    normal = drawing.members.frame[member][..., other]
+    cosine = np.maximum(np.abs(normal @ canvas.view.axes[2]), _OBLIQUE)
+    return np.asarray(drawing.members.section[member, other - 1] / 2 / cosine)
 
 
 def _between(points: FloatArray, at: FloatArray) -> FloatArray:
@@ -145,7 +145,7 @@ def _between(points: FloatArray, at: FloatArray) -> FloatArray:
 
 
 def _add_outlined(
-    drawing: Drawing,
+    canvas: Canvas,
     centre: FloatArray,
     tops: FloatArray,
     colour: FloatArray,
@@ -154,16 +154,16 @@ def _add_outlined(
     """Strips between an axis and the tops, with their outlines; `above` is (k,)."""
     quads = np.stack((centre[:, :-1], centre[:, 1:], tops[:, 1:], tops[:, :-1]), axis=2)
     pale = 0.55 + 0.45 * colour.reshape(-1, 3)
-    drawing.polygons(quads.reshape(-1, 4, 3), pale, nearer=np.repeat(above, quads.shape[1]))
+    canvas.polygons(quads.reshape(-1, 4, 3), pale, nearer=np.repeat(above, quads.shape[1]))
     ink = np.array(OUTLINE)
     ribs = np.stack((centre, tops), axis=2)[:, ::4]
-    drawing.lines(ribs.reshape(-1, 2, 3), ink, 0.3, nearer=np.repeat(above, ribs.shape[1]))
+    canvas.lines(ribs.reshape(-1, 2, 3), ink, 0.3, nearer=np.repeat(above, ribs.shape[1]))
     for line, width in ((centre, 0.5), (tops, 1.1)):
         pieces = np.stack((line[:, :-1], line[:, 1:]), axis=2)
         nearer = np.repeat(above, pieces.shape[1])
-        drawing.lines(pieces.reshape(-1, 2, 3), ink, width, nearer=nearer)
+        canvas.lines(pieces.reshape(-1, 2, 3), ink, width, nearer=nearer)
     sides = np.stack((centre[:, [0, -1]], tops[:, [0, -1]]), axis=2).reshape(-1, 2, 3)
-    drawing.lines(sides, ink, 1.1, nearer=np.repeat(above, 2))
+    canvas.lines(sides, ink, 1.1, nearer=np.repeat(above, 2))
 
 
 def _to_be_named(peaks: list[Peak], largest: float) -> list[Peak]:

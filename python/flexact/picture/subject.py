@@ -1,18 +1,16 @@
-"""What a picture shows: the scene, a motion, a degree of freedom, or a self-stress."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a picture shows: the drawing, a motion, a degree of freedom, or a self-stress."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from ..batch import BatchError
-from ..rendering import harmless
-from ..scene import QUANTITIES, Movement, Scene, move, resultants
-from ..shown import Shown, chosen_motion, require_there
+from ..base.errors import BatchError
+from ..base.plain_text import harmless
+from ..drawing import QUANTITIES, Drawing, Movement, move, resultants
+from ..drawing.selection import Selection, require_there, select_motion
+from ..result.result import Result
 from .stress import Stress, stress_of
-
-if TYPE_CHECKING:
-    from ..analysis import Analysis
 
 
 class SubjectError(BatchError):
@@ -21,7 +19,7 @@ class SubjectError(BatchError):
 
 @dataclass(frozen=True)
 class Subject:
-    """What one panel shows; a scene alone has neither movement nor stress.
+    """What one panel shows; a drawing alone has neither movement nor stress.
 
     Attributes:
         title: Above it.
@@ -63,70 +61,70 @@ class Chosen:
         return self.stress is not None or self.quantity is not None
 
 
-def subjects_of(analysis: Analysis, scene: Scene, chosen: Chosen) -> list[Subject]:
+def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subject]:
     """What a still picture shows, a panel each.
 
     What was chosen; else the first motion and the first self-stress, those that there are; else
-    the first degree of freedom that moves; else the scene.
+    the first degree of freedom that moves; else the drawing.
 
     Raises:
         NotThereError: Something chosen is not there.
     """
     if chosen.moves or chosen.is_stressed:
-        return _asked_for(analysis, scene, chosen)
+        return _asked_for(analysis, drawing, chosen)
     made = []
     if len(analysis.motions) or not len(analysis.self_stresses):
-        made += _moving(scene, chosen_motion(analysis))
+        made += _moving(drawing, select_motion(analysis))
     if len(analysis.self_stresses):
-        made.append(_stressed(analysis, scene, 1, None))
+        made.append(_stressed(analysis, drawing, 1, None))
     return made or [Subject()]
 
 
-def moving_subject(analysis: Analysis, scene: Scene, chosen: Chosen) -> Subject:
+def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subject:
     """What an animation shows.
 
     What was chosen; else the first motion, the first degree of freedom that moves, the first
-    self-stress or the scene, of which the last two do not move.
+    self-stress or the drawing, of which the last two do not move.
 
     Raises:
         NotThereError: What was chosen is not there.
         SubjectError: Several were chosen.
     """
     if chosen.moves or chosen.is_stressed:
-        made = _asked_for(analysis, scene, chosen)
+        made = _asked_for(analysis, drawing, chosen)
         if len(made) > 1:
             raise SubjectError(
                 "an animation shows one of them: a motion, a degree of freedom or a self-stress"
             )
         return made[0]
-    made = _moving(scene, chosen_motion(analysis))
+    made = _moving(drawing, select_motion(analysis))
     if not made and len(analysis.self_stresses):
-        made.append(_stressed(analysis, scene, 1, None))
+        made.append(_stressed(analysis, drawing, 1, None))
     return made[0] if made else Subject()
 
 
-def _asked_for(analysis: Analysis, scene: Scene, chosen: Chosen) -> list[Subject]:
+def _asked_for(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subject]:
     made = []
     if chosen.motion is not None:
-        made += _moving(scene, chosen_motion(analysis, motion=chosen.motion))
+        made += _moving(drawing, select_motion(analysis, motion=chosen.motion))
     if chosen.freedom is not None:
-        made += _moving(scene, chosen_motion(analysis, freedom=chosen.freedom))
+        made += _moving(drawing, select_motion(analysis, freedom=chosen.freedom))
     if chosen.is_stressed:
         number = 1 if chosen.stress is None else chosen.stress
-        made.append(_stressed(analysis, scene, number, chosen.quantity))
+        made.append(_stressed(analysis, drawing, number, chosen.quantity))
     return made
 
 
-def _moving(scene: Scene, shown: Shown | None) -> list[Subject]:
+def _moving(drawing: Drawing, shown: Selection | None) -> list[Subject]:
     if shown is None:
         return []
-    return [Subject(_heading(shown.words), movement=move(scene, shown.motion))]
+    return [Subject(_heading(shown.words), movement=move(drawing, shown.motion))]
 
 
-def _stressed(analysis: Analysis, scene: Scene, number: int, quantity: str | None) -> Subject:
+def _stressed(analysis: Result, drawing: Drawing, number: int, quantity: str | None) -> Subject:
     stresses = analysis.self_stresses
     require_there(number, len(stresses), "self-stress", "self-stresses")
-    values = resultants(scene, stresses[number - 1])
+    values = resultants(drawing, stresses[number - 1])
     words = f"self-stress {number} of {analysis.over_constrained}"
     return Subject(_heading(words), stress=stress_of(values, quantity))
 

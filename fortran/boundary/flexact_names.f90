@@ -1,0 +1,49 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The enumerations and limits of the core by name, for those who read them from
+!> outside.
+module flexact_names
+   use flexact_result_exchange, only: fact_names
+   use flexact_diagnostics, only: severity_names
+   use flexact_error, only: error_names
+   use flexact_element_table, only: frame_names, vector_names, member_names
+   use flexact_appearance, only: section_names
+   use flexact_model, only: class_names
+   use flexact_progress, only: stage_names
+   use flexact_result, only: method_names
+   use flexact_roles, only: role_names, dual_names
+   use flexact_slots, only: node_kind_names
+   implicit none
+   private
+   public :: names_t, names_of
+
+   type :: names_t
+      !> The value that the first name stands for.
+      integer :: first = 0
+      character(len=24), allocatable :: name(:)
+   end type names_t
+
+contains
+
+   !> The names of an enumeration; none where there is no such one.
+   pure function names_of(enumeration) result(names)
+      character(len=*), intent(in) :: enumeration
+      type(names_t) :: names
+
+      select case (enumeration)
+      case ('node kinds'); names%name = [node_kind_names]
+      case ('classes'); names%name = [class_names]
+      case ('frames'); names%name = [frame_names]
+      case ('vectors'); names%name = [vector_names]
+      case ('members'); names%name = [member_names]
+      case ('roles'); names%name = [role_names]
+      case ('duals'); names%name = [dual_names]
+      case ('methods'); names%name = [method_names]
+      case ('errors'); names%name = [error_names]
+      case ('stages'); names%name = [stage_names]
+      case ('facts'); names = names_t(1, [fact_names])
+      case ('severities'); names = names_t(1, [severity_names])
+      case ('cross-sections'); names = names_t(1, [character(len=24) :: section_names])
+      case default; allocate (names%name(0))
+      end select
+   end function names_of
+end module flexact_names

@@ -1,0 +1,100 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> An analysis as flat arrays: what is wished for, and what comes back.
+module flexact_result_exchange
+   use flexact_components, only: largest_component
+   use flexact_determinacy, only: analyse
+   use flexact_exchange, only: give_basis, counts_of
+   use flexact_kinds, only: wp
+   use flexact_model, only: model_t
+   use flexact_problem, only: problem_t
+   use flexact_result, only: result_t, options_t, most_pairs
+   implicit none
+   private
+   public :: run, fact_names
+
+   !> What each of the facts is; values of pairs stand behind the last.
+   character(len=24), parameter :: fact_names(*) = [character(len=24) :: &
+                                                    'error', 'bytes needed', 'rows', 'columns', 'coordinates', &
+                                                    'fixed coordinates', 'dependent coordinates', &
+                                                    'independent coordinates', 'deformations', 'fixed deformations', &
+                                                    'released deformations', 'independent deformations', 'rank', 'method', &
+                                                    'confirmed', 'tolerance', 'characteristic length', 'noise', &
+                                                    'reach of digits', 'components', 'rows of largest', &
+                                                    'columns of largest', 'scaled values', 'pairs', 'motions', &
+                                                    'self-stresses']
+
+contains
+
+   !> Analyse a model. wishes: method, tolerance (negative: from the data), bytes
+   !> of memory that may be used, 1 if only the singular values of D(c) itself
+   !> are wanted (by sparse the smallest), which come as scaled values then. Rows of D(c) stand before its columns in
+   !> index(:2, i): owner and part of each, from 1;
+   !> by_size: scale, singular values, and vectors of pairs.
+   !> Vectors of motions, then of self-stresses: vector k begins at index(3, k)
+   !> of place (from 0) and value.
+   subroutine run(model, wishes, stage, index, place, value, by_size, facts)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: wishes(:)
+      integer, intent(inout), target :: stage(:)
+      integer, intent(inout) :: index(:, :), place(:)
+      real(wp), intent(inout) :: value(:), by_size(:, :)
+      real(wp), intent(out) :: facts(:)
+      type(options_t) :: options
+      type(problem_t) :: problem
+      type(result_t) :: answer
+      integer :: vectors, moving, stressed
+
+      options%method = nint(wishes(1))
+      if (wishes(2) >= 0) options%tolerance = wishes(2)
+      options%memory = wishes(3)
+      options%only_plain_values = wishes(4) > 0
+      options%progress%stage => stage
+      call analyse(model, options, problem, answer)
+      facts = 0
+      if (allocated(answer%error)) facts(1) = answer%error%kind
+      facts(2:12) = [answer%bytes, &
+                     real([problem%partition%count%rows, problem%partition%count%columns, &
+                           counts_of(problem%partition%count%coordinates), &
+                           counts_of(problem%partition%count%deformations)], wp)]
+      if (allocated(answer%error)) return
+      facts(13:15) = [answer%decision%rank, answer%method, merge(1, 0, answer%confirmed)]
+      facts(16:19) = [answer%decision%tolerance, problem%scaling%characteristic_length, answer%decision%noise, &
+                      problem%scaling%reach_of_digits]
+      facts(20:22) = [problem%components%count, largest_component(problem%components)]
+      call give_labels(problem, index)
+      call give_values(problem, answer, by_size, facts)
+      vectors = 0
+      index(3, 1) = 0
+      call give_basis(answer%motions, problem%partition%count%rows, index(3, :), place, value, vectors, moving)
+      call give_basis(answer%stresses, 0, index(3, :), place, value, vectors, stressed)
+      facts(25:26) = [moving, stressed]
+   end subroutine run
+
+   pure subroutine give_labels(problem, index)
+      type(problem_t), intent(in) :: problem
+      integer, intent(inout) :: index(:, :)
+
+      associate (m => problem%partition%count%rows, n => problem%partition%count%columns)
+         index(:2, :m) = problem%partition%row_label
+         index(:2, m + 1:m + n) = problem%partition%column_label
+      end associate
+   end subroutine give_labels
+
+   pure subroutine give_values(problem, answer, by_size, facts)
+      type(problem_t), intent(in) :: problem
+      type(result_t), intent(in) :: answer
+      real(wp), intent(inout) :: by_size(:, :), facts(:)
+
+      associate (m => problem%partition%count%rows, n => problem%partition%count%columns, &
+                 scaled => size(answer%scaled_values), &
+                 pairs => min(most_pairs, size(answer%pair_value)))
+         by_size(:m, 1) = problem%scaling%row
+         by_size(m + 1:m + n, 1) = problem%scaling%column
+         by_size(:scaled, 2) = abs(answer%scaled_values)
+         by_size(:m, 3:pairs + 2) = answer%pair_stress(:, :pairs)
+         by_size(m + 1:m + n, 3:pairs + 2) = answer%pair_motion(:, :pairs)
+         facts(23:24) = [scaled, pairs]
+         facts(size(fact_names) + 1:size(fact_names) + pairs) = answer%pair_value(:pairs)
+      end associate
+   end subroutine give_values
+end module flexact_result_exchange

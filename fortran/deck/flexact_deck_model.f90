@@ -1,0 +1,75 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What the statements about nodes and elements share: the model in the making,
+!> the deck's numbers, and how a number that is not there is reported.
+module flexact_deck_model
+   use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_appearance, only: appearance_t
+   use flexact_model, only: model_t
+   use flexact_numbering, only: numbering_t
+   use flexact_operands, only: operands_t
+   implicit none
+   private
+   public :: deck_model_t, take_node, take_element
+
+   type :: deck_model_t
+      !> The deck, and where what is wrong with it is kept; while it is read.
+      character(len=:), pointer :: text => null()
+      type(diagnostics_t), pointer :: diagnostics => null()
+      type(model_t) :: model
+      type(numbering_t) :: nodes
+      type(numbering_t) :: element_numbers
+      !> The element of each number in element_numbers.
+      integer, allocatable :: element_of(:)
+      !> Name of each element, as a place in the text.
+      type(span_t), allocatable :: element_names(:)
+      !> Numbers in element statements that could not be read: nodes or elements
+      !> perhaps, so that it is not reported that they do not exist.
+      type(numbering_t) :: excused
+      !> How the elements are to be drawn, where the deck says something about it.
+      type(appearance_t), allocatable :: appearance
+   end type deck_model_t
+
+contains
+
+   !> Take a node number; the index is 0 where there is no such node, which
+   !> has then been reported.
+   subroutine take_node(deck, operands, node)
+      type(deck_model_t), intent(in) :: deck
+      type(operands_t), intent(inout) :: operands
+      integer, intent(out) :: node
+      integer :: number
+
+      node = 0
+      call operands%positive_integer('node number', number)
+      if (number == 0) return
+      node = deck%nodes%find(number)
+      if (node > 0) return
+      operands%fine = .false.
+      if (deck%excused%find(number) > 0) return
+      call operands%diagnostics%error('no-such-node', operands%word, &
+                                      'there is no node '//operands%spelling(), &
+                                      'no element uses this node', &
+                                      'correct the number, or name the node in an element')
+   end subroutine take_node
+
+   !> Take an element number; as with nodes.
+   subroutine take_element(deck, operands, element)
+      type(deck_model_t), intent(in) :: deck
+      type(operands_t), intent(inout) :: operands
+      integer, intent(out) :: element
+      integer :: number, index
+
+      element = 0
+      call operands%positive_integer('element number', number)
+      if (number == 0) return
+      index = deck%element_numbers%find(number)
+      if (index > 0) element = deck%element_of(index)
+      if (element > 0) return
+      operands%fine = .false.
+      if (deck%excused%find(number) > 0) return
+      call operands%diagnostics%error('no-such-element', operands%word, &
+                                      'there is no element '//operands%spelling(), &
+                                      'no statement makes this element', &
+                                      'correct the number, or add the element')
+   end subroutine take_element
+end module flexact_deck_model

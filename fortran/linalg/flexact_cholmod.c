@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* CHOLMOD behind flat functions, for flexact_cholmod.f90. In C because CHOLMOD's
+ * settings and factors are fields of structs whose layout changes between its
+ * versions. Indices count from 0. Without FLEXACT_WITH_CHOLMOD all of it says
+ * that CHOLMOD is absent.
+ *
+ * Symmetric matrices are given by their lower triangles, column by column. */
+#include <stddef.h>
+
+#ifdef FLEXACT_WITH_CHOLMOD
+#include <stdlib.h>
+#include <string.h>
+#include <cholmod.h>
+
+typedef struct {
+    cholmod_common common;
+    cholmod_factor *factor;
+    cholmod_dense *x, *y, *e; /* kept from one solution to the next */
+} chol;
+
+static cholmod_sparse lower(int n, int *start, int *place, double *value)
+{
+    cholmod_sparse a;
+    memset(&a, 0, sizeof a);
+    a.nrow = a.ncol = n;
+    a.nzmax = start[n];
+    a.p = start;
+    a.i = place;
+    a.x = value;
+    a.stype = -1;
+    a.itype = CHOLMOD_INT;
+    a.xtype = value ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = 0;
+    a.packed = 1;
+    return a;
+}
+
+static void begin(cholmod_common *common)
+{
+    cholmod_start(common);
+    common->print = 0;
+    common->nmethods = 1;
+    common->postorder = 1;
+    common->final_ll = 1;
+}
+
+int flexact_cholmod_is_there(void) { return 1; }
+
+/* A fill-reducing order: by AMD for small graphs, where it is quicker, and for
+ * others by METIS if CHOLMOD has it. */
+int flexact_cholmod_order(int n, int *start, int *place, int *order)
+{
+    const int small = 3000;
+    cholmod_common common;
+    cholmod_sparse a = lower(n, start, place, NULL);
+    int done = 0;
+    begin(&common);
+#ifndef NPARTITION
+    if (n > small)
+        done = cholmod_metis(&a, NULL, 0, 1, order, &common);
+#endif
+    if (!done) {
+        common.status = CHOLMOD_OK;
+        done = cholmod_amd(&a, NULL, 0, order, &common);
+    }
+    cholmod_finish(&common);
+    return done ? 0 : -1;
+}
+
+void flexact_cholmod_free(void *handle)
+{
+    chol *c = handle;
+    if (!c)
+        return;
+    cholmod_free_dense(&c->x, &c->common);
+    cholmod_free_dense(&c->y, &c->common);
+    cholmod_free_dense(&c->e, &c->common);
+    cholmod_free_factor(&c->factor, &c->common);
+    cholmod_finish(&c->common);
+    free(c);
+}
+
+/* Symbolic analysis in a given order; entries: of the factor that will come. */
+void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries)
+{
+    chol *c = calloc(1, sizeof *c);
+    cholmod_sparse a = lower(n, start, place, NULL);
+    if (!c)
+        return NULL;
+    begin(&c->common);
+    c->common.method[0].ordering = CHOLMOD_GIVEN;
+    c->factor = cholmod_analyze_p(&a, order, NULL, 0, &c->common);
+    *entries = c->common.lnz;
+    if (!c->factor) {
+        flexact_cholmod_free(c);
+        return NULL;
+    }
+    return c;
+}
+
+/* 0, or the column (from 1) at which the matrix is not positive definite, or -1
+ * where memory does not suffice. */
+int flexact_cholmod_factor(void *handle, int n, int *start, int *place, double *value)
+{
+    chol *c = handle;
+    cholmod_sparse a = lower(n, start, place, value);
+    c->common.status = CHOLMOD_OK;
+    if (!cholmod_factorize(&a, c->factor, &c->common) || c->common.status < 0)
+        return -1;
+    if (c->factor->minor < (size_t)n) {
+        int *order = c->factor->Perm;
+        return 1 + (order ? order[c->factor->minor] : (int)c->factor->minor);
+    }
+    return 0;
+}
+
+/* The squares of the diagonal of the factor, in the order of the matrix. */
+void flexact_cholmod_pivots(void *handle, double *pivot)
+{
+    chol *c = handle;
+    cholmod_factor *f = c->factor;
+    int *order = f->Perm;
+    double *x = f->x;
+    size_t n = f->n, j, s;
+    if (f->is_super) {
+        int *super = f->super, *pi = f->pi, *px = f->px;
+        for (s = 0; s < f->nsuper; s++) {
+            size_t rows = (size_t)(pi[s + 1] - pi[s]);
+            for (j = 0; j < (size_t)(super[s + 1] - super[s]); j++) {
+                double d = x[(size_t)px[s] + j * rows + j];
+                size_t column = (size_t)super[s] + j;
+                pivot[order ? (size_t)order[column] : column] = d * d;
+            }
+        }
+    } else {
+        int *p = f->p;
+        for (j = 0; j < n; j++) {
+            double d = x[p[j]];
+            pivot[order ? (size_t)order[j] : j] = f->is_ll ? d * d : d;
+        }
+    }
+}
+
+/* Solve for k right-hand sides, side by side. */
+int flexact_cholmod_solve(void *handle, int n, int k, double *b, double *x)
+{
+    chol *c = handle;
+    cholmod_dense right;
+    memset(&right, 0, sizeof right);
+    right.nrow = right.d = n;
+    right.ncol = k;
+    right.nzmax = (size_t)n * (size_t)k;
+    right.x = b;
+    right.xtype = CHOLMOD_REAL;
+    right.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_solve2(CHOLMOD_A, c->factor, &right, NULL, &c->x, NULL, &c->y, &c->e, &c->common))
+        return -1;
+    memcpy(x, c->x->x, sizeof(double) * (size_t)n * (size_t)k);
+    return 0;
+}
+
+#else
+
+int flexact_cholmod_is_there(void) { return 0; }
+
+int flexact_cholmod_order(int n, int *start, int *place, int *order)
+{
+    (void)n, (void)start, (void)place, (void)order;
+    return -1;
+}
+
+void flexact_cholmod_free(void *handle) { (void)handle; }
+
+void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries)
+{
+    (void)n, (void)start, (void)place, (void)order, (void)entries;
+    return NULL;
+}
+
+int flexact_cholmod_factor(void *handle, int n, int *start, int *place, double *value)
+{
+    (void)handle, (void)n, (void)start, (void)place, (void)value;
+    return -1;
+}
+
+void flexact_cholmod_pivots(void *handle, double *pivot) { (void)handle, (void)pivot; }
+
+int flexact_cholmod_solve(void *handle, int n, int k, double *b, double *x)
+{
+    (void)handle, (void)n, (void)k, (void)b, (void)x;
+    return -1;
+}
+#endif

@@ -1,0 +1,66 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The sparse Cholesky factorisation of SuiteSparse (Chen, Davis, Hager,
+!> Rajamanickam, ACM Trans. Math. Softw. 35, 2008), where the build has it.
+!> Indices count from 0; matrices are lower triangles, column by column.
+module flexact_cholmod
+   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr
+   implicit none
+   private
+   public :: cholmod_is_there, cholmod_order, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_solve, cholmod_free
+
+   interface
+      function cholmod_is_there() bind(c, name='flexact_cholmod_is_there') result(is_there)
+         import :: c_int
+         integer(c_int) :: is_there
+      end function cholmod_is_there
+
+      !> 0 with a fill-reducing order, or -1.
+      function cholmod_order(n, start, place, order) bind(c, name='flexact_cholmod_order') result(status)
+         import :: c_int
+         integer(c_int), value :: n
+         integer(c_int), intent(in) :: start(*), place(*)
+         integer(c_int), intent(out) :: order(*)
+         integer(c_int) :: status
+      end function cholmod_order
+
+      !> Symbolic analysis; null where memory does not suffice.
+      function cholmod_analyse(n, start, place, order, entries) bind(c, name='flexact_cholmod_analyse') result(handle)
+         import :: c_int, c_double, c_ptr
+         integer(c_int), value :: n
+         integer(c_int), intent(in) :: start(*), place(*), order(*)
+         real(c_double), intent(out) :: entries
+         type(c_ptr) :: handle
+      end function cholmod_analyse
+
+      !> 0, the column (from 1) where the matrix is not positive definite, or -1.
+      function cholmod_factor(handle, n, start, place, value) bind(c, name='flexact_cholmod_factor') result(status)
+         import :: c_int, c_double, c_ptr
+         type(c_ptr), value :: handle
+         integer(c_int), value :: n
+         integer(c_int), intent(in) :: start(*), place(*)
+         real(c_double), intent(in) :: value(*)
+         integer(c_int) :: status
+      end function cholmod_factor
+
+      !> Squares of the diagonal of the factor, in the order of the matrix.
+      subroutine cholmod_pivots(handle, pivot) bind(c, name='flexact_cholmod_pivots')
+         import :: c_double, c_ptr
+         type(c_ptr), value :: handle
+         real(c_double), intent(out) :: pivot(*)
+      end subroutine cholmod_pivots
+
+      function cholmod_solve(handle, n, k, b, x) bind(c, name='flexact_cholmod_solve') result(status)
+         import :: c_int, c_double, c_ptr
+         type(c_ptr), value :: handle
+         integer(c_int), value :: n, k
+         real(c_double), intent(in) :: b(*)
+         real(c_double), intent(out) :: x(*)
+         integer(c_int) :: status
+      end function cholmod_solve
+
+      subroutine cholmod_free(handle) bind(c, name='flexact_cholmod_free')
+         import :: c_ptr
+         type(c_ptr), value :: handle
+      end subroutine cholmod_free
+   end interface
+end module flexact_cholmod

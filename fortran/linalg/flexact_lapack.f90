@@ -1,0 +1,93 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Interfaces of the LAPACK routines that are used.
+module flexact_lapack
+   use flexact_kinds, only: wp
+   implicit none
+   private
+   public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels
+
+   interface
+      !> Singular value decomposition by divide and conquer; a is destroyed.
+      pure subroutine dgesdd(jobz, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, iwork, info)
+         import :: wp
+         character, intent(in) :: jobz
+         integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: s(*)
+         real(wp), intent(inout) :: u(ldu, *), vt(ldvt, *), work(*)
+         integer, intent(inout) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dgesdd
+
+      !> Singular value decomposition by preconditioned Jacobi rotations for
+      !> m >= n; a is destroyed, the values are work(1)/work(2)*sva.
+      pure subroutine dgejsv(joba, jobu, jobv, jobr, jobt, jobp, m, n, a, lda, sva, u, ldu, v, ldv, &
+                             work, lwork, iwork, info)
+         import :: wp
+         character, intent(in) :: joba, jobu, jobv, jobr, jobt, jobp
+         integer, intent(in) :: m, n, lda, ldu, ldv, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: sva(*)
+         real(wp), intent(inout) :: u(ldu, *), v(ldv, *), work(*)
+         integer, intent(inout) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dgejsv
+
+      !> QR factorisation by Householder reflections, in place.
+      pure subroutine dgeqrf(m, n, a, lda, tau, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(out) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dgeqrf
+
+      !> The first n columns of Q from the reflections of dgeqrf, in place.
+      pure subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, k, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(in) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dorgqr
+
+      !> QR factorisation with column pivoting, in place; columns with jpvt 0
+      !> are free to move.
+      pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         integer, intent(inout) :: jpvt(*)
+         real(wp), intent(out) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dgeqp3
+
+      !> An upper trapezoid (m <= n) as a triangle times orthogonal Z, in place.
+      pure subroutine dtzrzf(m, n, a, lda, tau, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(out) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dtzrzf
+
+      !> c times Z or Z' from the reflections of dtzrzf; a is restored.
+      pure subroutine dormrz(side, trans, m, n, k, l, a, lda, tau, c, ldc, work, lwork, info)
+         import :: wp
+         character, intent(in) :: side, trans
+         integer, intent(in) :: m, n, k, l, lda, ldc, lwork
+         real(wp), intent(inout) :: a(lda, *), c(ldc, *), work(*)
+         real(wp), intent(in) :: tau(*)
+         integer, intent(out) :: info
+      end subroutine dormrz
+
+      !> Least squares by QR (m >= n), a of full rank; the solution stands in b.
+      subroutine dgels(trans, m, n, nrhs, a, lda, b, ldb, work, lwork, info)
+         import :: wp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dgels
+   end interface
+end module flexact_lapack

@@ -1,0 +1,289 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A factorisation that bounds how many singular values of a matrix A, with no
+!> fewer rows than columns, can be zero, and solves for what belongs to them.
+!>
+!> Some columns P are pinned, so that F = A'A + E_P E_P' - t**2 I is positive
+!> definite. Then at most as many singular values of A as there are pins lie
+!> below t: of one more vector x with |A x| < t |x| some combination would have
+!> x_P = 0, and x'F x < 0. Cholesky's factorisation that runs to its end proves
+!> this up to its rounding, which t is chosen to exceed (Rump, BIT 46, 2006).
+module flexact_pinned
+   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
+   use flexact_cholmod, only: cholmod_is_there, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_solve, &
+                              cholmod_free
+   use flexact_components, only: breadth_first_order
+   use flexact_error, only: error_t, fail, is_kind, error_library, error_memory, error_not_definite
+   use flexact_gram, only: gram_t, make_gram
+   use flexact_kinds, only: wp
+   use flexact_nested_order, only: nested_order
+   use flexact_pin_groups, only: pin_groups
+   use flexact_progress, only: progress_t, stage_ordering, stage_factorising
+   use flexact_skyline, only: skyline_t, skyline_size, fill_skyline, factorise, solve
+   use flexact_sparse, only: sparse_t, operator_t
+   implicit none
+   private
+   public :: pinned_t, make_pinned, shift, shift_and_mark, pin, apply_inverse, release
+
+   !> t**2 over the largest diagonal entry of A'A: above Rump's bound of the rounding,
+   !> (k + 1) epsilon, where rows of the factor have up to k = 450 entries; in longer
+   !> ones errors grow with the root of k as a rule.
+   real(wp), parameter :: least_square = 1.0e-13_wp
+   !> Pivots below this part of the largest diagonal entry are pinned, ten times t**2,
+   !> which the shift adds to them. To pin one too many does no harm: so a thousand
+   !> times that where nothing is proven anyway.
+   real(wp), parameter :: small_pivot = 10*least_square
+   real(wp), parameter :: doubtful_pivot = 1000*small_pivot
+   !> Entries a column up to which the skyline is taken: on banded matrices it takes
+   !> half the time of CHOLMOD, tried from 5 to 120 entries, and no order is sought.
+   real(wp), parameter :: narrow = 40.0_wp
+   !> Thresholds for pivots that are tried after the first, each a hundred times larger.
+   integer, parameter :: most_attempts = 2
+
+   type :: pinned_t
+      integer :: n = 0
+      integer :: pins = 0
+      integer, allocatable :: pin(:)
+      !> t: no more singular values than pins are below it.
+      real(wp) :: least = 0.0_wp
+      !> Bytes that the factor needs, where it was too large.
+      real(wp) :: bytes = 0.0_wp
+      !> The column at which the last factorisation failed.
+      integer :: failed = 0
+      logical :: is_narrow = .false.
+      !> Whether it is A'A + t**2 I that is factorised, and no columns are pinned.
+      logical :: is_shifted = .false.
+      !> Place of each column in the skyline.
+      integer, allocatable :: place_of(:)
+      !> Where A stands for A diag(1/scale), its columns made equally long.
+      real(wp), allocatable :: scale(:)
+      type(skyline_t) :: skyline
+      type(gram_t) :: gram
+      type(c_ptr) :: handle = c_null_ptr
+   end type pinned_t
+
+contains
+
+   !> group (columns) ascends: columns of one group share their rows. memory: bytes
+   !> that may be used.
+   subroutine make_pinned(a, group, memory, progress, pinned, error)
+      type(operator_t), intent(in) :: a
+      integer, intent(in) :: group(:)
+      real(wp), intent(in) :: memory
+      type(progress_t), intent(in) :: progress
+      type(pinned_t), intent(out) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      integer :: order(a%by_column%columns), first(a%by_column%columns), i
+      real(wp) :: entries, largest
+
+      pinned%n = a%by_column%columns
+      largest = largest_diagonal(a%by_column)
+      pinned%least = sqrt(least_square*largest)
+      call breadth_first_order(a, order)
+      allocate (pinned%place_of(pinned%n))
+      do i = 1, pinned%n
+         pinned%place_of(order(i)) = i
+      end do
+      call skyline_size(a%by_row, pinned%place_of, first, entries)
+      pinned%is_narrow = entries <= narrow*pinned%n
+      if (pinned%is_narrow) then
+         call fill_skyline(a%by_row, pinned%place_of, first, pinned%least**2, pinned%skyline)
+         allocate (pinned%pin(pinned%n))
+         call factorise(pinned%skyline, small_pivot*largest, pinned%pin, pinned%pins)
+         pinned%pin = order(pinned%pin(:pinned%pins))
+      else if (cholmod_is_there() == 0) then
+         call fail(error_library, error)
+      else
+         call analyse_pattern(a, group, memory, progress, pinned, error)
+         if (allocated(error)) return
+         call progress%report(stage_factorising)
+         call choose_pins(a, group, largest, pinned, error)
+      end if
+   end subroutine make_pinned
+
+   !> The largest diagonal entry of A'A, one where all are zero.
+   pure real(wp) function largest_diagonal(by_column) result(largest)
+      type(sparse_t), intent(in) :: by_column
+      integer :: j
+
+      largest = 0.0_wp
+      do j = 1, by_column%columns
+         largest = max(largest, sum(by_column%value(by_column%start(j):by_column%start(j + 1) - 1)**2))
+      end do
+      if (.not. largest > 0) largest = 1.0_wp
+   end function largest_diagonal
+
+   !> A'A, and all that its factorisation needs but the numbers.
+   subroutine analyse_pattern(a, group, memory, progress, pinned, error)
+      type(operator_t), intent(in) :: a
+      integer, intent(in) :: group(:)
+      real(wp), intent(in) :: memory
+      type(progress_t), intent(in) :: progress
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      integer, allocatable :: order(:)
+      real(wp) :: entries
+
+      call progress%report(stage_ordering)
+      call make_gram(a, memory, pinned%gram, pinned%bytes)
+      if (allocated(pinned%gram%value)) then
+         call nested_order(a, group, order, error)
+         if (allocated(error)) return
+         pinned%handle = cholmod_analyse(pinned%n, pinned%gram%start, pinned%gram%place, order, entries)
+         if (c_associated(pinned%handle)) then
+            pinned%bytes = 8*entries
+            if (pinned%bytes <= memory) return
+         end if
+      end if
+      call fail(error_memory, error)
+   end subroutine analyse_pattern
+
+   !> Pin what depends on others of its group; where that does not do, columns at
+   !> which pivots of the shifted matrix are small.
+   subroutine choose_pins(a, group, largest, pinned, error)
+      type(operator_t), intent(in) :: a
+      integer, intent(in) :: group(:)
+      real(wp), intent(in) :: largest
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      logical :: is_pinned(pinned%n)
+      real(wp) :: pivot(pinned%n)
+      integer :: attempt
+
+      call pin_groups(a%by_column, group, small_pivot*largest, is_pinned)
+      call pin(a, is_pinned, pinned, error)
+      if (.not. is_kind(error, error_not_definite)) return
+      call shift(pinned, error)
+      if (allocated(error)) return
+      call cholmod_pivots(pinned%handle, pivot)
+      do attempt = 0, most_attempts
+         call pin(a, is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*largest, pinned, error)
+         if (.not. is_kind(error, error_not_definite)) return
+         is_pinned(pinned%failed) = .true.
+      end do
+   end subroutine choose_pins
+
+   !> Factorise A'A + t**2 I, which runs to its end whatever A is: its inverse
+   !> brings forth the null space, and pivots vanish at columns that depend on
+   !> those before them.
+   subroutine shift(pinned, error)
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+
+      call factorise_with(spread(pinned%least**2, 1, pinned%n), pinned, error)
+      pinned%pin = [integer ::]
+      pinned%pins = 0
+      pinned%is_shifted = .true.
+   end subroutine shift
+
+   !> The same, and mark the columns with small pivots as if they were pinned.
+   subroutine shift_and_mark(pinned, error)
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: pivot(pinned%n)
+      integer :: i
+
+      call shift(pinned, error)
+      if (allocated(error)) return
+      call cholmod_pivots(pinned%handle, pivot)
+      pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot*pinned%least**2/least_square)
+      pinned%pins = size(pinned%pin)
+   end subroutine shift_and_mark
+
+   !> Factorise with these pins.
+   subroutine pin(a, is_pinned, pinned, error)
+      type(operator_t), intent(in) :: a
+      logical, intent(in) :: is_pinned(:)
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      integer :: i
+
+      pinned%is_shifted = .false.
+      if (pinned%is_narrow) then
+         call pin_narrow(a%by_row, is_pinned, pinned, error)
+      else
+         call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2, pinned, error)
+      end if
+      pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
+      pinned%pins = size(pinned%pin)
+   end subroutine pin
+
+   subroutine pin_narrow(by_row, is_pinned, pinned, error)
+      type(sparse_t), intent(in) :: by_row
+      logical, intent(in) :: is_pinned(:)
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      integer :: failed(pinned%n), first(pinned%n), fails, i, place
+
+      first = pinned%skyline%first
+      call fill_skyline(by_row, pinned%place_of, first, pinned%least**2, pinned%skyline)
+      do i = 1, pinned%n
+         place = pinned%place_of(i)
+         associate (diagonal => pinned%skyline%value(pinned%skyline%base(place) + place))
+            if (is_pinned(i)) diagonal = diagonal + 1.0_wp
+         end associate
+      end do
+      call factorise(pinned%skyline, tiny(1.0_wp), failed, fails)
+      if (fails == 0) return
+      pinned%failed = findloc(pinned%place_of, failed(1), 1)
+      call fail(error_not_definite, error)
+   end subroutine pin_narrow
+
+   !> Factorise A'A with this added to its diagonal.
+   subroutine factorise_with(added, pinned, error)
+      real(wp), intent(in) :: added(:)
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: kept(size(added))
+
+      associate (gram => pinned%gram)
+         kept = gram%value(gram%diagonal)
+         gram%value(gram%diagonal) = kept + added
+         pinned%failed = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
+         gram%value(gram%diagonal) = kept
+      end associate
+      if (pinned%failed < 0) call fail(error_memory, error)
+      if (pinned%failed > 0) call fail(error_not_definite, error)
+   end subroutine factorise_with
+
+   !> x = inverse(F) x, column by column.
+   subroutine apply_inverse(pinned, x, error)
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(inout), contiguous :: x(:, :)
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: y(size(x, 1), size(x, 2))
+      integer :: i
+
+      if (size(x) == 0) return
+      if (allocated(pinned%scale)) call divide(pinned%scale, x)
+      if (pinned%is_narrow) then
+         do i = 1, pinned%n
+            y(pinned%place_of(i), :) = x(i, :)
+         end do
+         call solve(pinned%skyline, y)
+         do i = 1, pinned%n
+            x(i, :) = y(pinned%place_of(i), :)
+         end do
+      else
+         if (cholmod_solve(pinned%handle, pinned%n, size(x, 2), x, y) /= 0) call fail(error_memory, error)
+         x = y
+      end if
+      if (allocated(pinned%scale)) call divide(pinned%scale, x)
+   end subroutine apply_inverse
+
+   pure subroutine divide(scale, x)
+      real(wp), intent(in) :: scale(:)
+      real(wp), intent(inout) :: x(:, :)
+      integer :: k
+
+      do k = 1, size(x, 2)
+         x(:, k) = x(:, k)/scale
+      end do
+   end subroutine divide
+
+   subroutine release(pinned)
+      type(pinned_t), intent(inout) :: pinned
+
+      if (c_associated(pinned%handle)) call cholmod_free(pinned%handle)
+      pinned%handle = c_null_ptr
+   end subroutine release
+end module flexact_pinned

@@ -1,0 +1,120 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The space that pins hold: the null space, and what is nearly in it.
+module flexact_pinned_space
+   use flexact_error, only: error_t
+   use flexact_kinds, only: wp
+   use flexact_orthonormal, only: orthonormalise, extend
+   use flexact_pinned, only: pinned_t, apply_inverse
+   use flexact_rayleigh_ritz, only: rayleigh_ritz, take_lowest
+   use flexact_scaled_norm, only: length_of
+   use flexact_sparse, only: operator_t, times_transposed, norm_bound
+   use flexact_sparse_basis, only: sparse_basis_t
+   implicit none
+   private
+   public :: pinned_space, prove_values
+
+   !> A value below this part of the norm is as good as zero.
+   real(wp), parameter :: practically_zero = 2*epsilon(1.0_wp)
+   !> Relative change of the values that ends the improvement, and a guard.
+   real(wp), parameter :: converged = 1.0e-8_wp
+   integer, parameter :: most_rounds = 8
+
+contains
+
+   !> Orthonormal vectors (columns, k) whose span, with that of `deflated`, holds the
+   !> null space, for k of the pins, and their values, ascending.
+   subroutine pinned_space(a, pinned, pin, deflated, vectors, values, error)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      integer, intent(in) :: pin(:)
+      type(sparse_basis_t), intent(in) :: deflated
+      real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), allocatable :: before(:)
+      real(wp) :: zero
+      integer :: k, round
+
+      allocate (vectors(a%by_column%columns, size(pin)), source=0.0_wp)
+      allocate (values(size(pin)))
+      if (size(pin) == 0) return
+      do k = 1, size(pin)
+         vectors(pin(k), k) = 1.0_wp
+      end do
+      call apply_inverse(pinned, vectors, error)
+      if (allocated(error)) return
+      do round = 1, 2
+         call deflated%deflate(vectors)
+         call orthonormalise(vectors, error)
+         if (allocated(error)) return
+      end do
+      call rayleigh_ritz(a, vectors, values, error)
+      zero = practically_zero*norm_bound(a%by_column)
+      do round = 1, most_rounds
+         if (allocated(error) .or. all(values <= zero)) return
+         before = values
+         call improve(a, pinned, deflated, vectors, values, error)
+         if (all(abs(before - values) <= converged*values)) return
+      end do
+   end subroutine pinned_space
+
+   !> The lowest in the space of all vectors and of inverse(F) times their residuals:
+   !> the vectors are off by rounding, and, where their values are not zero, because
+   !> the pins hold them.
+   subroutine improve(a, pinned, deflated, vectors, values, error)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      type(sparse_basis_t), intent(in) :: deflated
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+      real(wp), intent(inout) :: values(:)
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: image(a%by_column%rows, size(values)), residual(size(vectors, 1), size(values))
+      real(wp) :: space(size(vectors, 1), min(2*size(values), size(vectors, 1) - deflated%vectors)), none(size(vectors, 1), 0)
+      integer :: k, used, fresh
+
+      call times_transposed(a%by_row, vectors, image)
+      call times_transposed(a%by_column, image, residual)
+      do k = 1, size(values)
+         residual(:, k) = residual(:, k) - values(k)**2*vectors(:, k)
+      end do
+      call apply_inverse(pinned, residual, error)
+      if (allocated(error)) return
+      used = size(values)
+      space(:, :used) = vectors
+      call extend(deflated, none, residual, space, used, fresh)
+      call take_lowest(a, space(:, :used), vectors, values, error)
+   end subroutine improve
+
+   !> Whether the values (k) of what pins hold are proven, those above the tolerance:
+   !> the count of zeros there depends on them, and the residual of each must be well
+   !> below it.
+   subroutine prove_values(a, pinned, values, vectors, tolerance, is_proven, error)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(in) :: values(:), tolerance
+      real(wp), intent(in), contiguous :: vectors(:, :)
+      logical, intent(out) :: is_proven
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), dimension(a%by_column%rows, 1) :: image, step
+      real(wp) :: residual(size(vectors, 1), 1)
+      integer :: k, round
+
+      is_proven = .false.
+      do k = 1, size(values)
+         if (values(k) <= tolerance) cycle
+         call times_transposed(a%by_row, vectors(:, k:k), image)
+         do round = 1, 2
+            image = image/length_of(image(:, 1))
+            call times_transposed(a%by_column, image, residual)
+            residual = residual - values(k)*vectors(:, k:k)
+            if (length_of(residual(:, 1)) <= values(k)/2) exit
+            if (round == 2) return
+            ! A tiny image is rounding in good part, which is taken from it.
+            call apply_inverse(pinned, residual, error)
+            if (allocated(error)) return
+            call times_transposed(a%by_row, residual, step)
+            image = image - step
+         end do
+      end do
+      is_proven = .true.
+   end subroutine prove_values
+end module flexact_pinned_space

@@ -1,0 +1,216 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a small change of the geometry makes of a singular value.
+!>
+!> A change dD of D(c) changes the singular value of a self-stress u and a
+!> motion v by u' dD v, to first order; of several zeros it is the block of all
+!> pairs that counts. The geometry is the positions of the nodes and the vectors
+!> of the elements, in the reference configuration, with lengths and frames.
+module flexact_sensitivity
+   use flexact_kinds, only: wp
+   use flexact_model, only: model_t
+   use flexact_partition, only: partition_t, make_partition
+   use flexact_slots, only: axes, is_position
+   use flexact_rounding, only: decimal, decimal_t, difference, half_units, last_bits, looks_rounded
+   use flexact_variation, only: variation_t, make_variation, parameters
+   use flexact_scaling, only: extent_of
+   use flexact_vectors, only: cross
+   implicit none
+   private
+   public :: sensitivity_t, find_sensitivities
+
+   !> Effects are differences: below this part of what is added up in them nothing is
+   !> left, as central differences with `relative_step` err by 1e-10.
+   real(wp), parameter :: negligible = 1.0e-8_wp
+   !> Of several that change as much as can be told, the first is named.
+   real(wp), parameter :: more = 1 + 1.0e-6_wp
+
+   !> Of one pair of vectors.
+   type :: sensitivity_t
+      !> What rounding in the last bits, and of the digits typed, can make of
+      !> its singular value: the sum over all numbers of the geometry.
+      real(wp) :: lift_of_bits = 0.0_wp
+      real(wp) :: lift_of_digits = 0.0_wp
+      !> The node that changes it most where it is moved, and the largest
+      !> change in units of the vectors by length; 0 where there is none.
+      integer :: node = 0
+      real(wp) :: by_move = 0.0_wp
+      !> The same for the element that is turned about its centre, by angle.
+      integer :: element = 0
+      real(wp) :: by_turn = 0.0_wp
+   end type sensitivity_t
+
+contains
+
+   !> Columns of u (rows, :) and of v (columns, :) are vectors of D(c) without
+   !> its scales; pair (2, :) names the columns of each pair.
+   subroutine find_sensitivities(model, u, v, pair, found)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: u(:, :), v(:, :)
+      integer, intent(in) :: pair(:, :)
+      type(sensitivity_t), intent(out) :: found(:)
+      type(partition_t) :: partition
+      type(variation_t) :: variation
+      type(model_t) :: alone
+      real(wp), allocatable :: by_node(:, :, :)
+      real(wp) :: ue(6, size(u, 2)), ve(12, size(v, 2)), effect(parameters), nothing(2)
+      integer :: k, i
+
+      call make_partition(model, partition)
+      ! Behind the effects of each node stands what is nothing beside them.
+      allocate (by_node(axes + 1, size(pair, 2), model%nodes), source=0.0_wp)
+      do k = 1, model%elements
+         call gather(u, partition%row_of(:, k), ue)
+         if (.not. any(abs(ue) > 0)) cycle
+         call gather_ends(model, partition, k, v, ve)
+         call make_variation(model, k, alone, variation)
+         do i = 1, size(pair, 2)
+            call find_effects(variation, ue(:, pair(1, i)), ve(:, pair(2, i)), effect, nothing)
+            call add_element(model, k, variation, effect, nothing, by_node(:, i, :), found(i))
+         end do
+      end do
+      call add_nodes(model, by_node, found)
+   end subroutine find_sensitivities
+
+   !> Rows of a matrix by their numbers; zeros for number 0.
+   pure subroutine gather(matrix, number, rows)
+      real(wp), intent(in) :: matrix(:, :)
+      integer, intent(in) :: number(:)
+      real(wp), intent(out) :: rows(:, :)
+      integer :: i
+
+      rows = 0.0_wp
+      do i = 1, size(number)
+         if (number(i) > 0) rows(i, :) = matrix(number(i), :)
+      end do
+   end subroutine gather
+
+   !> What the ends of element k do in each motion, in the order of the
+   !> derivatives: position of p, rotation of p, position of q, rotation of q.
+   pure subroutine gather_ends(model, partition, k, v, ends)
+      type(model_t), intent(in) :: model
+      type(partition_t), intent(in) :: partition
+      integer, intent(in) :: k
+      real(wp), intent(in) :: v(:, :)
+      real(wp), intent(out) :: ends(:, :)
+      integer :: slot
+
+      ends = 0.0_wp
+      do slot = 1, 4
+         associate (node => model%element_node(slot, k), first => axes*(slot - 1))
+            if (node > 0) call gather(v, partition%column_of(:, node), ends(first + 1:first + axes, :))
+         end associate
+      end do
+   end subroutine gather_ends
+
+   !> u' (dD/dx) v for each number x of an element's geometry, zero where
+   !> nothing is left of it; and what is nothing beside the offset's and the vector's.
+   pure subroutine find_effects(variation, u, v, effect, nothing)
+      type(variation_t), intent(in) :: variation
+      real(wp), intent(in) :: u(:), v(:)
+      real(wp), intent(out) :: effect(parameters), nothing(2)
+      real(wp) :: added(parameters), part
+      integer :: i, j
+
+      effect = 0.0_wp
+      added = 0.0_wp
+      do i = 1, parameters
+         if (.not. variation%varies(i)) cycle
+         do j = 1, size(v)
+            if (.not. abs(v(j)) > 0) cycle
+            associate (change => variation%derivative(:variation%deformations, j, i))
+               part = dot_product(u(:variation%deformations), change)*v(j)
+               effect(i) = effect(i) + part
+               added(i) = added(i) + maxval(abs(change))*abs(v(j))
+            end associate
+         end do
+      end do
+      nothing = negligible*norm2(u)*[maxval(added(1:3)), maxval(added(4:6))]
+      where (abs(effect) <= [spread(nothing(1), 1, 3), spread(nothing(2), 1, 3)]) effect = 0.0_wp
+   end subroutine find_effects
+
+   !> Effects at the ends of element k, of its vector, and of turning it. The
+   !> element alone is turned; others at its nodes stay where they are.
+   pure subroutine add_element(model, k, variation, effect, nothing, by_node, found)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      type(variation_t), intent(in) :: variation
+      real(wp), intent(in) :: effect(parameters), nothing(2)
+      real(wp), intent(inout) :: by_node(:, :)
+      type(sensitivity_t), intent(inout) :: found
+      real(wp) :: by_turn
+
+      associate (p => model%element_node(1, k), q => model%element_node(3, k), &
+                 vector => model%element_vector(:, k), of_offset => effect(1:3), of_vector => effect(4:6))
+         if (p > 0 .and. q > 0) then
+            by_node(:, p) = by_node(:, p) + [-of_offset, nothing(1)]
+            by_node(:, q) = by_node(:, q) + [of_offset, nothing(1)]
+         end if
+         found%lift_of_bits = found%lift_of_bits + dot_product(abs(of_vector), last_bits(vector, maxval(abs(vector))))
+         found%lift_of_digits = found%lift_of_digits + dot_product(abs(of_vector), half_units_of(vector))
+         by_turn = norm2(cross(variation%offset, of_offset) + cross(vector, of_vector))
+         if (by_turn <= nothing(1)*norm2(variation%offset) + nothing(2)*norm2(vector)) return
+         if (by_turn > more*found%by_turn) then
+            found%by_turn = by_turn
+            found%element = k
+         end if
+      end associate
+   end subroutine add_element
+
+   pure function half_units_of(vector) result(half)
+      real(wp), intent(in) :: vector(:)
+      real(wp) :: half(size(vector))
+      half = half_units(decimal(vector), looks_rounded(decimal(vector)))
+   end function half_units_of
+
+   !> Effects of the nodes' positions.
+   subroutine add_nodes(model, by_node, found)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: by_node(:, :, :)
+      type(sensitivity_t), intent(inout) :: found(:)
+      type(decimal_t), allocatable :: number(:, :)
+      logical, allocatable :: rounded(:, :)
+      real(wp) :: half(axes), bits(axes), by_move, extent
+      integer :: node, i
+
+      allocate (number(axes, model%nodes), rounded(axes, model%nodes))
+      number = decimal(model%node_value(1:axes, :))
+      call find_rounded(model, number, rounded)
+      extent = extent_of(model)
+      do node = 1, model%nodes
+         if (.not. is_position(model%node_kind(node))) cycle
+         half = half_units(number(:, node), rounded(:, node))
+         bits = last_bits(model%node_value(1:axes, node), extent)
+         do i = 1, size(found)
+            associate (change => by_node(1:axes, i, node), nothing => by_node(axes + 1, i, node), item => found(i))
+               item%lift_of_bits = item%lift_of_bits + dot_product(abs(change), bits)
+               item%lift_of_digits = item%lift_of_digits + dot_product(abs(change), half)
+               by_move = norm2(change)
+               if (by_move > max(nothing, more*item%by_move)) then
+                  item%by_move = by_move
+                  item%node = node
+               end if
+            end associate
+         end do
+      end do
+   end subroutine add_nodes
+
+   !> Which coordinates look rounded, both by themselves and as seen along an
+   !> element: the joints 100, 101, ... of a lattice do not.
+   subroutine find_rounded(model, number, rounded)
+      type(model_t), intent(in) :: model
+      type(decimal_t), intent(in) :: number(:, :)
+      logical, intent(out) :: rounded(:, :)
+      logical :: far(axes)
+      integer :: k
+
+      rounded = .false.
+      do k = 1, model%elements
+         associate (p => model%element_node(1, k), q => model%element_node(3, k))
+            if (p == 0 .or. q == 0) cycle
+            far = looks_rounded(difference(number(:, p), number(:, q)))
+            rounded(:, p) = rounded(:, p) .or. (far .and. looks_rounded(number(:, p)))
+            rounded(:, q) = rounded(:, q) .or. (far .and. looks_rounded(number(:, q)))
+         end associate
+      end do
+   end subroutine find_rounded
+end module flexact_sensitivity

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a frozen result or model does about the arrays that it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Frozen:
+    """Base of frozen dataclasses whose arrays are read-only, alone or in named tuples.
+
+    A pickle forgets that an array is read-only, so that an object is made anew from its
+    fields when it comes out of one; what it has cached is not pickled.
+    """
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only."""
+        _freeze(self.__dict__.values())
+
+    def __reduce__(self) -> tuple[Callable[..., object], tuple[Any, ...]]:
+        """What makes it anew, class and fields."""
+        return _made, (type(self), *(getattr(self, field.name) for field in fields(self)))
+
+
+def _made(kind: type, *values: object) -> object:
+    _freeze(values, every=True)
+    return kind(*values)
+
+
+def _freeze(values: Iterable[object], *, every: bool = False) -> None:
+    """Make arrays read-only; tuples that say that theirs are so already are passed over."""
+    for value in values:
+        if isinstance(value, np.ndarray):
+            value.setflags(write=False)
+        elif isinstance(value, tuple) and (every or not hasattr(value, "is_read_only")):
+            _freeze(value, every=every)

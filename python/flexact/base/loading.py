@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Modules that are loaded by name, when they are wanted."""
+
+from __future__ import annotations
+
+import gc
+from importlib import import_module
+from types import ModuleType
+
+
+def load(name: str, *, for_good: bool = False) -> ModuleType:
+    """A module; what is loaded with it is no garbage, so that nobody has to look for any.
+
+    Args:
+        name: The module.
+        for_good: Whether all that there is now is kept until the process ends.
+    """
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        return import_module(name)
+    finally:
+        if for_good:
+            gc.freeze()
+        if collects:
+            gc.enable()

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files that ``flexact analyse -o`` writes of each deck: JSON, log and mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from flexact.base.interruption import unwinding
+from flexact.files.decks import DeckFile
+from flexact.files.outputs import OutputError, plan_files, write_together
+from flexact.mesh import Meshes
+from flexact.mesh.file import find_format, mesh_bytes
+from flexact.result.result import Result
+from flexact.text.json_result import text_of
+from flexact.text.log import log_text
+
+
+class ResultFiles:
+    """Where each deck's results go, found before anything is computed.
+
+    Raises:
+        OutputError: Two decks would write one file, or the folder cannot take files.
+        MeshFormatError: There is no such mesh format.
+    """
+
+    def __init__(self, decks: Sequence[DeckFile], folder: Path, mesh_format: str) -> None:
+        """Plan the files of all decks."""
+        with unwinding():
+            self._format = find_format(mesh_format)
+        self._plan = plan_files(decks, folder, (".json", ".log", f".{self._format}"))
+
+    def write(self, deck: DeckFile, result: Result) -> Exception | None:
+        """Write the results, or say why not: that is no reason to keep the verdict back."""
+        try:
+            contents = [f"{text_of(result)}\n".encode()]
+            meshes = Meshes(result)
+            log = log_text(result, most_in_mesh=meshes.most_modes)
+            contents.append(log.encode("utf-8", "backslashreplace"))
+            mesh = meshes.still()
+            with unwinding():
+                contents.append(mesh_bytes(mesh, self._format))
+                write_together(dict(zip(self._plan[deck.path], contents, strict=True)))
+        except (OutputError, MemoryError) as error:
+            return error
+        return None

@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The only importer of the extension: what goes in is checked, what comes out is named.
+
+Every call is a function of its arguments.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+
+from . import _core
+from .arrays import FloatArray, IntArray, PackedModel, room_for, unpacked
+from .basis import Basis
+from .raw import (
+    ElementKind,
+    RawAnalysis,
+    RawAppearance,
+    RawAssembly,
+    RawCount,
+    RawDeck,
+    RawDiagnostics,
+    RawFrames,
+    RawSensitivities,
+)
+
+#: Entries of the bases of motions and self-stresses beyond which vectors are left out.
+_MOST_ENTRIES = 40_000_000
+#: Bytes of the shortest statement of an element, with its line's end.
+_SHORTEST_ELEMENT = len("BEAM 1 1 2")
+#: Stored entries of the whole Jacobian that one element has at most.
+_ENTRIES_OF_ELEMENT = 6 * 12
+
+
+_NO_VECTORS = np.zeros(1, np.int32)
+_NO_VECTORS.setflags(write=False)
+
+
+def names_of(enumeration: str) -> dict[str, int]:
+    """The values of an enumeration of the core by name, in ascending order.
+
+    Args:
+        enumeration: Such as "roles" or "methods"; see flexact_names.f90.
+
+    Raises:
+        LookupError: the core has no such enumeration.
+    """
+    names, first, count = _core.describe_names(np.frombuffer(enumeration.encode(), np.int8))
+    if not count:
+        raise LookupError(f"the core has no enumeration {enumeration!r}")
+    words = [names[:, i].tobytes().decode("ascii").strip() for i in range(count)]
+    return {word: first + i for i, word in enumerate(words)}
+
+
+#: Ways to decompose D(c).
+METHODS = tuple(names_of("methods"))
+#: What the core is at while it analyses, by number.
+STAGES = tuple(names_of("stages"))
+#: How the core can fail, by number.
+ERRORS = tuple(names_of("errors"))
+_FACTS = tuple(names_of("facts"))
+
+
+def element_rows() -> list[ElementKind]:
+    """The core's element table."""
+    rows: list[ElementKind] = []
+    count = 1
+    while len(rows) < count:
+        words, numbers, count = _core.describe_element(len(rows) + 1)
+        keyword, synonym = (words[:, i].tobytes().decode("ascii").strip() for i in range(2))
+        n = tuple(numbers.tolist())
+        rows.append(
+            ElementKind(
+                *(len(rows) + 1, keyword, synonym, n[:4], n[4], n[5]),
+                *(n[6] == 1, n[7], n[8:14], n[14:]),
+            )
+        )
+    return rows
+
+
+def read_deck(text: bytes) -> RawDeck:
+    """Read a deck; its problems come back as values.
+
+    Args:
+        text: bytes of the deck, fewer than 2**31.
+    """
+    data = np.frombuffer(text, np.int8)
+    ne = min(text.count(b"\n") + 1, len(text) // _SHORTEST_ELEMENT + 1)
+    room = room_for(min(4 * ne, len(text) // 2 + 4), ne)
+    name = np.empty((2, ne), np.int32, order="F")
+    choice = np.empty((2, ne), np.int32, order="F")
+    value = np.empty((9, ne), np.float64, order="F")
+    sizes, counts, number, words = _core.read_deck(data, *room, name, choice, value)
+    nodes, elements, planar, _, drawn = sizes.tolist()
+    return RawDeck(
+        unpacked(room, nodes, elements),
+        name[:, :elements],
+        planar == 1,
+        RawDiagnostics(counts, number, words),
+        RawAppearance(choice[:, :elements], value[:, :elements]) if drawn else None,
+    )
+
+
+def check_model(model: PackedModel) -> RawDiagnostics:
+    """Everything that is wrong with a model, as for a deck but without places."""
+    return RawDiagnostics(*_core.check_model(*model))
+
+
+def count_model(model: PackedModel) -> RawCount:
+    """Counts by class (eqs. 13 to 15) and the size of D(c)."""
+    if not model.elements.size:
+        # f2py refuses arrays of shape (5, 0); without elements there are no nodes either.
+        return RawCount(np.zeros((2, 4), np.int32), 0, 0)
+    counts, sizes = _core.count_model(model.nodes, model.elements)
+    return RawCount(counts.T, *sizes.tolist())
+
+
+def find_frames(model: PackedModel) -> RawFrames:
+    """Reference frames and lengths of a sound model's elements."""
+    frame, length = _core.find_frames(*model)
+    return RawFrames(np.moveaxis(frame, 2, 0), length)
+
+
+def assemble(model: PackedModel, configuration: FloatArray, c_t: FloatArray) -> RawAssembly:
+    """Deformation functions and their derivatives in a configuration.
+
+    Args:
+        model: the model.
+        configuration: (4, nn) like `node_value`.
+        c_t: (ne,) torsion-elongation constants of eq. (3) [m^2].
+
+    Raises:
+        ValueError: a shape does not fit.
+    """
+    nodes, elements = model.nodes.shape[1], model.elements.shape[1]
+    if configuration.shape != (4, nodes):
+        raise ValueError(f"configuration has shape {configuration.shape}, not {(4, nodes)}")
+    if c_t.shape != (elements,):
+        raise ValueError(f"c_t has shape {c_t.shape}, not {(elements,)}")
+    place = np.empty((2, _ENTRIES_OF_ELEMENT * elements), np.int32, order="F")
+    value = np.empty(place.shape[1])
+    deformation, used = _core.assemble(
+        *model,
+        np.asfortranarray(configuration, np.float64),
+        np.ascontiguousarray(c_t, np.float64),
+        place,
+        value,
+    )
+    return RawAssembly(
+        deformation, place[0, :used].copy(), place[1, :used].copy(), value[:used].copy()
+    )
+
+
+def analyse_model(
+    model: PackedModel,
+    method: str = "auto",
+    tolerance: float | None = None,
+    stage: IntArray | None = None,
+    memory: float = math.inf,
+    only_plain_values: bool = False,
+) -> RawAnalysis:
+    """Decompose D(c).
+
+    Args:
+        model: the model.
+        method: one of `METHODS`.
+        tolerance: scaled singular values up to here count as zero; None: from the data.
+        stage: (2,) kept up to date while the call runs: stage (an index of `STAGES`), per cent.
+        memory: bytes that may be used.
+        only_plain_values: whether, in place of all else, the singular values of D(c) itself
+            are wanted (by the method sparse the smallest), as `scaled_values`.
+    """
+    # Memory is taken only where it is written to.
+    most = 3 * model.nodes.shape[1] + 6 * model.elements.shape[1]
+    index = np.empty((3, most + 1), np.int32, order="F")
+    by_size = np.empty((most, 8), order="F")
+    room = max(1, min(most * most, _MOST_ENTRIES))
+    place, value = np.empty(room, np.int32), np.empty(room)
+    asked = -1.0 if tolerance is None else tolerance
+    facts = _core.analyse_model(
+        *model,
+        np.array(
+            (METHODS.index(method), asked, min(memory, sys.float_info.max), only_plain_values),
+            float,
+        ),
+        np.zeros(2, np.int32) if stage is None else stage,
+        index,
+        place,
+        value,
+        by_size,
+    )
+    named = dict(zip(_FACTS, facts.tolist(), strict=False))
+    m, n, pairs = int(named["rows"]), int(named["columns"]), int(named["pairs"])
+    motions, stresses = int(named["motions"]), int(named["self-stresses"])
+    start = index[2, : motions + stresses + 1].copy()
+    labels, block = index[:2, : m + n].copy(), by_size[: m + n].copy(order="F")
+    entries = slice(int(start[-1]) if start.size > 1 else 0)
+    # Views of what cannot be written to cannot be written to either.
+    place, value = place[entries].copy(), value[entries].copy()
+    for array in (facts, start, labels, block, place, value):
+        array.setflags(write=False)
+    return RawAnalysis(
+        counts=np.array(facts[4:12], np.int32).reshape(2, 4),
+        row_label=labels[:, :m],
+        column_label=labels[:, m:],
+        scaled_values=block[: int(named["scaled values"]), 1],
+        row_scale=block[:m, 0],
+        column_scale=block[m:, 0],
+        pair_value=facts[len(_FACTS) : len(_FACTS) + pairs],
+        pair_motion=block[m:, 2 : 2 + pairs],
+        pair_stress=block[:m, 2 : 2 + pairs],
+        tolerance=named["tolerance"],
+        characteristic_length=named["characteristic length"],
+        noise=named["noise"],
+        bytes_needed=named["bytes needed"],
+        reach_of_digits=named["reach of digits"],
+        rank=int(named["rank"]),
+        method=METHODS[int(named["method"])],
+        confirmed=named["confirmed"] == 1,
+        components=int(named["components"]),
+        largest_component=(int(named["rows of largest"]), int(named["columns of largest"])),
+        error=ERRORS[int(named["error"])],
+        motions=_basis_of(n, start[: motions + 1], place, value, m),
+        stresses=_basis_of(m, start[motions:], place, value, 0),
+    )
+
+
+def _basis_of(size: int, start: IntArray, place: IntArray, value: FloatArray, before: int) -> Basis:
+    """Some of the vectors that stand in a row, whose places lie behind `before` others."""
+    first, last = int(start[0]), int(start[-1])
+    if first == last:
+        return Basis(size, _NO_VECTORS, place[:0], value[:0])
+    made = Basis(size, start - first, place[first:last] - before, value[first:last])
+    for array in made[1:]:
+        array.setflags(write=False)
+    return made
+
+
+def find_sensitivities(
+    model: PackedModel, stresses: FloatArray, motions: FloatArray, pairs: IntArray
+) -> RawSensitivities:
+    """What small changes of the geometry make of singular values of D(c), to first order.
+
+    Args:
+        model: the model.
+        stresses: (m, a) left vectors, in the sense of D(c) without its scales.
+        motions: (n, b) right vectors, likewise.
+        pairs: (2, p) the columns of both that belong together, from 0.
+
+    Raises:
+        ValueError: a shape is not that of the model, or a pair names no column.
+    """
+    rows, columns = stresses.shape[0], motions.shape[0]
+    many = (stresses.shape[1], motions.shape[1])
+    modes = np.zeros((rows + columns, max(*many, 1)), order="F")
+    modes[:rows, : many[0]], modes[rows:, : many[1]] = stresses, motions
+    effect, place, used = _core.find_sensitivities(
+        *model, modes, np.asfortranarray(pairs + 1, np.int32)
+    )
+    beyond = (pairs < 0).any() or (pairs >= np.array(many)[:, None]).any()
+    if used != rows + columns or beyond:
+        raise ValueError("the vectors are not of the model's size, or a pair names none of them")
+    return RawSensitivities(*effect, *(place - 1))

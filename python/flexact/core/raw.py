@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the core gives back, under names."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .arrays import ByteArray, FloatArray, IntArray, ModelArrays
+from .basis import Basis
+
+
+class ElementKind(NamedTuple):
+    """One row of the element table."""
+
+    number: int
+    """From 1."""
+    keyword: str
+    synonym: str
+    """Another spelling in decks, empty without one."""
+    slots: tuple[int, ...]
+    """Node kind of the slots p, op, q, oq; 0 where a slot is not used."""
+    frame: int
+    vector: int
+    needs_length: bool
+    """Whether p and q must be apart."""
+    member: int
+    role: tuple[int, ...]
+    """Role of each of six deformations, 0 beyond the last."""
+    dual: tuple[int, ...]
+    """Dual of each."""
+
+    @property
+    def deformations(self) -> int:
+        """How many deformations such an element has."""
+        return sum(role != 0 for role in self.role)
+
+
+class RawDiagnostics(NamedTuple):
+    """Problems as the core reports them; at most 100 are kept."""
+
+    counts: IntArray
+    """(4,) errors, warnings, notes, kept."""
+    number: IntArray
+    """(8, 100) severity, line, columns, other line, columns; byte columns."""
+    text: ByteArray
+    """(240, 4, 100) code, message, label, help, blank padded."""
+
+
+class RawAppearance(NamedTuple):
+    """How elements are drawn, as a deck says."""
+
+    choice: IntArray
+    """(2, ne) cross-section, a `CrossSection`; 1 where drawn."""
+    value: FloatArray
+    """(9, ne) sizes along local y and z [m], colour, colour of edges, opacity; NaN not given."""
+
+
+class RawDeck(NamedTuple):
+    """What reading a deck gives."""
+
+    arrays: ModelArrays
+    name: IntArray
+    """(2, ne) first and last place of each element's name, 0 without one."""
+    planar: bool
+    problems: RawDiagnostics
+    appearance: RawAppearance | None
+    """None where the deck has nothing of it."""
+
+
+class RawCount(NamedTuple):
+    """Sizes that follow from the classes alone."""
+
+    counts: IntArray
+    """(2, 4) coordinates and deformations: total, fixed, dependent, independent."""
+    rows: int
+    columns: int
+
+
+class RawAssembly(NamedTuple):
+    """Deformations and the whole Jacobian in one configuration."""
+
+    deformation: FloatArray
+    """(6, ne) values of the deformation functions, eqs. (2) to (4)."""
+    row_of: IntArray
+    column_of: IntArray
+    value: FloatArray
+    """Entries at row = element * 6 + deformation, column = node * 3 + axis."""
+
+
+class RawFrames(NamedTuple):
+    """The elements in the reference configuration."""
+
+    frame: FloatArray
+    """(ne, 3, 3) local axes ex, ey, ez as columns."""
+    length: FloatArray
+    """(ne,) lengths l0 [m]."""
+
+
+class RawAnalysis(NamedTuple):
+    """Results of the decomposition of D(c), m rows, n columns."""
+
+    counts: IntArray
+    """(2, 4) coordinates and deformations: total, fixed, dependent, independent."""
+    row_label: IntArray
+    """(2, m) one-based element index and deformation."""
+    column_label: IntArray
+    """(2, n) one-based node index and axis."""
+    scaled_values: FloatArray
+    """(kept,) of the scaled matrix on which the rank is decided, descending; kept = min(m, n),
+    or less: the smallest ones."""
+    row_scale: FloatArray
+    """(m,) factor of each row of D(c) in the scaled matrix."""
+    column_scale: FloatArray
+    """(n,) factor of each column."""
+    pair_value: FloatArray
+    """(p,) smallest non-zero values of the scaled matrix, ascending, p at most 6."""
+    pair_motion: FloatArray
+    """(n, p) their right singular vectors, of unit norm in the scaled matrix."""
+    pair_stress: FloatArray
+    """(m, p) their left singular vectors, likewise."""
+    tolerance: float
+    """Scaled singular values up to here count as zero."""
+    characteristic_length: float
+    noise: float
+    """What computing, and rounding in the last bits, may make of a zero in `scaled_values`."""
+    rank: int
+    method: str
+    """What was used: svd, jacobi or sparse."""
+    confirmed: bool
+    """Whether the rank follows from a decomposition with error bounds, or from two routes."""
+    components: int
+    """Connected components of D(c), which are decomposed one by one."""
+    largest_component: tuple[int, int]
+    """Rows and columns of the largest of them."""
+    error: str
+    """One of `flexact.core.calls.ERRORS`; unless it is "none", only sizes are to be used."""
+    bytes_needed: float
+    """What the decomposition needs of memory, where the core knows."""
+    reach_of_digits: float
+    """No more than that, in the scaled matrix, can digits explain that were not typed."""
+    motions: Basis
+    """n - rank vectors, an orthonormal basis of the null space of D(c); see `analysis`.
+
+    Where there are very many, vectors of different parts are orthogonal, but those of one
+    part need not be; and where even so their entries would not fit, only the first are there.
+    """
+    stresses: Basis
+    """m - rank vectors: the same for its transpose."""
+
+    @property
+    def is_read_only(self) -> bool:
+        """The arrays come from `calls.analyse_model`, which has made them so."""
+        return True
+
+
+class RawSensitivities(NamedTuple):
+    """What small changes of the geometry make of the singular values of p pairs of vectors."""
+
+    lift_of_bits: FloatArray
+    """(p,) what rounding in the last bits can make of each."""
+    lift_of_digits: FloatArray
+    """(p,) what half a unit of the last digits typed can make of it."""
+    by_move: FloatArray
+    """(p,) its largest change by the move of one node [1/m]."""
+    by_turn: FloatArray
+    """(p,) its largest change by the turn of one element [1/rad]."""
+    node: IntArray
+    """(p,) index of that node, -1 without one."""
+    element: IntArray
+    """(p,) index of that element, -1 without one."""

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Problems of decks and models as values, and the exceptions that carry them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple
+
+from ..core.raw import RawDiagnostics
+from .source import Source, decode
+
+
+class Severity(str, Enum):
+    """How grave a diagnostic is: an error leaves nothing to analyse."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+_SEVERITIES = (Severity.ERROR, Severity.WARNING, Severity.NOTE)
+
+
+class Place(NamedTuple):
+    """A span of one line, counted in characters from 1."""
+
+    line: int
+    column: int
+    last_column: int
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One problem.
+
+    Attributes:
+        severity: Error, warning or note.
+        code: Short name that stays the same between versions.
+        message: What is wrong.
+        line: Line of the deck from 1; 0 where the problem has no place.
+        column: First character in the line from 1, or 0.
+        last_column: Last character in the line, or 0.
+        label: A few words that stand beside the caret.
+        help: How to fix it.
+        other: The second place, where a problem has two.
+    """
+
+    severity: Severity
+    code: str
+    message: str
+    line: int = 0
+    column: int = 0
+    last_column: int = 0
+    label: str = ""
+    help: str = ""
+    other: Place | None = None
+
+    @property
+    def is_error(self) -> bool:
+        """Whether nothing can be analysed because of it."""
+        return self.severity is Severity.ERROR
+
+    def to_dict(self) -> dict[str, str | int]:
+        """The entries that the JSON of a result has for a warning."""
+        return {
+            "code": self.code,
+            "severity": self.severity.value,
+            "line": self.line,
+            "column": self.column,
+            "message": self.message,
+        }
+
+
+@dataclass(frozen=True)
+class Problems:
+    """Diagnostics that were kept, and how many there were of each severity.
+
+    Attributes:
+        kept: The diagnostics, in the order of their places.
+        errors: Number of errors, kept or not.
+        warnings: Number of warnings.
+        notes: Number of notes.
+    """
+
+    kept: tuple[Diagnostic, ...] = ()
+    errors: int = 0
+    warnings: int = 0
+    notes: int = 0
+
+    @property
+    def total(self) -> int:
+        """Number of all problems, kept or not."""
+        return self.errors + self.warnings + self.notes
+
+    @classmethod
+    def of(cls, diagnostics: Sequence[Diagnostic]) -> Problems:
+        """Problems that are all kept."""
+        counts = [
+            sum(item.severity is severity for item in diagnostics) for severity in _SEVERITIES
+        ]
+        return cls(tuple(diagnostics), *counts)
+
+
+NO_PROBLEMS = Problems()
+
+
+def problems_of(raw: RawDiagnostics, source: Source | None = None) -> Problems:
+    """The core's diagnostics as values; byte columns become characters of `source`."""
+    errors, warnings, notes, kept = raw.counts.tolist()
+    if not kept:
+        return NO_PROBLEMS
+    items = tuple(_diagnostic(raw, index, source) for index in range(kept))
+    return Problems(items, errors, warnings, notes)
+
+
+def _diagnostic(raw: RawDiagnostics, index: int, source: Source | None) -> Diagnostic:
+    severity, *places = raw.number[:, index].tolist()
+    code, message, label, hint = (
+        decode(raw.text[:, part, index].tobytes().rstrip(b" \0")) for part in range(4)
+    )
+    place = _place(source, *places[:3])
+    return Diagnostic(
+        _SEVERITIES[severity - 1],
+        code,
+        message,
+        *(place or (0, 0, 0)),
+        label=label,
+        help=hint,
+        other=_place(source, *places[3:6]),
+    )
+
+
+def _place(source: Source | None, line: int, first: int, last: int) -> Place | None:
+    if line < 1:
+        return None
+    if source is not None:
+        first, last = source.character_columns(line, first, last)
+    return Place(line, first, last)

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is drawn of a result, as numbers; uses `base`, `core`, `model` and `result` alone.
+
+Members with their sizes, symbols, poses, shapes, resultants and views; `picture`, `mesh` and
+`page` put them down.
+"""
+
+from .colours import QUANTITIES
+from .drawing import Drawing, drawing_of, joints_of
+from .forms import Form
+from .hinges import Hinges
+from .members import Members
+from .movement import Movement, move, reach_of
+from .pose import Moving, Pose, reference_pose
+from .resultants import Resultants, resultants
+from .shapes import Field, Strip, field_along, stations
+from .solids import axes_of, cylinders, solid
+from .supports import Arrows, Support, Supports
+
+__all__ = [
+    "QUANTITIES",
+    "Arrows",
+    "Drawing",
+    "Field",
+    "Form",
+    "Hinges",
+    "Members",
+    "Movement",
+    "Moving",
+    "Pose",
+    "Resultants",
+    "Strip",
+    "Support",
+    "Supports",
+    "axes_of",
+    "cylinders",
+    "drawing_of",
+    "field_along",
+    "joints_of",
+    "move",
+    "reach_of",
+    "reference_pose",
+    "resultants",
+    "solid",
+    "stations",
+]

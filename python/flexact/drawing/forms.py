@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a member is to the eye: sheet, wire, bar, beam or rigid solid."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+import numpy as np
+
+from ..core.arrays import IntArray, ModelArrays
+from ..core.elements import Class, Member, Role, member_table, role_table
+
+#: Roles of the bendings in each of the two local planes, xz and xy.
+_BENDINGS = ((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), (Role.BENDING_XY_P, Role.BENDING_XY_Q))
+_PLANAR_BENDINGS = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
+
+
+class Form(IntEnum):
+    """What a member is to the eye."""
+
+    SHEET = 1
+    """Stiff in one of its two bending planes; in the plane a beam that bends."""
+    WIRE = 2
+    """Compliant in both bending planes."""
+    BAR = 3
+    """A truss."""
+    BEAM = 4
+    """Stiff in both bending planes, and compliant in torsion or elongation."""
+    RIGID = 5
+    """All deformations held, or a rigid link."""
+
+
+def is_member(kind: IntArray, *members: Member) -> np.ndarray:
+    """(elements,) whether elements of these kinds are one of some members."""
+    return np.isin(member_table()[kind], members)
+
+
+def _held_of(arrays: ModelArrays, roles: tuple[Role, ...]) -> np.ndarray:
+    """(elements,) how many of the deformations of some roles are held."""
+    held = arrays.deformation_class.T == Class.FIXED
+    made: np.ndarray = np.sum(held & np.isin(role_table()[arrays.element_kind], roles), axis=1)
+    return made
+
+
+def all_held(arrays: ModelArrays) -> np.ndarray:
+    """(elements,) whether every deformation of an element is held."""
+    classes = arrays.deformation_class
+    made: np.ndarray = np.all((classes == Class.NONE) | (classes == Class.FIXED), axis=0)
+    return made
+
+
+def bending_held(arrays: ModelArrays) -> np.ndarray:
+    """(2, elements) how many of the two bendings of a spatial beam are held, in xz and in xy."""
+    return np.stack([_held_of(arrays, roles) for roles in _BENDINGS])
+
+
+def forms_of(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
+    """The forms (elements,) and the local axis, 1 or 2, along which a sheet is wide, else 0.
+
+    A sheet is wide in the plane in which its bending is held: local z where deformations 3 and
+    4 are held, local y where 5 and 6 are. Elements that are no members have form 0.
+    """
+    kind = arrays.element_kind
+    in_xz, in_xy = bending_held(arrays)
+    planar = np.any(np.isin(role_table()[kind], _PLANAR_BENDINGS), axis=1)
+    spatial = is_member(kind, Member.BEAM) & ~planar
+    form = np.zeros(kind.size, np.int64)
+    form[spatial] = Form.WIRE
+    form[spatial & (in_xz != in_xy)] = Form.SHEET
+    form[spatial & (in_xz == 2) & (in_xy == 2)] = Form.BEAM
+    form[planar] = Form.SHEET
+    form[planar & (_held_of(arrays, _PLANAR_BENDINGS) == 2)] = Form.BEAM
+    form[(spatial | planar) & all_held(arrays)] = Form.RIGID
+    form[is_member(kind, Member.BAR)] = Form.BAR
+    form[is_member(kind, Member.LINK)] = Form.RIGID
+    wide = np.where(in_xz > in_xy, 2, 1)
+    wide[planar] = 2
+    return form, np.where(form == Form.SHEET, wide, 0)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which decks a command means, and what came of each."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..base.errors import FlexactError, reason_of
+
+SUFFIX = ".dat"
+
+
+class FolderError(FlexactError):
+    """A folder gives no decks.
+
+    Attributes:
+        code: Short name of the reason, as diagnostics have one.
+        remark: The same in a few words.
+    """
+
+    def __init__(self, message: str, code: str, remark: str) -> None:
+        """A folder's failure."""
+        super().__init__(message)
+        self.code = code
+        self.remark = remark
+
+
+@dataclass(frozen=True)
+class DeckFile:
+    """One deck of a batch, or a folder that gives none.
+
+    Attributes:
+        path: The path as a person would write it.
+        relative: Where its results go below the output folder, without a suffix: the deck's name,
+            behind the subfolders that lie between it and the folder that was asked for.
+        error: Why the path, a folder, gives no decks.
+    """
+
+    path: str
+    relative: Path
+    error: FolderError | None = None
+
+    @property
+    def name(self) -> str:
+        """The path as text that can be encoded: the deck's name in results."""
+        return self.path.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def find_decks(arguments: Iterable[str]) -> tuple[DeckFile, ...]:
+    """The decks that files and folders stand for, in the order of the arguments, each once.
+
+    A folder stands for every ``*.dat`` in it and below it, sorted by path; symbolic links to
+    folders are not followed. A folder that cannot be searched, or holds no deck, is among them
+    with its error. A file is taken whatever its suffix, whether or not it exists, so that reading
+    it gives the error with its reason.
+    """
+    decks: dict[str, DeckFile] = {}
+    for argument in arguments:
+        for deck in _expand(argument):
+            decks.setdefault(_place(deck.path), deck)
+    return tuple(decks.values())
+
+
+def _place(path: str) -> str:
+    """What is the same for different spellings of a path; a link to a deck is another deck."""
+    folder, name = os.path.split(path)
+    try:
+        return os.path.join(os.path.realpath(folder), name)
+    except (OSError, ValueError):
+        return path
+
+
+def _expand(argument: str) -> Iterator[DeckFile]:
+    whole = Path(Path(argument).stem or "deck")
+    if not os.path.isdir(argument):
+        yield DeckFile(argument, whole)
+        return
+    errors: list[OSError] = []
+    decks = [
+        DeckFile(str(path), path.relative_to(argument).with_suffix(""))
+        for path in _walk(argument, errors)
+    ]
+    decks += [DeckFile(str(error.filename), whole, _not_searched(error)) for error in errors]
+    yield from sorted(decks, key=lambda deck: Path(deck.path))
+    if not decks:
+        message = f"{argument}: no deck (*{SUFFIX}) in this folder or below it"
+        yield DeckFile(argument, whole, FolderError(message, "no-decks", "no decks"))
+
+
+def _walk(folder: str, errors: list[OSError]) -> Iterator[Path]:
+    for place, _, names in os.walk(folder, onerror=errors.append):
+        yield from (Path(place, name) for name in names if name.lower().endswith(SUFFIX))
+
+
+def _not_searched(error: OSError) -> FolderError:
+    message = f"{error.filename}: this folder cannot be searched: {reason_of(error)}"
+    return FolderError(message, "cannot-read", "cannot be read")

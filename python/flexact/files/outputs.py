@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of results, each set of them written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from ..base.errors import BatchError, reason_of
+from ..base.interruption import undisturbed
+from .decks import DeckFile
+
+
+class OutputError(BatchError):
+    """A file of results cannot be written."""
+
+
+def plan_files(
+    decks: Sequence[DeckFile], folder: Path, suffixes: Sequence[str]
+) -> dict[str, tuple[Path, ...]]:
+    """The files that each deck's results go to, found before anything is computed.
+
+    Args:
+        decks: The decks of the batch; folders that give none are passed over.
+        folder: The output folder.
+        suffixes: One suffix a file, with its dot.
+
+    Returns:
+        The files of each deck, by the deck's path, in the order of ``suffixes``.
+
+    Raises:
+        OutputError: Two decks would write one file, a deck would be overwritten, or the folder
+            cannot take files.
+    """
+    _check_folder(folder)
+    owner: dict[str, str] = {}
+    plan = {}
+    decks = [deck for deck in decks if deck.error is None]
+    sources = {os.path.realpath(deck.path): deck.path for deck in decks}
+    for deck in decks:
+        stem = folder / deck.relative
+        targets = tuple(stem.with_name(stem.name + suffix) for suffix in suffixes)
+        for target in targets:
+            place = os.path.realpath(target)
+            if place in owner:
+                raise OutputError(_shared(target, owner[place], deck.path))
+            if place in sources:
+                raise OutputError(f"{target} would overwrite the deck {sources[place]}")
+            owner[place] = deck.path
+        plan[deck.path] = targets
+    return plan
+
+
+def plan_file(deck: DeckFile, target: Path) -> dict[str, tuple[Path, ...]]:
+    """As `plan_files`, of one deck and the one file that was named.
+
+    Raises:
+        OutputError: The deck would be overwritten, or the folder cannot take files.
+    """
+    named = replace(deck, relative=Path(target.stem))
+    return plan_files([named], target.parent, (target.suffix,))
+
+
+def _shared(target: Path, first: str, second: str) -> str:
+    if first == second:
+        return f"{target} is a link to another file of the results of {first}"
+    return (
+        f"{first} and {second} would both write {target}; analyse them apart, or name one "
+        "folder that holds both"
+    )
+
+
+def _check_folder(folder: Path) -> None:
+    place = folder.absolute()
+    while not os.path.lexists(place) and place != place.parent:
+        place = place.parent
+    if not os.path.isdir(place):
+        raise OutputError(f"cannot write to {folder}: {place} is not a folder")
+    if not os.access(place, os.W_OK | os.X_OK):
+        raise OutputError(f"cannot write to {folder}: no permission to write in {place}")
+
+
+def write_together(files: Mapping[Path, bytes]) -> None:
+    """Write a set of files so that they appear together or not at all.
+
+    Everything is written beside its place first, and moved there when all of it is written.
+    Folders are made where they are missing; a link stays one, and what it leads to is written.
+
+    Raises:
+        OutputError: A folder or file cannot be written; no file of the set has changed then.
+    """
+    places: dict[Path, Path] = {}
+    waiting: dict[Path, Path] = {}
+    target = Path()
+    try:
+        for target in files:
+            places[target] = _place(target)
+        for number, (target, content) in enumerate(files.items()):
+            place = places[target]
+            place.parent.mkdir(parents=True, exist_ok=True)
+            temporary = place.with_name(f".flexact-{os.getpid()}-{number}.tmp")
+            waiting[temporary] = target
+            temporary.write_bytes(content)
+        with undisturbed():
+            for temporary, target in waiting.items():
+                os.replace(temporary, places[target])
+    except OSError as error:
+        raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
+    finally:
+        with undisturbed():
+            for temporary in waiting:
+                temporary.unlink(missing_ok=True)
+
+
+def _place(target: Path) -> Path:
+    """Where a target lies, links followed, if it is one that may be replaced."""
+    place = Path(os.path.realpath(target))
+    try:
+        mode = place.stat().st_mode
+    except FileNotFoundError:
+        return place
+    if stat.S_ISDIR(mode):
+        raise OutputError(f"cannot write {target}: it is a folder")
+    if not stat.S_ISREG(mode):
+        raise OutputError(f"cannot write {target}: it is not a regular file")
+    # The superuser may write to every file, whatever its owner meant.
+    if not mode & 0o222 or not os.access(place, os.W_OK):
+        raise OutputError(f"cannot write {target}: it is read-only")
+    return place

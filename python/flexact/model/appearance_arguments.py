@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks of what a builder is given about drawing: elements, cross-sections, colours."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from ..core.elements import kind_of
+from ..diagnostics.errors import model_error
+from .appearance import CrossSection
+from .appearance_draft import Colour, Said, Shape
+from .arguments import UNORDERED, element_index, real, require_own
+from .draft import Draft
+from .handles import Node, Sheet
+
+#: A diameter, or two sizes [m].
+Section = float | Sequence[float]
+
+
+def indices_of(draft: Draft, target: object) -> tuple[int, ...]:
+    """Indices of an element, of the beams of a sheet, or of the hinge at a point.
+
+    Raises:
+        ModelError: there is no such element, or no hinge whose far side this point is.
+    """
+    if isinstance(target, Sheet):
+        return tuple(element_index(draft, element) for element in target.elements)
+    if isinstance(target, Node):
+        require_own(draft, target)
+        return (_hinge_at(draft, target),)
+    return (element_index(draft, target),)
+
+
+def _hinge_at(draft: Draft, point: Node) -> int:
+    """Index of the last hinge that ends at this point; most are asked for when just made."""
+    hinge = kind_of("PLHINGE" if draft.planar else "HINGE").number
+    for index in range(len(draft.kinds) - 1, -1, -1):
+        if draft.slots[index][3] == point.orientation and draft.kinds[index] == hinge:
+            return index
+    raise model_error(
+        "not-an-element",
+        "no hinge ends at this point",
+        "give an element, a sheet, an element's number, or the point beyond a hinge",
+    )
+
+
+def said(
+    target: object,
+    section: Section | None,
+    colour: Sequence[float] | None,
+    edge_colour: Sequence[float] | None,
+    opacity: float | None,
+    drawn: bool | None,
+) -> Said:
+    """What is said about drawing a target, checked."""
+    checked = {
+        "shape": sheet_shape(section) if isinstance(target, Sheet) else shape_of(section),
+        "colour": None if colour is None else _colour(colour, "colour"),
+        "edge_colour": None if edge_colour is None else _colour(edge_colour, "colour of the edges"),
+        "opacity": None if opacity is None else _opacity(opacity),
+        "drawn": None if drawn is None else _flag(drawn),
+    }
+    return {name: value for name, value in checked.items() if value is not None}
+
+
+def _flag(drawn: object) -> bool:
+    if not isinstance(drawn, (bool, np.bool_)):
+        raise model_error("not-a-flag", "whether an element is drawn is True or False")
+    return bool(drawn)
+
+
+def shape_of(section: Section | None) -> Shape | None:
+    """A cross-section from a diameter, or from the sizes along local y and z [m], or none.
+
+    Raises:
+        ModelError: it is neither, or a size is not positive and finite.
+    """
+    if section is None:
+        return None
+    what = "a section is a diameter, or two sizes along the local y and z axes"
+    if isinstance(section, Iterable):
+        sizes = _numbers(section, 2, what)
+    else:
+        sizes = _numbers([section], 1, what)
+    if not all(size > 0.0 for size in sizes):
+        raise model_error(
+            "bad-size", "a size of a cross-section is not positive", "give sizes in metres"
+        )
+    kind = CrossSection.CIRC if len(sizes) == 1 else CrossSection.RECT
+    return Shape(kind, sizes[0], sizes[-1])
+
+
+def sheet_shape(section: Section | None) -> Shape | None:
+    """A cross-section from the width and the thickness of a sheet, whose width is local z."""
+    if section is None:
+        return None
+    width, thickness = _numbers(section, 2, "the section of a sheet is its width and its thickness")
+    return shape_of((thickness, width))
+
+
+def _colour(given: Sequence[float], what: str) -> Colour:
+    """Red, green and blue from 0 to 1.
+
+    Raises:
+        ModelError: they are not.
+    """
+    red, green, blue = _numbers(given, 3, f"the {what} is red, green and blue")
+    if not all(0.0 <= part <= 1.0 for part in (red, green, blue)):
+        raise model_error(
+            "bad-colour", f"a part of the {what} is out of range", "give parts from 0 to 1"
+        )
+    return red, green, blue
+
+
+def _opacity(given: float) -> float:
+    """An opacity from 0 to 1.
+
+    Raises:
+        ModelError: it is none.
+    """
+    (opacity,) = _numbers([given], 1, "an opacity is a number")
+    if not 0.0 <= opacity <= 1.0:
+        raise model_error(
+            "bad-opacity", "an opacity is out of range", "give 0 for invisible, 1 for opaque"
+        )
+    return opacity
+
+
+def _numbers(given: object, wanted: int, what: str) -> tuple[float, ...]:
+    try:
+        if isinstance(given, UNORDERED) or not isinstance(given, Iterable):
+            raise TypeError
+        parts = tuple(real(part) for part in given if not isinstance(part, bool))
+        if len(parts) != wanted:
+            raise ValueError
+    except (TypeError, ValueError, OverflowError):
+        raise model_error("bad-number", f"{what}, not {given!r}") from None
+    if not all(map(math.isfinite, parts)):
+        raise model_error("bad-number", f"{what}, and one of them is not finite")
+    return parts

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Configurations: where all nodes of a model are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..base.frozen import Frozen
+from ..core.arrays import FloatArray, IntArray
+from ..core.elements import NodeKind
+
+
+@dataclass(frozen=True, eq=False)
+class Configuration(Frozen):
+    """Where all nodes of a model are.
+
+    Attributes:
+        kinds: (nodes,) `NodeKind` of each node.
+        value: (nodes, 4) position [m]; Euler parameters, of any length but zero; or the
+            angle [rad] of a planar node.
+    """
+
+    kinds: IntArray
+    value: FloatArray
+
+    def __post_init__(self) -> None:
+        """Take read-only copies and check their shape."""
+        kinds, value = np.array(self.kinds, np.int32), np.array(self.value, np.float64)
+        if value.shape != (kinds.size, 4):
+            raise ValueError(f"value has shape {value.shape}, not {(kinds.size, 4)}")
+        object.__setattr__(self, "kinds", kinds)
+        object.__setattr__(self, "value", value)
+        super().__post_init__()
+
+    def moved(self, delta: ArrayLike) -> Configuration:
+        """This configuration moved by displacements and rotations.
+
+        Args:
+            delta: (nodes, 3) displacement of a position [m] along x, y, z; rotation vector
+                [rad] about the global axes of an orientation, applied after the rotation
+                that it has; a planar angle takes the third.
+
+        Raises:
+            ValueError: `delta` has another shape.
+        """
+        move = np.asarray(delta, np.float64)
+        if move.shape != (self.kinds.size, 3):
+            raise ValueError(f"delta has shape {move.shape}, not {(self.kinds.size, 3)}")
+        value = self.value.copy()
+        places = self.kinds <= NodeKind.POSITION
+        value[places, :3] += move[places]
+        angles = self.kinds == NodeKind.ANGLE
+        value[angles, 0] += move[angles, 2]
+        turned = self.kinds == NodeKind.ORIENTATION
+        value[turned] = _turned(value[turned], move[turned])
+        return Configuration(self.kinds, value)
+
+
+def _turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
+    """Euler parameters (k, 4) after a further rotation by vectors (k, 3)."""
+    angle = np.linalg.norm(rotation, axis=1)[:, None]
+    scalar = np.cos(angle / 2)
+    vector = rotation * np.sinc(angle / (2 * np.pi)) / 2
+    old_scalar, old_vector = euler[:, :1], euler[:, 1:]
+    made: FloatArray = np.hstack(
+        [
+            scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
+            scalar * old_vector + old_scalar * vector + np.cross(vector, old_vector),
+        ]
+    )
+    return made

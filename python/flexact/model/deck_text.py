@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model in the deck language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from ..core.arrays import IntArray
+from ..core.elements import AXES, Class, NodeKind, keywords_of
+from .appearance import Appearance, CrossSection
+from .data import ModelData
+from .draft import one_line
+
+_IDENTITY = {
+    NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],
+    NodeKind.ORIENTATION: [1.0, 0.0, 0.0, 0.0],
+}
+_VALUES = {
+    NodeKind.PLANAR_POSITION: 2,
+    NodeKind.POSITION: 3,
+    NodeKind.ANGLE: 1,
+    NodeKind.ORIENTATION: 4,
+}
+#: Component of axis 0 by kind of node, less that axis: lambda1 is component 2.
+_FIRST_COMPONENT = {
+    NodeKind.PLANAR_POSITION: 1,
+    NodeKind.POSITION: 1,
+    NodeKind.ANGLE: -1,
+    NodeKind.ORIENTATION: 2,
+}
+
+
+def deck_of(data: ModelData) -> str:
+    """The deck of a model; numbers read back to the last bit."""
+    title = one_line(data.name)
+    blocks = [
+        [f"% {title}"] if title else [],
+        list(_elements(data)),
+        list(_values(data)),
+        list(_coordinates(data, Class.FIXED, "FIX")),
+        list(_coordinates(data, Class.INDEPENDENT, "DYNX")),
+        list(_deformations(data, Class.DEPENDENT, "RLSE")),
+        list(_deformations(data, Class.INDEPENDENT, "DYNE")),
+        ["END"],
+        []
+        if data.given_appearance is None
+        else _picture(data.given_appearance, data.arrays.element_number),
+    ]
+    return "\n".join(line for block in blocks for line in block) + "\n"
+
+
+def _elements(data: ModelData) -> Iterator[str]:
+    a = data.arrays
+    numbers = np.concatenate([np.zeros(1, np.int32), a.node_number])
+    for keyword, number, nodes, vector, name in zip(
+        keywords_of(a.element_kind),
+        a.element_number.tolist(),
+        numbers[a.element_node].T.tolist(),
+        a.element_vector.T.tolist(),
+        data.element_names,
+        strict=True,
+    ):
+        words = [keyword, str(number), *(str(node) for node in nodes if node)]
+        if any(vector):
+            words += map(repr, vector)
+        if name:
+            words.append(f"% {name}")
+        yield " ".join(words)
+
+
+def _values(data: ModelData) -> Iterator[str]:
+    a = data.arrays
+    for number, kind, value in zip(
+        a.node_number.tolist(), a.node_kind.tolist(), a.node_value.T.tolist(), strict=True
+    ):
+        if value != _IDENTITY.get(kind):
+            yield f"X {number} {' '.join(map(repr, value[: _VALUES[kind]]))}"
+
+
+def _coordinates(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]:
+    a = data.arrays
+    chosen = a.coordinate_class == wanted
+    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
+        kind = int(a.node_kind[index])
+        axes = np.flatnonzero(chosen[:, index]).tolist()
+        words = [keyword, str(a.node_number[index])]
+        if len(axes) < len(AXES[kind]):
+            words += [str(axis + _FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
+        yield " ".join(words)
+
+
+def _deformations(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]:
+    a = data.arrays
+    chosen = a.deformation_class == wanted
+    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
+        modes = (np.flatnonzero(chosen[:, index]) + 1).tolist()
+        words = [keyword, str(a.element_number[index])]
+        if len(modes) < np.count_nonzero(a.deformation_class[:, index]):
+            words += map(str, modes)
+        yield " ".join(words)
+
+
+#: How many numbers of elements stand in a line of the picture block.
+_NUMBERS_A_LINE = 16
+
+
+def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:
+    """The picture block; elements that look alike share their options."""
+    yield from ("HALT", "END", "", "VISUALIZATION")
+    for name, options in (
+        ("BEAMPROPS", _cross_sections(appearance)),
+        ("GRAPHICS", _colours(appearance)),
+    ):
+        alike: dict[tuple[str, ...], list[int]] = {}
+        for number, lines in zip(numbers.tolist(), options, strict=True):
+            if lines:
+                alike.setdefault(lines, []).append(number)
+        for lines, elements in alike.items():
+            # Without numbers a group is all elements.
+            all_of_them = len(elements) == numbers.size
+            for line in [name] if all_of_them else _in_lines(name, elements):
+                yield line
+                yield from lines
+    yield from _in_lines("DONOTDRAW", numbers[~appearance.drawn].tolist())
+
+
+def _in_lines(name: str, elements: list[int]) -> Iterator[str]:
+    for i in range(0, len(elements), _NUMBERS_A_LINE):
+        yield " ".join([name, *map(str, elements[i : i + _NUMBERS_A_LINE])])
+
+
+def _cross_sections(appearance: Appearance) -> Iterable[tuple[str, ...]]:
+    for kind, sizes in zip(
+        appearance.cross_section.tolist(), appearance.dimensions.tolist(), strict=True
+    ):
+        lines = [f"CROSSTYPE {CrossSection(kind).name}"] if kind else []
+        if any(sizes):
+            round_one = kind in (CrossSection.CIRC, CrossSection.CIRCHOL)
+            lines.append("CROSSDIM " + " ".join(map(repr, sizes[:1] if round_one else sizes)))
+        yield tuple(lines)
+
+
+def _colours(appearance: Appearance) -> Iterable[tuple[str, ...]]:
+    for face, edge, opacity in zip(
+        appearance.colour.tolist(),
+        appearance.edge_colour.tolist(),
+        appearance.opacity.tolist(),
+        strict=True,
+    ):
+        given = ("FACECOLOR", face), ("EDGECOLOR", edge), ("OPACITY", [opacity])
+        yield tuple(
+            f"{name} {' '.join(map(repr, values))}"
+            for name, values in given
+            if values[0] == values[0]
+        )

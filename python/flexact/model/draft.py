@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model in the making: lists that grow, and the arrays made from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..core.arrays import IntArray, model_arrays
+from ..core.elements import AXES, Class, NodeKind, coordinate_name, kind_of
+from ..core.raw import ElementKind
+from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
+from ..diagnostics.errors import ModelError, model_error
+from .appearance_draft import AppearanceDraft, Shape
+from .data import ModelData
+
+Vector = tuple[float, float, float]
+
+#: What the vector of an element is where none is given.
+NO_VECTOR: Vector = (0.0, 0.0, 0.0)
+
+_LARGEST = 2**31 - 1
+_CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
+
+
+class Draft:
+    """Nodes and elements as lists and dictionaries, by their numbers."""
+
+    def __init__(self, planar: bool, owner: object) -> None:
+        """Start without nodes or elements; `owner` is what its handles are known by."""
+        self.planar = planar
+        self.owner = owner
+        self.node_kind: dict[int, int] = {}
+        self.node_value: dict[int, tuple[float, ...]] = {}
+        self.coordinate_class: dict[tuple[int, int], int] = {}
+        #: Coordinates that were named one by one, so that they must exist.
+        self.named: set[tuple[int, int]] = set()
+        #: Nodes whose classes were given as a whole; one of the two must exist.
+        self.whole: list[tuple[int, int]] = []
+        self.kinds: list[int] = []
+        self.numbers: list[int] = []
+        self.slots: list[tuple[int, int, int, int]] = []
+        self.vectors: list[Vector] = []
+        self.classes: list[tuple[int, ...]] = []
+        self.names: dict[int, str] = {}
+        self.appearance = AppearanceDraft()
+        #: Classes that were stated for single deformations, by index.
+        self.stated: dict[tuple[int, int], int] = {}
+        #: Indices of rigid elements whose kind is decided when arrays are made.
+        self.rigid: set[int] = set()
+        self.last_node = 0
+        self.last_element = 0
+        self._index_of: dict[int, int] | None = None
+
+    @classmethod
+    def of(cls, data: ModelData, owner: object) -> Draft:
+        """The draft that gives the same arrays."""
+        draft = cls(data.planar, owner)
+        a = data.arrays
+        numbers = a.node_number.tolist()
+        draft.node_kind = dict(zip(numbers, a.node_kind.tolist(), strict=True))
+        draft.node_value = dict(zip(numbers, map(tuple, a.node_value.T.tolist()), strict=True))
+        for axis, node in np.argwhere(
+            (a.coordinate_class != Class.NONE) & (a.coordinate_class != Class.DEPENDENT)
+        ).tolist():
+            key = numbers[node], axis
+            draft.coordinate_class[key] = int(a.coordinate_class[axis, node])
+        with_zero = np.concatenate([np.zeros(1, np.int32), a.node_number])
+        draft.kinds = a.element_kind.tolist()
+        draft.numbers = a.element_number.tolist()
+        draft.slots = list(map(tuple, with_zero[a.element_node].T.tolist()))
+        draft.vectors = list(map(tuple, a.element_vector.T.tolist()))
+        draft.classes = list(map(tuple, a.deformation_class.T.tolist()))
+        draft.names = {i: name for i, name in enumerate(data.element_names) if name}
+        if data.given_appearance is not None:
+            draft.appearance = AppearanceDraft.of(data.given_appearance)
+        draft.last_node = max(numbers, default=0)
+        draft.last_element = max(draft.numbers, default=0)
+        return draft
+
+    def add_node(self, kind: int, value: tuple[float, ...]) -> int:
+        """Add a node and return its number."""
+        number = self.last_node + 1
+        if number > _LARGEST:
+            raise model_error("number-too-large", "the model has no node number left")
+        self.last_node = number
+        self.node_kind[number] = kind
+        self.node_value[number] = value
+        return number
+
+    def add_orientation(self) -> int:
+        """Add an unturned orientation, in the plane an angle, and return its number."""
+        if self.planar:
+            return self.add_node(NodeKind.ANGLE, (0.0, 0.0, 0.0, 0.0))
+        return self.add_node(NodeKind.ORIENTATION, (1.0, 0.0, 0.0, 0.0))
+
+    def add_element(
+        self,
+        kind: ElementKind,
+        slots: tuple[int, int, int, int],
+        name: str,
+        vector: Vector = NO_VECTOR,
+        released: Iterable[int] = (),
+        shape: Shape | None = None,
+    ) -> int:
+        """Add an element and return its number; `released` are part of what it is."""
+        number = self.last_element + 1
+        if number > _LARGEST:
+            raise model_error("number-too-large", "the model has no element number left")
+        if name:
+            name = one_line(name)
+            if name:
+                self.names[len(self.kinds)] = name
+        if shape is not None:
+            self.appearance.give([len(self.kinds)], {"shape": shape})
+        if self._index_of is not None:
+            self._index_of[number] = len(self.kinds)
+        self.last_element = number
+        self.numbers.append(number)
+        self.kinds.append(kind.number)
+        self.slots.append(slots)
+        self.vectors.append(vector)
+        self.classes.append(_classes(kind.deformations, tuple(released)))
+        return number
+
+    def index_of(self, number: int) -> int:
+        """Index of the element with this number."""
+        if self._index_of is None:
+            self._index_of = {n: i for i, n in enumerate(self.numbers)}
+        index = self._index_of.get(number)
+        if index is None:
+            raise model_error("no-such-element", f"there is no element {number}")
+        return index
+
+    def deformations_of(self, index: int) -> int:
+        """How many deformations an element has, a rigid one counted as a beam."""
+        return sum(c != Class.NONE for c in self.classes[index])
+
+    def state_deformations(self, index: int, numbers: Iterable[int], value: Class) -> None:
+        """Give deformations (from 1) of an element a class, all or none of them.
+
+        Raises:
+            ModelError: the element has no such deformation, or it has another class.
+        """
+        name = f"element {self.numbers[index]}"
+        classes = list(self.classes[index])
+        wanted = tuple(numbers)
+        for number in wanted:
+            if not 1 <= number <= self.deformations_of(index):
+                raise model_error(
+                    "component-out-of-range",
+                    f"{name} has no deformation {number}",
+                    f"it has 1 to {self.deformations_of(index)}",
+                )
+            before = self.stated.get((index, number), value)
+            if before != value:
+                raise _conflict(f"deformation {number} of {name}", before, value)
+            classes[number - 1] = value
+        self.classes[index] = tuple(classes)
+        self.stated.update(((index, number), value) for number in wanted)
+
+    def state_coordinates(self, places: Iterable[tuple[int, int]], value: Class) -> None:
+        """Give coordinates (node number, axis) a class, all or none of them.
+
+        Raises:
+            ModelError: one of them has another class.
+        """
+        wanted = tuple(places)
+        for number, axis in wanted:
+            before = self.coordinate_class.get((number, axis), value)
+            if before != value:
+                name = coordinate_name(self.node_kind[number], axis)
+                raise _conflict(f"coordinate {name} of node {number}", before, value)
+        self.coordinate_class.update((place, value) for place in wanted)
+
+    def freeze(self, name: str) -> ModelData:
+        """The model as it is now, with an error for each class of a node that nobody uses."""
+        kinds, slots, classes = self._decided()
+        used = np.unique(slots[slots > 0])
+        numbers = used.tolist()
+        node_kind = np.array([self.node_kind[n] for n in numbers], np.int32)
+        value = np.array([self.node_value[n] for n in numbers], np.float64).reshape(-1, 4)
+        arrays = model_arrays(
+            node_number=used,
+            node_kind=node_kind,
+            node_value=value.T,
+            coordinate_class=self._coordinate_classes(used, node_kind),
+            element_number=np.array(self.numbers, np.int64),
+            element_kind=kinds,
+            element_node=np.where(slots > 0, np.searchsorted(used, slots) + 1, 0).T,
+            element_vector=np.array(self.vectors, np.float64).reshape(-1, 3).T,
+            deformation_class=classes.T,
+        )
+        names = tuple(self.names.get(i, "") for i in range(len(self.kinds)))
+        wrong = [_unused(number) for number in self._given_in_vain(set(numbers))]
+        found = Problems.of(wrong) if wrong else None
+        appearance = self.appearance.freeze(len(self.kinds))
+        return ModelData(arrays, self.planar, name, names, found=found, given_appearance=appearance)
+
+    def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Kinds, slots and classes, with the kind of every rigid element decided.
+
+        A rigid element is an RBEAM unless somebody needs the orientation of its
+        far end, or one of its deformations was given a class.
+        """
+        kinds = np.array(self.kinds, np.int32)
+        slots = np.array(self.slots, np.int64).reshape(-1, 4).astype(np.int32)
+        classes = np.array(self.classes, np.int32).reshape(-1, 6)
+        if not self.rigid:
+            return kinds, slots, classes
+        rigid = np.zeros(kinds.size, bool)
+        rigid[list(self.rigid)] = True
+        needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
+        needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        stated = {index for index, _ in self.stated}
+        short = kind_of("PLRBEAM" if self.planar else "RBEAM")
+        for index in self.rigid:
+            if slots[index, 3] not in needed and index not in stated:
+                kinds[index] = short.number
+                slots[index, 3] = 0
+                classes[index] = _classes(short.deformations, ())
+        return kinds, slots, classes
+
+    def _coordinate_classes(self, used: IntArray, node_kind: IntArray) -> IntArray:
+        of_kind = np.zeros((len(NodeKind) + 1, 3), np.int32)
+        for kind, axes in AXES.items():
+            of_kind[kind, list(axes)] = Class.DEPENDENT
+        classes = of_kind[node_kind].reshape(-1, 3)
+        if self.coordinate_class and used.size:
+            stated = np.array(list(self.coordinate_class), np.int64)
+            values = np.array(list(self.coordinate_class.values()), np.int32)
+            place = np.minimum(np.searchsorted(used, stated[:, 0]), used.size - 1)
+            there = used[place] == stated[:, 0]
+            classes[place[there], stated[there, 1]] = values[there]
+        return classes.T
+
+    def _given_in_vain(self, used: set[int]) -> list[int]:
+        """Nodes that were given a class and are not in use."""
+        vain = {number for number, _ in self.named if number not in used}
+        for position, orientation in self.whole:
+            if position not in used and orientation not in used:
+                vain.add(position)
+        return sorted(vain)
+
+
+def one_line(name: str) -> str:
+    """A name as the comment of a deck's line can hold it."""
+    line = "".join(c if c.isprintable() else " " for c in name)
+    return line.lstrip(" %#").rstrip()
+
+
+def _classes(deformations: int, released: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(
+        0 if k > deformations else int(Class.DEPENDENT if k in released else Class.FIXED)
+        for k in range(1, 7)
+    )
+
+
+def _conflict(what: str, before: int, now: int) -> ModelError:
+    words = f"{_CLASS_WORDS[Class(before)]} and {_CLASS_WORDS[Class(now)]}"
+    return model_error(
+        "class-conflict",
+        f"{what} is given two classes: {words}",
+        "keep one of the two, or name other components",
+    )
+
+
+def _unused(number: int) -> Diagnostic:
+    return Diagnostic(
+        Severity.ERROR,
+        "no-such-node",
+        f"node {number} is given a class, but no element uses it",
+        help="name the node in an element, or leave its class out",
+    )

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The model: the one meeting point of decks and Python."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..core.arrays import FloatArray, IntArray
+from ..core.elements import NodeKind, keywords_of
+from ..diagnostics.diagnostic import Diagnostic
+from ..diagnostics.errors import model_error
+from .builder import Builder
+from .configuration import Configuration
+from .data import ModelData
+from .deck_text import deck_of
+
+
+class Model(Builder):
+    """A mechanism as a finite element model.
+
+    Make nodes, join them with elements, say what is fixed and independent, and
+    hand the model to `flexact.analyse`. A model that was read from a deck has the
+    same methods; where a point is wanted, `handle` makes one from node numbers.
+    Positions are in metres.
+
+    The arrays are read-only and made once; a change of the model makes new ones and
+    leaves the old ones as they are. Nodes are in ascending order of their numbers,
+    elements in the order in which they were made or stand in the deck.
+
+    Args:
+        planar: A model in the xy plane: two coordinates and one angle a point.
+        name: What the model is called in results.
+    """
+
+    @classmethod
+    def from_data(cls, data: ModelData) -> Model:
+        """A model that starts as these data."""
+        model = cls.__new__(cls)
+        model._start(data.planar, data.name)
+        model._draft = None
+        model._data = data
+        return model
+
+    def __repr__(self) -> str:
+        """Name and size."""
+        a = self.data.arrays
+        kind = "planar model" if self.planar else "model"
+        name = f" {self.name!r}" if self.name else ""
+        size = f"{a.node_number.size} nodes, {a.element_number.size} elements"
+        return f"<flexact {kind}{name}: {size}>"
+
+    @property
+    def name(self) -> str:
+        """What the model is called; the path of a deck."""
+        return self._name
+
+    @property
+    def planar(self) -> bool:
+        """Whether all is in the xy plane, with two coordinates and one angle a point."""
+        return self._planar
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """What reading or checking the model found, in the order of the places."""
+        return self.data.problems.kept
+
+    def check(self) -> None:
+        """Raise where the model cannot be analysed.
+
+        Raises:
+            DeckError: for a model that was read from a deck.
+            ModelError: for a model made in Python.
+        """
+        self.data.require_sound()
+
+    @property
+    def node_numbers(self) -> IntArray:
+        """(nodes,) numbers, ascending."""
+        return self.data.arrays.node_number
+
+    @property
+    def node_kinds(self) -> IntArray:
+        """(nodes,) 1 planar position, 2 position, 3 angle, 4 orientation."""
+        return self.data.arrays.node_kind
+
+    @property
+    def node_values(self) -> FloatArray:
+        """(nodes, 4) reference values: position [m]; Euler parameters; or angle [rad]."""
+        return self.data.arrays.node_value.T
+
+    @property
+    def positions(self) -> FloatArray:
+        """(nodes, 3) reference positions [m]; zero for nodes that are orientations."""
+        a = self.data.arrays
+        made = np.where((a.node_kind <= NodeKind.POSITION)[:, None], a.node_value.T[:, :3], 0.0)
+        made.flags.writeable = False
+        return made
+
+    @property
+    def coordinate_classes(self) -> IntArray:
+        """(nodes, 3) by axis: 0 no such coordinate, 1 fixed, 2 dependent, 3 independent."""
+        return self.data.arrays.coordinate_class.T
+
+    @property
+    def element_numbers(self) -> IntArray:
+        """(elements,) numbers."""
+        return self.data.arrays.element_number
+
+    @property
+    def element_kinds(self) -> IntArray:
+        """(elements,) row of the element table, from 1 (`flexact.core.elements.element_kinds`)."""
+        return self.data.arrays.element_kind
+
+    @property
+    def element_keywords(self) -> tuple[str, ...]:
+        """The keyword of each element: TRUSS, BEAM, ..."""
+        return keywords_of(self.data.arrays.element_kind)
+
+    @property
+    def element_nodes(self) -> IntArray:
+        """(elements, 4) node indices from 0 in the slots p, op, q, oq; -1 where unused."""
+        made = self.data.arrays.element_node.T - 1
+        made.flags.writeable = False
+        return made
+
+    @property
+    def element_vectors(self) -> FloatArray:
+        """(elements, 3) y vector of a beam or axis of a hinge; zeros: not given."""
+        return self.data.arrays.element_vector.T
+
+    @property
+    def deformation_classes(self) -> IntArray:
+        """(elements, 6): 0 no such deformation, 1 fixed, 2 released, 3 independent."""
+        return self.data.arrays.deformation_class.T
+
+    @property
+    def element_names(self) -> tuple[str, ...]:
+        """(elements,) names, empty where an element has none."""
+        return tuple(self.data.element_names)
+
+    def node_index(self, number: int) -> int:
+        """Where a node stands in what is given by node, such as `Motion.displacement`.
+
+        Args:
+            number: Such as `Node.position` or `Node.orientation`.
+
+        Raises:
+            ModelError: no element uses a node of this number.
+        """
+        index = self.data.node_index.get(number)
+        if index is None:
+            raise model_error("no-such-node", f"no element uses a node {number}")
+        return index
+
+    def element_index(self, number: int) -> int:
+        """Where an element stands in what is given by element, such as `SelfStress.moments`.
+
+        Args:
+            number: Such as `Element.number`.
+
+        Raises:
+            ModelError: there is no such element.
+        """
+        index = self.data.element_index.get(number)
+        if index is None:
+            raise model_error("no-such-element", f"there is no element {number}")
+        return index
+
+    def reference(self) -> Configuration:
+        """The configuration in which all deformations are zero."""
+        return Configuration(self.data.arrays.node_kind, self.data.arrays.node_value.T)
+
+    def to_deck(self) -> str:
+        """The model in the deck language; reading it gives the same model.
+
+        Numbers are written so that they read back to the last bit; names of elements
+        stand as comments at the end of their lines.
+
+        Raises:
+            ModelError: the model is wrong, so that no deck can be read back.
+        """
+        self.check()
+        return deck_of(self.data)

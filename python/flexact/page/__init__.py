@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
+
+from .index_page import Entry, index_page
+from .page import broken_page, page, reason_in_words
+
+__all__ = ["Entry", "broken_page", "index_page", "page", "reason_in_words"]

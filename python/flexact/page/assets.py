@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files that are embedded in every page: the viewer, three.js, and the styles."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from functools import cache
+from html import escape
+from importlib import resources
+from string import Template
+
+from ..base.plain_text import harmless
+from ..base.version import VERSION
+
+#: In the order in which they build on each other.
+SCRIPTS = (
+    "three.min.js",
+    "data.js",
+    "tracks.js",
+    "shapes.js",
+    "surfaces.js",
+    "words.js",
+    "stage.js",
+    "members.js",
+    "diagram.js",
+    "symbols.js",
+    "overlay.js",
+    "pointing.js",
+    "links.js",
+    "controls.js",
+    "theme.js",
+    "printing.js",
+    "viewer.js",
+    "main.js",
+)
+#: Of pages without a drawing.
+PLAIN_SCRIPTS = ("theme.js", "printing.js", "plain.js")
+
+_ENDING = re.compile("</(?=script|style)", re.IGNORECASE)
+
+
+@cache
+def asset(name: str) -> str:
+    """The text of a file of this package."""
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+@cache
+def script(name: str) -> str:
+    """A script as it stands in the page: nothing in it ends its element."""
+    return _ENDING.sub(r"<\\/", asset(name))
+
+
+@cache
+def three_version() -> str:
+    """The version of three.js, which stands in its first line."""
+    found = re.match(r"/\*! three\.js (\S+)", asset("three.min.js"))
+    return found[1] if found else "unknown"
+
+
+@cache
+def policy(names: tuple[str, ...]) -> str:
+    """A content security policy: these scripts and the styles, and nothing from a network."""
+    scripts = " ".join(_hashed(script(name)) for name in names)
+    return (
+        f"default-src 'none'; script-src {scripts}; style-src {_hashed(style())}; "
+        "img-src data:; base-uri 'none'; form-action 'none'"
+    )
+
+
+def filled(title: str, body: str, scripts: tuple[str, ...], data: str = "") -> str:
+    """A whole page; all but the title is HTML."""
+    return Template(asset("template.html")).substitute(
+        title=escape(harmless(title)),
+        version=VERSION,
+        policy=escape(policy(scripts)),
+        style=style(),
+        body=body,
+        data=data,
+        scripts="\n".join(f"<script>{script(name)}</script>" for name in scripts),
+    )
+
+
+def style() -> str:
+    """The styles."""
+    return asset("style.css")
+
+
+def _hashed(content: str) -> str:
+    digest = hashlib.sha256(content.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"

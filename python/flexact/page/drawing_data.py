@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The drawing as data of a page: what its viewer draws.
+
+Lengths are parts of the drawing's size and places are measured from its centre, so that single
+precision is enough wherever the mechanism stands.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..base.plain_text import harmless
+from ..core.arrays import FloatArray
+from ..core.elements import Class, NodeKind, coordinate_name
+from ..drawing import QUANTITIES, Drawing, Form, Support, colours, joints_of
+from ..drawing.places import turned_at
+from ..drawing.rotations import euler_of
+from ..drawing.view import ISO, view_of
+from ..result.result import Result
+from .limits import MOST_MEMBERS
+from .packing import flags, floats, integers
+
+#: Thickness of a clamp's block of ground, a part of its size.
+_THICK = 0.6
+#: An edge where no colour is given: so much of the member's own.
+_EDGE = 0.45
+
+_SIDES = {
+    "N": "blue: compression; red: tension",
+    **dict.fromkeys(("T", "My", "Mz"), "blue and red: opposite senses"),
+}
+
+
+@dataclass(frozen=True)
+class Frame:
+    """From places in the model to places in the page.
+
+    Attributes:
+        drawing: The drawing.
+        kept: (nodes in the page,) indices of the model's nodes.
+        new: (nodes + 1,) their indices in the page; -1 of those left out, and behind the last.
+    """
+
+    drawing: Drawing
+    kept: np.ndarray
+    new: np.ndarray
+
+    def places(self, position: FloatArray) -> FloatArray:
+        """Positions (..., 3) [m] as places in the page."""
+        return np.asarray((position - self.drawing.centre) / self.drawing.size)
+
+    def nodes(self, index: np.ndarray) -> np.ndarray:
+        """Node indices in the page; -1 stays."""
+        return np.asarray(self.new[index])
+
+
+def frame_of(drawing: Drawing) -> Frame:
+    """All nodes, or, where members are left out, those of the ones that are drawn."""
+    count = drawing.data.arrays.node_kind.size
+    used = np.zeros(count + 1, bool)
+    used[:count] = len(drawing.members) <= MOST_MEMBERS
+    used[drawing.members.nodes[:MOST_MEMBERS]] = True
+    used[-1] = False
+    new = np.where(used, np.cumsum(used) - 1, -1)
+    return Frame(drawing, np.flatnonzero(used), new)
+
+
+def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
+    """All that does not depend on motions and self-stresses."""
+    drawing = frame.drawing
+    return {
+        "planar": drawing.planar,
+        "size": drawing.size,
+        "iso": view_of(ISO, drawing).axes[2].tolist(),
+        "stops": np.asarray(colours.STOPS).tolist(),
+        "colours": {
+            "support": colours.SUPPORT,
+            "arrow": colours.ARROW,
+            "freedom": colours.FREEDOM,
+        },
+        "quantities": list(QUANTITIES),
+        "meaning": colours.MEANINGS,
+        "sides": _SIDES,
+        "forms": {int(form): form.name.lower() for form in Form},
+        "nodes": _nodes(analysis, frame),
+        "members": _members(frame),
+        "hinges": _hinges(frame),
+        "supports": _supports(frame),
+        "joints": _joints(frame),
+        "arrows": _arrows(frame),
+    }
+
+
+def _nodes(analysis: Result, frame: Frame) -> dict[str, Any]:
+    arrays, kept = analysis.data.arrays, frame.kept
+    placed = arrays.node_kind <= NodeKind.POSITION
+    place = np.where(placed, np.arange(placed.size), -1)
+    pairs = turned_at(arrays)
+    place[pairs[:, 1]] = pairs[:, 0]
+    return {
+        "number": integers(arrays.node_number[kept]),
+        "placed": integers(np.flatnonzero(placed[kept])),
+        "place": integers(frame.nodes(place[kept])),
+        "held": _held(analysis, frame, pairs),
+    }
+
+
+def _held(analysis: Result, frame: Frame, pairs: np.ndarray) -> dict[int, str]:
+    """What is fixed at position nodes, by their index in the page."""
+    arrays = analysis.data.arrays
+    fixed = (arrays.coordinate_class == Class.FIXED).T
+    placed = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
+    names: dict[int, list[str]] = defaultdict(list)
+    for place, node in np.concatenate((np.stack((placed, placed), axis=1), pairs)).tolist():
+        kind, axes = int(arrays.node_kind[node]), np.flatnonzero(fixed[node]).tolist()
+        names[int(frame.new[place])] += [coordinate_name(kind, axis) for axis in axes]
+    return {
+        place: ", ".join(dict.fromkeys(told))
+        for place, told in names.items()
+        if told and place >= 0
+    }
+
+
+def _members(frame: Frame) -> dict[str, Any]:
+    every = frame.drawing.members
+    some = slice(MOST_MEMBERS)
+    own = np.clip(every.colour[some], 0.0, 1.0)
+    edge = np.where(np.isnan(every.edge_colour[some]), _EDGE * own, every.edge_colour[some])
+    return {
+        "number": integers(every.number[some]),
+        "names": [harmless(name) for name in every.names[some]],
+        "keyword": list(every.keyword[some]),
+        "form": flags(every.form[some]),
+        "section": floats(every.section[some] / frame.drawing.size),
+        "round": flags(every.round[some]),
+        "bends": flags(every.bends[some]),
+        "colour": flags(_bytes(own)),
+        "edge": flags(_bytes(edge)),
+        "opacity": floats(every.opacity[some]),
+    }
+
+
+def _hinges(frame: Frame) -> dict[str, Any]:
+    hinges = frame.drawing.hinges
+    rows = hinges_in(frame)
+    return {
+        "number": integers(hinges.number[rows]),
+        "names": [harmless(hinges.names[row]) for row in rows.tolist()],
+        "keyword": [hinges.keyword[row] for row in rows.tolist()],
+        "node": integers(frame.nodes(hinges.nodes[rows, 0])),
+        "size": floats(hinges.size[rows] / frame.drawing.size),
+        "colour": flags(_bytes(hinges.colour[rows])),
+    }
+
+
+def hinges_in(frame: Frame) -> np.ndarray:
+    """Rows of the drawing's hinges that are in the page."""
+    nodes = frame.nodes(frame.drawing.hinges.nodes)
+    return np.flatnonzero((nodes[:, 1:] >= 0).all(axis=1))
+
+
+def _supports(frame: Frame) -> dict[str, Any]:
+    """Symbols in frames whose ex points from the ground to what is held, and their sizes."""
+    supports = frame.drawing.supports
+    node = frame.nodes(supports.node)
+    rows = np.flatnonzero(node >= 0)
+    sizes = np.repeat(supports.size[rows, None], 3, axis=1)
+    kind = supports.kind[rows]
+    block = kind == Support.CLAMP
+    sizes[block] = np.column_stack((_THICK * sizes[block, 0], 2 * supports.extent[rows[block]]))
+    return {
+        "node": integers(node[rows]),
+        "kind": flags(kind),
+        "frame": floats(euler_of(supports.frame[rows])),
+        "size": floats(sizes / frame.drawing.size),
+    }
+
+
+def _joints(frame: Frame) -> dict[str, Any]:
+    node, radius = joints_of(frame.drawing)
+    rows = frame.nodes(node) >= 0
+    return {
+        "node": integers(frame.nodes(node[rows])),
+        "radius": floats(radius[rows] / frame.drawing.size),
+    }
+
+
+def _arrows(frame: Frame) -> dict[str, Any]:
+    arrows = frame.drawing.arrows
+    node = frame.nodes(arrows.node)
+    rows = node >= 0
+    return {
+        "node": integers(node[rows]),
+        "direction": floats(arrows.direction[rows]),
+        "turning": flags(arrows.turning[rows]),
+    }
+
+
+def _bytes(colour: FloatArray) -> np.ndarray:
+    return np.rint(255.0 * np.clip(colour, 0.0, 1.0)).astype(np.uint8)

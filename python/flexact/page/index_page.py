@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The index of several pages: a picture and the verdict of each."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from urllib.parse import quote
+
+from ..result.verdict import Verdict
+from .assets import PLAIN_SCRIPTS, filled
+from .markup import image, text
+from .verdict_part import BROKEN, KINDS
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One deck of an index.
+
+    Attributes:
+        name: What it is called.
+        page: Path of its page beside the index; empty where there is none.
+        verdict: Its verdict; None where it cannot be analysed.
+        words: The verdict, or why there is none, in a few words.
+        picture: A small picture as PNG, if there is one.
+    """
+
+    name: str
+    page: str
+    verdict: Verdict | None
+    words: str
+    picture: bytes | None = None
+
+
+def index_page(entries: Sequence[Entry]) -> str:
+    """The index as a page of its own, in the order of the entries."""
+    total = len(entries)
+    title = f"{total} deck{'s' * (total != 1)}"
+    counts = Counter(_word(entry) for entry in entries)
+    summary = "".join(
+        f'<span class="fact">{count} {text(word)}</span> ' for word, count in counts.most_common()
+    )
+    body = (
+        f'<header class="verdict index"><h1><span><b>{title}</b></span></h1>'
+        f'<p class="about">{summary}</p>'
+        '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
+        f'<main class="plain"><ul class="cards">{"".join(map(_card, entries))}</ul></main>'
+    )
+    return filled(title, body, PLAIN_SCRIPTS)
+
+
+def _word(entry: Entry) -> str:
+    return "cannot be analysed" if entry.verdict is None else entry.verdict.value
+
+
+def _card(entry: Entry) -> str:
+    kind, sign = BROKEN if entry.verdict is None else KINDS[entry.verdict]
+    picture = '<span class="nothing" aria-hidden="true"></span>'
+    if entry.picture is not None:
+        picture = image(entry.picture, "")
+    name = f'<span class="name">{text(entry.name)}</span>'
+    if entry.page:
+        name = f'<a href="{escape(quote(entry.page))}">{text(entry.name)}</a>'
+    return (
+        f'<li class="card {kind}">{picture}<p>{name}</p>'
+        f'<p><span class="sign" aria-hidden="true">{sign}</span>{text(entry.words)}</p></li>'
+    )

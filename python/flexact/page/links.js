@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+"use strict";
+// Links between the page's words and the drawing: rows and buttons that name an element or a node.
+
+const Links = (() => {
+  const NAMED = "[data-element], [data-node]";
+
+  class Links {
+    /** `marked({element, node})` is called when something is named, `chosen` when it is pressed. */
+    constructor(marked, chosen) {
+      Object.assign(this, { marked, chosen });
+      this.rows = new Map();
+      for (const each of document.querySelectorAll(NAMED)) this.take(each);
+      for (const button of document.querySelectorAll("button.link")) {
+        button.addEventListener("click", () => chosen(this.target(button)));
+      }
+    }
+
+    take(element) {
+      const key = this.key(this.target(element));
+      if (!this.rows.has(key)) this.rows.set(key, []);
+      this.rows.get(key).push(element);
+      const on = () => this.marked(this.target(element));
+      const off = () => this.marked({});
+      for (const event of ["pointerenter", "focusin"]) element.addEventListener(event, on);
+      for (const event of ["pointerleave", "focusout"]) element.addEventListener(event, off);
+    }
+
+    /** What a part of the page names. */
+    target({ dataset }) {
+      return "element" in dataset ? { element: Number(dataset.element) }
+        : { node: Number(dataset.node) };
+    }
+
+    key({ element, node }) {
+      return element === undefined ? `node ${node}` : `element ${element}`;
+    }
+
+    /** Light the rows that name something. */
+    light(target) {
+      for (const row of this.lit || []) row.classList.remove("lit");
+      this.lit = target ? this.rows.get(this.key(target)) || [] : [];
+      for (const row of this.lit) row.classList.add("lit");
+    }
+  }
+
+  return { Links };
+})();

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Movements and self-stresses as data of a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain
+from typing import Any
+
+from ..base.plain_text import harmless
+from ..core.elements import coordinate_name
+from ..drawing import QUANTITIES, Drawing, Movement, Moving, move, reach_of, resultants
+from ..result.freedoms import Freedom
+from ..result.result import Result
+from ..text.deformation import deformation_word
+from .drawing_data import Frame, hinges_in
+from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES, MOST_POSES
+from .packing import floats
+from .tracks import Tracks
+
+#: Below this part of the largest resultant a quantity is rounding.
+_NOTHING = 1.0e-9
+#: Displacements (parts of the drawing's size) and rotations [rad] that nobody sees.
+_UNSEEN = 1.0e-5
+
+
+def movements(analysis: Result, tracks: Tracks) -> list[dict[str, Any]]:
+    """The motions, then the declared degrees of freedom; as many as fit."""
+    made: list[dict[str, Any]] = []
+    size, drawing = 0, tracks.frame.drawing
+    for kind, label, title, motion in chain(_motions(analysis), _freedoms(analysis)):
+        movement = move(drawing, motion)
+        data, added = tracks.movement(movement)
+        size += added
+        if made and size > MOST_POSES:
+            break
+        words = {"kind": kind, "label": label, "title": title, "note": _note(drawing, movement)}
+        made.append({**words, **data})
+    return made
+
+
+def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
+    for number, motion in enumerate(analysis.motions[:MOST_MODES], start=1):
+        yield "motion", f"Motion {number}", f"Motion {number}", motion
+
+
+def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
+    for freedom in looked_at(analysis):
+        if (motion := freedom.motion) is not None:
+            yield "freedom", freedom.label, f"Degree of freedom: {_in_words(freedom)}", motion
+
+
+def looked_at(analysis: Result) -> tuple[Freedom, ...]:
+    """The declared degrees of freedom whose motions are asked for."""
+    if analysis.data.arrays.element_number.size > MOST_ELEMENTS:
+        return ()
+    return analysis.freedoms[:MOST_MODES]
+
+
+def _in_words(freedom: Freedom) -> str:
+    """Such as "bending at q in the local xy plane of element 1 (upper 90, ground to fold)"."""
+    data, (part, owner) = freedom.analysis.data, freedom.place
+    arrays = data.arrays
+    if freedom.is_coordinate:
+        name = coordinate_name(int(arrays.node_kind[owner]), part)
+        what = (
+            f"rotation about {name[1:]}" if name.startswith("r") else f"displacement along {name}"
+        )
+        return f"{what} of node {arrays.node_number[owner]}"
+    word = deformation_word(int(arrays.element_kind[owner]), part + 1)
+    name = harmless(data.element_names[owner])
+    return f"{word} of element {arrays.element_number[owner]}" + (f" ({name})" if name else "")
+
+
+def _note(drawing: Drawing, movement: Movement) -> str:
+    """On what the poses lie, and how far they go."""
+    largest, angle = reach_of(drawing, (movement.poses[0], movement.poses[-1]))
+    share = largest / drawing.size
+    far = "no displacements"
+    if share > _UNSEEN:
+        far = f"displacements up to {100 * share:.2g}\N{NO-BREAK SPACE}% of the model's size"
+    turned = f" and rotations up to {angle:.2g}\N{NO-BREAK SPACE}rad" * (angle > _UNSEEN)
+    return f"{movement.remark} Drawn with {far}{turned}."
+
+
+def stresses(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
+    """The self-stresses, each with the quantities that it has."""
+    rows = hinges_in(frame)
+    made = []
+    for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
+        found = resultants(frame.drawing, stress)
+        weight = {each: 1.0 if each == "N" else 1.0 / found.length for each in QUANTITIES}
+        sizes = {each: found.largest(each) * weight[each] for each in QUANTITIES}
+        there = [each for each in QUANTITIES if sizes[each] > _NOTHING * max(sizes.values())]
+        hinges = {each: found.hinges[rows, QUANTITIES.index(each)] for each in there}
+        made.append(
+            {
+                "title": f"Self-stress {number}",
+                "dominant": found.dominant,
+                "largest": {each: found.largest(each) for each in there},
+                "members": {each: floats(found[each][:MOST_MEMBERS]) for each in there},
+                "hinges": {each: floats(values) for each, values in hinges.items()},
+            }
+        )
+    return made

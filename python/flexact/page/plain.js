@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+"use strict";
+// Starts a page without a drawing.
+
+Theme.listen(() => {});
+Printing.listen(null);

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+"use strict";
+// What lies under the pointer: a node, else a member or a hinge.
+
+const Pointing = (() => {
+  const REACH = 8; // pixels
+
+  class Pointing {
+    /** `found({kind, row, x, y})` is called when something else is pointed at; null for nothing. */
+    constructor(stage, state, found) {
+      Object.assign(this, { stage, state, found });
+      this.raycaster = new THREE.Raycaster();
+      const { canvas } = stage;
+      canvas.addEventListener("pointermove", (event) => {
+        if (event.buttons) this.clear();
+        else this.later(event);
+      });
+      canvas.addEventListener("pointerup", (event) => this.later(event));
+      canvas.addEventListener("pointerleave", () => this.clear());
+    }
+
+    /** Look once a frame at most. */
+    later(event) {
+      this.place = [event.offsetX, event.offsetY];
+      if (this.waiting) return;
+      this.waiting = requestAnimationFrame(() => {
+        this.waiting = 0;
+        if (this.place) this.tell(this.look(...this.place));
+      });
+    }
+
+    clear() {
+      this.place = null;
+      this.tell(null);
+    }
+
+    tell(target) {
+      if (!target && !this.last) return;
+      this.last = target;
+      this.found(target);
+    }
+
+    look(x, y) {
+      return this.nodeAt(x, y) || this.solidAt(x, y);
+    }
+
+    nodeAt(x, y) {
+      const { stage, state } = this;
+      let best = null, least = REACH;
+      for (const node of PageData.array(state.data.nodes.placed)) {
+        const [nx, ny] = stage.project(...state.place(node));
+        const distance = Math.hypot(nx - x, ny - y);
+        if (distance < least) {
+          least = distance;
+          best = { kind: "node", row: node, x, y };
+        }
+      }
+      return best;
+    }
+
+    solidAt(x, y) {
+      const { stage, state } = this;
+      const pointer = new THREE.Vector2(
+        (x / stage.width) * 2 - 1, 1 - (y / stage.height) * 2);
+      this.raycaster.setFromCamera(pointer, stage.camera);
+      const bodies = [...state.members.solids, state.hinges.copies.mesh];
+      const [hit] = this.raycaster.intersectObjects(bodies, false);
+      if (!hit) return this.lineAt(x, y);
+      const row = hit.object.owner ? hit.object.owner[hit.faceIndex] : hit.instanceId;
+      return { kind: hit.object.owner ? "member" : "hinge", row, x, y };
+    }
+
+    /** A thin member close by. */
+    lineAt(x, y) {
+      const { stage, state } = this;
+      const { plan, shape } = state.members;
+      let best = null, least = REACH;
+      for (let m = 0; m < plan.count; m++) {
+        let before = null;
+        for (let s = plan.station[m]; s < plan.station[m + 1]; s++) {
+          const place = stage.project(...shape.centre.subarray(3 * s, 3 * s + 3));
+          const distance = before ? fromSegment(x, y, before, place) : Infinity;
+          if (distance < least) {
+            least = distance;
+            best = { kind: "member", row: m, x, y };
+          }
+          before = place;
+        }
+      }
+      return best;
+    }
+  }
+
+  function fromSegment(x, y, [ax, ay], [bx, by]) {
+    const dx = bx - ax, dy = by - ay;
+    const square = dx * dx + dy * dy;
+    const share = square ? Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / square)) : 0;
+    return Math.hypot(ax + share * dx - x, ay + share * dy - y);
+  }
+
+  return { Pointing };
+})();

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+"use strict";
+// On paper: a still of the drawing in place of the canvas, in the colours of the light page,
+// and every table open.
+
+const Printing = (() => {
+  const RATIO = 2; // pixels of the still for one of the canvas
+
+  function listen(viewer) {
+    const still = document.getElementById("print");
+    let closed = [];
+    let theme = null;
+    window.addEventListener("beforeprint", () => {
+      const root = document.documentElement;
+      theme = root.dataset.theme;
+      root.dataset.theme = "light";
+      closed = Array.from(document.querySelectorAll("details:not([open])"));
+      for (const each of closed) each.open = true;
+      if (viewer) draw(viewer, still);
+    });
+    window.addEventListener("afterprint", () => {
+      for (const each of closed) each.open = false;
+      if (theme) document.documentElement.dataset.theme = theme;
+      else delete document.documentElement.dataset.theme;
+      if (viewer) viewer.dress();
+    });
+  }
+
+  function draw(viewer, still) {
+    const { stage } = viewer;
+    const { renderer } = stage;
+    const ratio = renderer.getPixelRatio();
+    viewer.dress();
+    renderer.setPixelRatio(RATIO);
+    stage.draw();
+    still.width = stage.width * RATIO;
+    still.height = stage.height * RATIO;
+    const context = still.getContext("2d");
+    context.drawImage(stage.canvas, 0, 0, still.width, still.height);
+    context.drawImage(viewer.overlay.canvas, 0, 0, still.width, still.height);
+    renderer.setPixelRatio(ratio);
+    stage.draw();
+  }
+
+  return { listen };
+})();

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The head of the page: the verdict in words, with a sign and a colour; what helps, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ..result.result import Result
+from ..result.verdict import Certainty, Verdict
+from ..text.advice import lines_on_motions, lines_on_self_stresses
+from ..text.decision import decision
+from ..text.describe import VerdictInWords, verdict_in_words
+from ..text.sentences import Line
+from .markup import flowing, paragraphs, row, section, table, text
+
+#: Class of the page and sign, told apart without colours.
+KINDS = {
+    Verdict.EXACT: ("exact", "\N{CHECK MARK}"),
+    Verdict.UNDER: ("under", "\N{LEFT RIGHT ARROW}"),
+    Verdict.OVER: ("over", "\N{RIGHTWARDS ARROW}\N{LEFTWARDS ARROW}"),
+    Verdict.BOTH: ("both", "\N{LEFT RIGHT ARROW}!"),
+}
+BROKEN = ("broken", "\N{MULTIPLICATION X}")
+
+
+#: How many ways to fix it stand in the head.
+_WAYS = 2
+
+
+class Advised(NamedTuple):
+    """What can be done about motions and about self-stresses, the best first."""
+
+    motions: tuple[Line, ...]
+    stresses: tuple[Line, ...]
+
+
+def advised(analysis: Result) -> Advised:
+    """What can be done; nothing where nothing need be."""
+    return Advised(lines_on_motions(analysis), lines_on_self_stresses(analysis))
+
+
+def head(
+    kind: str, sign: str, verdict: VerdictInWords, about: str, certainty: str = "", todo: str = ""
+) -> str:
+    """The first lines of the page; all but the sign and the verdict are HTML."""
+    return (
+        f'<header class="verdict {kind}"><h1><span class="sign" aria-hidden="true">{sign}</span>'
+        f"<span><b>{text(verdict.start)}:</b> {text(verdict.reason)}{certainty}</span></h1>"
+        f'<p class="about">{about}</p>{todo}'
+        '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
+    )
+
+
+def verdict(analysis: Result, name: str, advice: Advised) -> str:
+    """The head of the page of a result: what is wrong, how sure that is, and what helps."""
+    kind, sign = KINDS[analysis.verdict]
+    if analysis.certainty is not Certainty.CERTAIN:
+        sign += "?"
+    about = " ".join(_about(analysis, name))
+    return head(kind, sign, verdict_in_words(analysis), about, _certainty(analysis), _todo(advice))
+
+
+def _certainty(analysis: Result) -> str:
+    if analysis.certainty is Certainty.CERTAIN:
+        return ' <span class="sure">Certain.</span>'
+    counts = (analysis.under_constrained, analysis.over_constrained)
+    under, over = analysis.nearly or counts
+    other = (
+        f": there may be {under} motion{'s' * (under != 1)} and "
+        f"{over} self-stress{'es' * (over != 1)}"
+    ) * ((under, over) != counts)
+    return f' <a class="sure doubt" href="#decision">Nearly certain only{other}.</a>'
+
+
+def _todo(advice: Advised) -> str:
+    """The first ways to fix it, and where the others are."""
+    kinds = (("Motion", advice.motions), ("Self-stress", advice.stresses))
+    told = [(f"<b>{kind}:</b> ", sentences[0]) for kind, sentences in kinds if sentences]
+    shown = "".join(
+        f"<li>{kind if len(told) > 1 else ''}{flowing(first.shortened(_WAYS))}</li>"
+        for kind, first in told
+    )
+    return f'<ul class="todo">{shown}</ul>' if shown else ""
+
+
+def advice_part(advice: Advised) -> str:
+    """All that can be done."""
+    kinds = (("About motions", advice.motions), ("About self-stresses", advice.stresses))
+    both = all(sentences for _, sentences in kinds)
+    parts = [
+        (f"<h3>{kind}</h3>" if both else "") + paragraphs(sentences)
+        for kind, sentences in kinds
+        if sentences
+    ]
+    return section("remedies", "What can be done", *parts)
+
+
+def _about(analysis: Result, name: str) -> Iterator[str]:
+    if name:
+        yield f'<span class="name">{text(name)}</span>'
+    yield (
+        f'<span class="fact">D(c) {analysis.rows} \N{MULTIPLICATION SIGN} {analysis.columns}, '
+        f"rank {analysis.rank}</span>"
+    )
+    freedom = analysis.degrees_of_freedom
+    yield f'<span class="fact">{freedom} degree{"s" * (freedom != 1)} of freedom declared</span>'
+
+
+def decision_part(analysis: Result) -> str:
+    """Counts by class, rank, gap, certainty, margin and condition."""
+    heads = ("", *analysis.counts.coordinates._fields)
+    rows = (
+        row(name, *(str(value) for value in part))
+        for name, part in analysis.counts._asdict().items()
+    )
+    counts = table(heads, rows, kind="counts")
+    return section("decision", "Counts and decision", counts, paragraphs(decision(analysis)))

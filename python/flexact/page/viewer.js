@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+"use strict";
+// The viewer: puts the parts together, and shows movements and self-stresses.
+
+const Viewer = (() => {
+  const $ = (id) => document.getElementById(id);
+  const HEAVY = 300; // members
+  const CHROME = {
+    light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53] },
+    dark: { mark: [1, 0.83, 0.25], ghost: [0.62, 0.66, 0.72] },
+  };
+
+  class Viewer {
+    constructor(data, context) {
+      this.data = data;
+      this.pose = Tracks.reference(data);
+      this.movement = this.stress = null;
+      this.quantity = "";
+      this.layers = { diagram: false, ghost: true, arrows: true, symbols: true };
+      this.stage = new Stage.Stage($("canvas"), context, data);
+      this.members = new Members.Members(data);
+      this.hinges = new Symbols.Hinges(data);
+      this.supports = new Symbols.Supports(data);
+      this.joints = new Symbols.Joints(data);
+      this.freedoms = new Symbols.Freedoms(data);
+      this.displacements = new Symbols.Displacements(data.colours.arrow);
+      this.nodeMark = new Symbols.NodeMark();
+      this.diagram = new Diagram.Diagram(this.members);
+      this.overlay = new Overlay.Overlay($("overlay"), this.stage, data, this);
+      this.player = new Tracks.Player((phase) => this.movePhase(phase));
+      this.assemble();
+      this.index();
+    }
+
+    assemble() {
+      const { stage } = this;
+      for (const part of [this.members, this.hinges, this.supports, this.joints, this.freedoms,
+        this.displacements, this.diagram]) stage.scene.add(part.group);
+      stage.scene.add(this.nodeMark.mesh);
+      stage.before.push((time) => this.player.step(time));
+      stage.after.push(() => this.overlay.draw());
+      stage.heavy = this.members.plan.count > HEAVY;
+      stage.slow = stage.heavy && stage.software;
+      stage.lightened = (on) => this.lighten(on);
+      this.follow();
+      this.members.keepGhost();
+      this.landmarks = this.landmarksNow();
+      stage.swing = (look) => this.swing(look);
+      stage.look("iso");
+    }
+
+    /** Leave out what takes long to draw, or draw it again. */
+    lighten(on) {
+      this.members.lighten(on);
+      this.showLayers();
+      if (!on) return;
+      this.members.ghost.visible = false;
+      this.supports.group.visible = this.joints.group.visible = false;
+    }
+
+    /** Call `look` in the reference and at both ends of the movement. */
+    swing(look) {
+      for (const phase of this.movement ? [0, -1, 1] : [0]) {
+        this.movePhase(phase);
+        look();
+      }
+      if (this.movement) this.movePhase(this.player.phase);
+    }
+
+    /** Rows of the drawing by the numbers of elements and nodes. */
+    index() {
+      const rows = (packed) => new Map(Array.from(PageData.array(packed), (n, i) => [n, i]));
+      this.memberOf = rows(this.data.members.number);
+      this.hingeOf = rows(this.data.hinges.number);
+      this.nodeOf = rows(this.data.nodes.number);
+    }
+
+    /** Draw everything in the present pose. */
+    follow() {
+      this.members.move(this.pose);
+      for (const part of [this.hinges, this.supports, this.joints, this.freedoms, this.nodeMark]) {
+        part.move(this.pose);
+      }
+      this.drawDiagram();
+      this.stage.request();
+    }
+
+    movePhase(phase) {
+      if (this.movement) Tracks.move(this.pose, this.data, this.movement, phase);
+      this.follow();
+    }
+
+    showMovement(which) {
+      this.pose = Tracks.reference(this.data);
+      this.movement = this.data.movements[which] || null;
+      this.showLayers();
+      if (this.movement) {
+        this.pointArrows();
+        this.player.begin();
+      } else this.follow();
+      this.stage.refit();
+      this.refresh();
+    }
+
+    /** Arrows from the reference to the largest displacement: of nodes, and of bent members. */
+    pointArrows() {
+      Tracks.move(this.pose, this.data, this.movement, 1);
+      this.members.move(this.pose);
+      this.displacements.show(this.landmarks, this.landmarksNow());
+    }
+
+    landmarksNow() {
+      const { plan } = this.members;
+      const made = [];
+      for (const node of PageData.array(this.data.nodes.placed)) {
+        made.push(...this.place(node));
+      }
+      for (let m = 0; m < plan.count; m++) {
+        if (plan.stations[m] > 2) made.push(...this.members.middle(m));
+      }
+      return made;
+    }
+
+    showStress(which) {
+      this.stress = this.data.stresses[which] || null;
+      this.showQuantity(this.stress ? this.stress.dominant : this.quantity);
+    }
+
+    showQuantity(quantity) {
+      this.quantity = quantity;
+      this.paint();
+      this.refresh();
+    }
+
+    values() {
+      const packed = this.stress && this.stress.members[this.quantity];
+      return packed ? PageData.array(packed) : null;
+    }
+
+    paint() {
+      const { stress, quantity } = this;
+      if (!stress) {
+        this.members.paintOwn();
+        this.hinges.paintOwn();
+      } else {
+        const largest = stress.largest[quantity];
+        const none = new Float32Array(2 * this.members.plan.count);
+        this.members.paintValues(this.values() || none, largest);
+        const packed = stress.hinges[quantity];
+        this.hinges.paintValues(packed && PageData.array(packed), largest, this.data.stops);
+      }
+      this.drawDiagram();
+      this.legend();
+      this.stage.request();
+    }
+
+    drawDiagram() {
+      const { stress, quantity } = this;
+      const values = this.layers.diagram && this.values();
+      this.diagram.show(values ? quantity : "", values, stress ? stress.largest[quantity] : 0);
+    }
+
+    legend() {
+      const { stress, quantity, data } = this;
+      $("legend").hidden = !stress;
+      if (!stress) return;
+      const largest = stress.largest[quantity] || 0;
+      $("legend-bar").style.background = PageData.gradient(data.stops);
+      $("legend-name").textContent = `${quantity} [${Words.unitOf(quantity)}]`;
+      $("legend-low").textContent = largest ? Words.number(-largest) : "";
+      $("legend-high").textContent = largest ? Words.number(largest) : "";
+      $("legend-note").textContent = data.sides[quantity];
+    }
+
+    play(on) {
+      this.player.playing = on;
+      this.stage.request();
+      this.refresh();
+    }
+
+    amplify(amplitude) {
+      this.player.amplitude = amplitude;
+      this.movePhase(this.player.phase);
+    }
+
+    layer(name, on) {
+      this.layers[name] = on;
+      if (name === "elements") this.elementLabels = on;
+      if (name === "nodes") this.nodeLabels = on;
+      this.showLayers();
+      this.drawDiagram();
+      this.stage.refit();
+      this.stage.request();
+    }
+
+    showLayers() {
+      this.members.ghost.visible = Boolean(this.movement && this.layers.ghost);
+      this.displacements.group.visible = Boolean(this.movement && this.layers.arrows);
+      this.joints.group.visible = true;
+      for (const part of [this.supports, this.freedoms]) part.group.visible = this.layers.symbols;
+    }
+
+    /** Mark an element or a node by its number. */
+    mark({ element, node }) {
+      this.members.mark(this.memberOf.has(element) ? [this.memberOf.get(element)] : []);
+      this.nodeMark.node = this.placeOf(element, node);
+      this.nodeMark.move(this.pose);
+      this.stage.request();
+    }
+
+    /** The position node where a hinge or a node stands, by its number; -1 where none is known. */
+    placeOf(element, node) {
+      const hinge = this.hingeOf.get(element), index = this.nodeOf.get(node);
+      if (hinge !== undefined) return PageData.array(this.data.hinges.node)[hinge];
+      return index === undefined ? -1 : PageData.array(this.data.nodes.place)[index];
+    }
+
+    /** Where a position node is in the present pose. */
+    place(node) {
+      return this.pose.position.subarray(3 * node, 3 * node + 3);
+    }
+
+    /** Bring an element or a node into the middle. */
+    visit({ element, node }) {
+      const row = this.memberOf.get(element);
+      const place = this.placeOf(element, node);
+      if (row !== undefined) this.stage.centre(...this.members.middle(row));
+      else if (place >= 0) this.stage.centre(...this.place(place));
+      $("drawing").scrollIntoView({ block: "nearest" });
+    }
+
+    /** Lines about what is pointed at. */
+    describe({ kind, row }) {
+      if (kind === "node") return Words.node(this.data, row, this.pose, this.movement);
+      return Words[kind](this.data, row, this.stress);
+    }
+
+    /** The number by which the tables know what is pointed at. */
+    targetOf({ kind, row }) {
+      const { nodes, members, hinges } = this.data;
+      const { number } = { node: nodes, member: members, hinge: hinges }[kind];
+      return { [kind === "node" ? "node" : "element"]: PageData.array(number)[row] };
+    }
+
+    /** The page has become light or dark. */
+    dress() {
+      const chrome = CHROME[Theme.isDark() ? "dark" : "light"];
+      this.members.dress(chrome);
+      this.nodeMark.dress(chrome);
+      this.stage.request();
+    }
+
+    refresh() {
+      const { movement, stress, quantity, player } = this;
+      if (this.controls) {
+        this.controls.refresh({
+          movement, stress, quantity, playing: player.playing,
+          quantities: stress ? Object.keys(stress.members).concat(Object.keys(stress.hinges)) : [],
+          bending: quantity.startsWith("M"),
+        });
+      }
+      $("shown").textContent = this.caption();
+    }
+
+    caption() {
+      const { movement, stress, quantity, data } = this;
+      const parts = [];
+      if (movement) parts.push(`${movement.title}. ${movement.note}`);
+      if (stress) parts.push(`${stress.title}: ${data.meaning[quantity]}.`);
+      return parts.join(" ") || "The reference configuration.";
+    }
+  }
+
+  return { Viewer };
+})();

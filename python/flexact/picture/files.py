@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures as files, the same whenever they are made: PNG, SVG, and frames as a GIF."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import TYPE_CHECKING, Any
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: What would differ from run to run is left out; identifiers follow from what is drawn.
+_SVG: Any = {"svg.fonttype": "none", "svg.hashsalt": "flexact"}
+_NOTHING = {"Date": None, "Creator": None, "Format": None, "Type": None}
+#: A path's data, and what is left out of its numbers: less than a hundredth of a point.
+_PATH, _DIGITS = re.compile(r'<path [^>]*?\bd="[^"]*"'), re.compile(r"(\.\d\d)\d+")
+#: Colours of a GIF.
+_COLOURS = 160
+
+
+def pixels(figure: Figure) -> np.ndarray:
+    """(height, width, 3) the figure, 8 bits a colour."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    canvas: Any = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+def png_bytes(figure: Figure) -> bytes:
+    """The figure as a PNG; matplotlib's own name and version are left out."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", metadata={"Software": None})
+    return buffer.getvalue()
+
+
+def svg_bytes(figure: Figure, title: str, description: str) -> bytes:
+    """The figure as SVG, with a title and a description for those who do not see it."""
+    import matplotlib
+
+    buffer = io.BytesIO()
+    with matplotlib.rc_context(_SVG):
+        figure.savefig(buffer, format="svg", metadata=_NOTHING)
+    text = buffer.getvalue().decode("utf-8")
+    text = _PATH.sub(lambda path: _DIGITS.sub(r"\1", path[0]), text)
+    head, root, rest = text.partition("<svg ")
+    attributes, end, content = rest.partition(">")
+    told = f"\n <title>{escape(title)}</title>\n <desc>{escape(description)}</desc>"
+    return f'{head}{root}role="img" {attributes}{end}{told}{content}'.encode()
+
+
+def gif_bytes(drawings: list[np.ndarray], order: list[int], duration: int) -> bytes:
+    """Drawings (height, width, 3) as frames that run without end, each shown so long [ms].
+
+    `order` says which drawing each frame shows. One palette and no dithering: colours stay what
+    and where they are from frame to frame.
+    """
+    from PIL import Image
+
+    every = Image.fromarray(np.concatenate(drawings)).quantize(_COLOURS, dither=Image.Dither.NONE)
+    index = np.asarray(every)
+    palette = np.reshape(every.getpalette() or [], (-1, 3))
+    # White, in the corner, stays white.
+    palette[index[0, -1]] = 255
+    made = []
+    for each in np.split(index, len(drawings)):
+        made.append(Image.fromarray(each))
+        made[-1].putpalette(palette.ravel().tolist())
+    buffer = io.BytesIO()
+    made[order[0]].save(
+        buffer,
+        format="GIF",
+        save_all=True,
+        append_images=[made[k] for k in order[1:]],
+        duration=duration,
+        loop=0,
+        optimize=False,
+        disposal=1,
+    )
+    return buffer.getvalue()

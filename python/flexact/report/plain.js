@@ -1,5 +1,0 @@
-"use strict";
-// Starts a page without a scene.
-
-Theme.listen(() => {});
-Printing.listen(null);

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a sound model to the decomposition of its D(c)."""
+
+from __future__ import annotations
+
+import math
+
+from ..base import memory
+from ..base.errors import FlexactError
+from ..core import calls
+from ..core.arrays import IntArray
+from ..core.progress import Progress, reported
+from ..core.raw import RawAnalysis
+from ..model.data import ModelData
+from .outcome import Asked
+
+
+class AnalysisError(FlexactError):
+    """A sound model that could not be analysed: too large, or no convergence."""
+
+
+#: How the core may fail, in words.
+_FAILURES = {
+    "convergence": "the decomposition of D(c) did not converge",
+    "library": "this build of Flexact has no SuiteSparse, which the method 'sparse' needs: "
+    "install it (apt-get install libsuitesparse-dev), then build Flexact again",
+}
+#: Methods that were there once, and what serves instead.
+_REMOVED = {"qr": "use svd, or auto"}
+
+
+def asked_for(method: str, tolerance: float | None) -> Asked:
+    """What an analysis is asked for, if there is such a thing.
+
+    Raises:
+        TypeError: the method is no text, or the tolerance no number.
+        ValueError: there is no such method, or the tolerance is negative or not finite.
+    """
+    return Asked(_checked_method(method), _checked_tolerance(tolerance))
+
+
+def _checked_method(method: str) -> str:
+    if not isinstance(method, str):
+        raise TypeError(f"a method is given by its name, not by {type(method).__name__}")
+    if method in _REMOVED and method not in calls.METHODS:
+        raise ValueError(f"the method {method!r} was removed; {_REMOVED[method]}")
+    if method not in calls.METHODS:
+        choices = ", ".join(calls.METHODS)
+        raise ValueError(f"there is no method {method!r}; choose from {choices}")
+    return method
+
+
+def _checked_tolerance(tolerance: float | None) -> float | None:
+    if tolerance is None:
+        return None
+    if isinstance(tolerance, (str, bytes, bytearray, bool)):
+        raise TypeError(f"the tolerance must be a number, not {type(tolerance).__name__}")
+    try:
+        value = float(tolerance)
+    except TypeError:
+        kind = type(tolerance).__name__
+        raise TypeError(f"the tolerance must be a number, not {kind}") from None
+    if not (math.isfinite(value) and value >= 0.0):
+        raise ValueError(f"the tolerance must be finite and not negative, not {value}")
+    return value
+
+
+def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -> RawAnalysis:
+    """Decompose D(c) of a model.
+
+    Raises:
+        DeckError: the model's deck is wrong.
+        ModelError: the model is wrong.
+        AnalysisError: it is too large for the memory, there was no convergence, or this build
+            lacks what the method needs.
+    """
+    data.require_sound()
+    # Below a bound of what it may need, nobody has to look how much there is.
+    most = data.packed.nodes.size + data.packed.elements.size
+    room = memory.allowance(memory.dense_needed(most, most))
+
+    def work(stage: IntArray | None) -> RawAnalysis:
+        return calls.analyse_model(data.packed, *asked, stage, room)
+
+    try:
+        raw = work(None) if progress is None else reported(work, progress)
+    except MemoryError:
+        raise AnalysisError(_too_large(data, None)) from None
+    if raw.error == "memory":
+        raise AnalysisError(_too_large(data, raw.bytes_needed))
+    if raw.error != "none":
+        raise AnalysisError(_FAILURES.get(raw.error, f"the core failed ({raw.error})"))
+    return raw
+
+
+def _too_large(data: ModelData, needed: float | None) -> str:
+    size = "" if needed is None else f"about {needed / 1e9:.3g} GB of memory, "
+    return (
+        f"D(c) has {data.count.rows} rows and {data.count.columns} columns; its decomposition "
+        f"needs {size}more {'' if size else 'memory '}than there is"
+    )

@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motions and self-stresses: what the null spaces of D(c) mean at nodes and elements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from operator import eq
+from typing import Generic, TypeVar, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..base.frozen import Frozen
+from ..core.arrays import FloatArray, IntArray
+from ..core.elements import Dual, NodeKind, coordinate_name, dual_table
+from ..model.data import ModelData
+from .outcome import Outcome
+
+#: Parts of a mode below this part of its largest are not named.
+_UNNAMED = 1.0e-9
+#: How many modes of a row stand in its `repr`.
+_TOLD = 12
+
+
+#: Rows or columns of D(c): all of them, or those of an array.
+Places = IntArray | slice
+_ALL = slice(None)
+
+
+def column_weights(analysis: Outcome, columns: Places = _ALL) -> FloatArray:
+    """(columns,) 1 for a displacement, the characteristic length for a rotation."""
+    kinds = analysis.data.arrays.node_kind[analysis.raw.column_label[0, columns] - 1]
+    return np.where(kinds <= NodeKind.POSITION, 1.0, analysis.characteristic_length)
+
+
+def row_duals(analysis: Outcome, rows: Places = _ALL) -> NDArray[np.int32]:
+    """(rows,) `Dual` of rows of D(c)."""
+    element, deformation = analysis.raw.row_label[:, rows] - 1
+    table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
+    return table
+
+
+def row_factors(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
+    """(rows,) what makes a force or a moment of a stress resultant: 1, or l0 [m]."""
+    over_length = row_duals(analysis, rows) == Dual.MOMENT_OVER_LENGTH
+    return np.where(
+        over_length, analysis.data.frames.length[analysis.raw.row_label[0, rows] - 1], 1.0
+    )
+
+
+def row_weights(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
+    """(rows,) what makes a stress resultant comparable with a force.
+
+    A moment is divided by the characteristic length.
+    """
+    moment = row_duals(analysis, rows) != Dual.FORCE
+    return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)
+
+
+def ranked(weighted: FloatArray, most: int) -> list[int]:
+    """Indices of the largest entries; those of practically one size in their order."""
+    size = np.abs(weighted)
+    largest = size.max(initial=0.0)
+    if not largest > 0.0:
+        return []
+    rounded = np.round(size / largest, 9)
+    least = np.partition(rounded, -most)[-most] if 0 < most < size.size else 0.0
+    able = np.flatnonzero((rounded > _UNNAMED) & (rounded >= least))
+    chosen: list[int] = able[np.argsort(-rounded[able], kind="stable")][:most].tolist()
+    return chosen
+
+
+@dataclass(frozen=True, repr=False)
+class Motion(Frozen):
+    """A kinematically indeterminate motion: velocities that nothing determines.
+
+    Attributes:
+        index: Which one of the analysis, from 0.
+        analysis: The analysis it belongs to.
+    """
+
+    index: int
+    analysis: Outcome
+
+    @property
+    def data(self) -> ModelData:
+        """The model whose coordinates it is a motion of."""
+        return self.analysis.data
+
+    @property
+    def vector(self) -> FloatArray:
+        """(n,) column of V: the dependent coordinates [m, rad], of unit norm."""
+        column = self.analysis.raw.motions.vector(self.index)
+        column.flags.writeable = False
+        return column
+
+    @cached_property
+    def displacement(self) -> FloatArray:
+        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
+        return self._at_nodes(positions=True)
+
+    @cached_property
+    def rotation(self) -> FloatArray:
+        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
+        return self._at_nodes(positions=False)
+
+    def _at_nodes(self, positions: bool) -> FloatArray:
+        kinds = self.analysis.data.arrays.node_kind
+        place, value = self.analysis.raw.motions.entries(self.index)
+        node, axis = self.analysis.raw.column_label[:, place] - 1
+        chosen = (kinds[node] <= NodeKind.POSITION) == positions
+        made = np.zeros((kinds.size, 3))
+        made[node[chosen], axis[chosen]] = value[chosen]
+        made.flags.writeable = False
+        return made
+
+    def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
+        """Node number, coordinate and value [m, rad] of the k largest parts.
+
+        Rotations are compared with displacements by the characteristic length.
+        """
+        analysis = self.analysis
+        place, value = analysis.raw.motions.entries(self.index)
+        order = ranked(value * column_weights(analysis, place), k)
+        node, axis = analysis.raw.column_label[:, place[order]] - 1
+        numbers = analysis.data.arrays.node_number[node].tolist()
+        names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
+        return list(zip(numbers, names, value[order].tolist(), strict=True))
+
+    def __repr__(self) -> str:
+        """Its largest parts."""
+        parts = ", ".join(f"node {n} {c} {v:.4g}" for n, c, v in self.largest(4))
+        return f"<Motion {self.index + 1}: {parts}>"
+
+
+@dataclass(frozen=True, repr=False)
+class SelfStress(Frozen):
+    """A statically indeterminate stress: stress resultants that need no load.
+
+    Attributes:
+        index: Which one of the analysis, from 0.
+        analysis: The analysis it belongs to.
+    """
+
+    index: int
+    analysis: Outcome
+
+    @property
+    def vector(self) -> FloatArray:
+        """(m,) column of U: stress resultants dual to the deformations, of unit norm."""
+        column = self.analysis.raw.stresses.vector(self.index)
+        column.flags.writeable = False
+        return column
+
+    @cached_property
+    def forces(self) -> FloatArray:
+        """(elements, 6) by deformation, where its stress resultant is a force [N]; else zero."""
+        return self._at_elements(moments=False)
+
+    @cached_property
+    def moments(self) -> FloatArray:
+        """(elements, 6) by deformation, where it is a moment [N m]; else zero.
+
+        Of a beam's torsion and bending the moment is sigma l0.
+        """
+        return self._at_elements(moments=True)
+
+    def _at_elements(self, moments: bool) -> FloatArray:
+        place, value = self.analysis.raw.stresses.entries(self.index)
+        element, deformation = self.analysis.raw.row_label[:, place] - 1
+        chosen = (row_duals(self.analysis, place) != Dual.FORCE) == moments
+        values = value * row_factors(self.analysis, place)
+        made = np.zeros((self.analysis.data.arrays.element_number.size, 6))
+        made[element[chosen], deformation[chosen]] = values[chosen]
+        made.flags.writeable = False
+        return made
+
+    def largest(self, k: int = 6) -> list[tuple[int, int, float]]:
+        """Element number, deformation and force [N] or moment [N m] of the k largest parts.
+
+        Moments are compared with forces by the characteristic length.
+        """
+        analysis = self.analysis
+        place, value = analysis.raw.stresses.entries(self.index)
+        order = ranked(value * row_weights(analysis, place), k)
+        element, deformation = analysis.raw.row_label[:, place[order]]
+        numbers = analysis.data.arrays.element_number[element - 1].tolist()
+        values = value[order] * row_factors(analysis, place[order])
+        return list(zip(numbers, deformation.tolist(), values.tolist(), strict=True))
+
+    def __repr__(self) -> str:
+        """Its largest parts."""
+        parts = ", ".join(f"element {e}, {d}: {v:.4g}" for e, d, v in self.largest(4))
+        return f"<SelfStress {self.index + 1}: {parts}>"
+
+
+Mode = TypeVar("Mode", Motion, SelfStress)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes(Frozen, Sequence[Mode], Generic[Mode]):
+    """Motions or self-stresses in a row, like a tuple; each is made when it is asked for.
+
+    Attributes:
+        kind: What they are.
+        analysis: The analysis that they belong to.
+    """
+
+    kind: type[Mode]
+    analysis: Outcome
+
+    def __len__(self) -> int:
+        """How many are given: all, or, where there are very many, the first."""
+        raw = self.analysis.raw
+        return (raw.motions if self.kind is Motion else raw.stresses).vectors
+
+    @overload
+    def __getitem__(self, index: int) -> Mode: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Mode, ...]: ...
+    def __getitem__(self, index: int | slice) -> Mode | tuple[Mode, ...]:
+        """One of them, or a tuple of several."""
+        chosen = range(len(self))[index]
+        if isinstance(chosen, range):
+            return tuple(self.kind(k, self.analysis) for k in chosen)
+        return self.kind(chosen, self.analysis)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the same ones stand in another row or tuple."""
+        if not isinstance(other, (Modes, tuple)):
+            return NotImplemented
+        return len(self) == len(other) and all(map(eq, self, other))
+
+    def __hash__(self) -> int:
+        """As of any object that does not change."""
+        return hash((self.kind, self.analysis))
+
+    def __repr__(self) -> str:
+        """The first ones."""
+        told = [repr(mode) for mode in self[:_TOLD]]
+        return f"({', '.join(told)}{', ...' if len(self) > _TOLD else ''})"

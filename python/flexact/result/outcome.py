@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an analysis found, as it came from the core, under the paper's names."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ..base import memory
+from ..base.frozen import Frozen
+from ..core import calls
+from ..core.arrays import FloatArray
+from ..core.raw import RawAnalysis, RawAssembly
+from ..model.data import ModelData
+from ..model.labels import Labels, column_labels, row_labels
+from .verdict import ClassCounts, Counts, Gap, Verdict
+
+
+class Asked(NamedTuple):
+    """How an analysis was asked to be done."""
+
+    method: str = "auto"
+    """One of `flexact.core.calls.METHODS`."""
+    tolerance: float | None = None
+    """None: it follows from the data and the arithmetic."""
+
+
+_PLAIN = Asked()
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Outcome(Frozen):
+    """The decomposition of D(c) and the decision on its rank.
+
+    Attributes:
+        name: What the deck or model is called.
+        data: The model at the time of the analysis.
+        raw: The results as the core gives them.
+        asked: The method and the tolerance that were asked for.
+    """
+
+    name: str
+    data: ModelData
+    raw: RawAnalysis
+    asked: Asked = _PLAIN
+
+    @property
+    def rank(self) -> int:
+        """Rank of D(c), decided on a scaled matrix so that units do not matter."""
+        return self.raw.rank
+
+    @property
+    def rows(self) -> int:
+        """Rows m of D(c): fixed and independent deformations, eq. (11)."""
+        return self.raw.row_scale.size
+
+    @property
+    def columns(self) -> int:
+        """Columns n of D(c): dependent coordinates, eq. (11)."""
+        return self.raw.column_scale.size
+
+    @property
+    def under_constrained(self) -> int:
+        """Number of kinematically indeterminate motions, n - rank (Table 1)."""
+        return self.columns - self.rank
+
+    @property
+    def over_constrained(self) -> int:
+        """Number of statically indeterminate stresses, m - rank (Table 1)."""
+        return self.rows - self.rank
+
+    @property
+    def verdict(self) -> Verdict:
+        """Table 1 of the paper in words."""
+        if self.under_constrained:
+            return Verdict.BOTH if self.over_constrained else Verdict.UNDER
+        return Verdict.OVER if self.over_constrained else Verdict.EXACT
+
+    @cached_property
+    def singular_values(self) -> FloatArray:
+        """Singular values of D(c) in the model's units, descending, eq. (16).
+
+        All min(m, n) of them, after the method sparse the smallest, computed when they are
+        first asked for; see `singular_values_given`.
+        """
+        values = calls.analyse_model(
+            self.data.packed, self.method, memory=memory.allowance(), only_plain_values=True
+        ).scaled_values
+        values.flags.writeable = False
+        return values
+
+    @property
+    def scaled_singular_values(self) -> FloatArray:
+        """Likewise those of the scaled D(c), on which the rank is decided."""
+        return self.raw.scaled_values
+
+    @property
+    def singular_values_given(self) -> str:
+        """Which singular values there are: "all" or the "smallest"."""
+        given = min(self.singular_values.size, self.scaled_singular_values.size)
+        return "all" if given == min(self.rows, self.columns) else "smallest"
+
+    @property
+    def method(self) -> str:
+        """How D(c) was decomposed: svd, jacobi or sparse."""
+        return self.raw.method
+
+    @property
+    def parts(self) -> int:
+        """Number of connected components of D(c), which are decomposed one by one."""
+        return self.raw.components
+
+    @property
+    def tolerance(self) -> float:
+        """Scaled singular values up to this one count as zero."""
+        return self.raw.tolerance
+
+    @property
+    def characteristic_length(self) -> float:
+        """The length [m] by which rotations and moments compare with the rest.
+
+        One where the mechanism has no extent.
+        """
+        return self.raw.characteristic_length
+
+    @cached_property
+    def gap(self) -> Gap:
+        """Smallest non-zero and largest zero of the scaled singular values."""
+        values, pairs = self.scaled_singular_values, self.raw.pair_value
+        left_out = min(self.rows, self.columns) - values.size
+        rank = max(self.rank - left_out, 0)
+        # Where only zeros are given, the core may know the value above them all the same.
+        above = values[rank - 1] if rank > 0 else next(iter(pairs), None) if self.rank else None
+        return Gap(
+            None if above is None else float(above),
+            float(values[rank]) if rank < values.size else None,
+        )
+
+    @cached_property
+    def condition_number(self) -> float | None:
+        """Largest over smallest singular value of D(c), in the model's units.
+
+        None where D(c) is rank-deficient or empty, the quotient is not finite, or the largest
+        is not given.
+        """
+        values = self.singular_values
+        full = self.rank == min(self.rows, self.columns) == values.size > 0
+        if not full or not values[-1] > 0.0:
+            return None
+        quotient = float(values[0]) / float(values[-1])
+        return quotient if math.isfinite(quotient) else None
+
+    @cached_property
+    def counts(self) -> Counts:
+        """Coordinates and deformations by class, eqs. (13) to (15)."""
+        coordinates, deformations = self.raw.counts.tolist()
+        return Counts(ClassCounts(*coordinates), ClassCounts(*deformations))
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Number of independent coordinates and deformations, eq. (6)."""
+        return self.counts.coordinates.independent + self.counts.deformations.independent
+
+    @cached_property
+    def row_labels(self) -> tuple[tuple[int, int], ...]:
+        """Element number and deformation (from 1) of each row of D(c)."""
+        return row_labels(self.data.arrays, self.raw.row_label - 1)
+
+    @cached_property
+    def column_labels(self) -> Labels:
+        """Node number and coordinate name of each column of D(c)."""
+        return column_labels(self.data.arrays, self.raw.column_label - 1)
+
+    @cached_property
+    def assembly(self) -> RawAssembly:
+        """The whole Jacobian in the reference configuration, as the core numbers it."""
+        arrays = self.data.arrays
+        return calls.assemble(
+            self.data.packed, arrays.node_value, np.zeros(arrays.element_number.size)
+        )

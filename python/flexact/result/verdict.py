@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Verdict, counts, gap, certainty and margin: the small parts of a result."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+
+class Verdict(str, Enum):
+    """What Table 1 of the paper says about rows, columns and rank of D(c)."""
+
+    EXACT = "exactly constrained"
+    UNDER = "under-constrained"
+    OVER = "over-constrained"
+    BOTH = "under-constrained and over-constrained"
+
+    def __str__(self) -> str:
+        """The words themselves."""
+        return self.value
+
+    @property
+    def colour(self) -> str:
+        """In pictures and pages on white, as #rrggbb; the words always stand beside it."""
+        return _COLOURS[self]
+
+
+_COLOURS = {
+    Verdict.EXACT: "#15774a",
+    Verdict.UNDER: "#b25406",
+    Verdict.OVER: "#b3261e",
+    Verdict.BOTH: "#93205e",
+}
+
+
+class ClassCounts(NamedTuple):
+    """How many coordinates or deformations there are of each class, eq. (7)."""
+
+    total: int
+    fixed: int
+    dependent: int
+    independent: int
+
+
+class Counts(NamedTuple):
+    """Counts by class; a dependent deformation is a released one."""
+
+    coordinates: ClassCounts
+    deformations: ClassCounts
+
+
+class Gap(NamedTuple):
+    """The scaled singular values on both sides of the decision on rank, None without one."""
+
+    smallest_nonzero: float | None
+    largest_zero: float | None
+
+    @property
+    def ratio(self) -> float | None:
+        """The zero over the other; None without one of them."""
+        if self.smallest_nonzero is None or self.largest_zero is None:
+            return None
+        return self.largest_zero / self.smallest_nonzero
+
+
+class Certainty(str, Enum):
+    """Whether the geometry could be meant with another rank than was decided."""
+
+    CERTAIN = "certain"
+    NEARLY = "nearly"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+class Nearly(NamedTuple):
+    """The counts that hold if every singular value in doubt is zero."""
+
+    under_constrained: int
+    over_constrained: int
+
+
+class Margin(NamedTuple):
+    """The smallest misalignment that changes the verdict, to first order; None where none does."""
+
+    length: float | None
+    """By so much one node must be moved [m]."""
+    angle: float | None
+    """By so much one element must be turned about its centre [rad]."""
+    node: int | None
+    """Number of that node."""
+    element: int | None
+    """Number of that element."""
+    singular_value: float | None
+    """The value of the scaled D(c) that becomes zero, or is zero and becomes non-zero."""

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lines of text whose parts are known: broken into lines, or linked with a drawing, at the end."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable
+from typing import NamedTuple
+
+_WIDTH = 100
+_INDENT = "     "
+#: Holds the words of one item together while lines are broken.
+_TIE = "\N{NO-BREAK SPACE}"
+
+
+class Named(NamedTuple):
+    """An element or a node that a text names."""
+
+    kind: str
+    """"element" or "node"."""
+    number: int
+
+    def __str__(self) -> str:
+        """Such as "node 5"."""
+        return f"{self.kind} {self.number}"
+
+
+Piece = str | Named
+#: Words that follow each other without further blanks.
+Pieces = tuple[Piece, ...]
+
+
+class Line(NamedTuple):
+    """A sentence, or the start of one and what it lists."""
+
+    head: Pieces
+    items: tuple[Pieces, ...] = ()
+    note: str = ""
+    """Stands behind the first item."""
+    more: bool = False
+    """Whether there are more items than these."""
+
+    def shortened(self, most: int) -> Line:
+        """The line with its first items."""
+        return self._replace(items=self.items[:most], more=self.more or len(self.items) > most)
+
+    def listed(self) -> tuple[tuple[Pieces, str], ...]:
+        """The items, each with what stands behind it: the note behind the first."""
+        behind = f" {self.note}" if self.note else ""
+        return tuple((item, behind * (place == 0)) for place, item in enumerate(self.items))
+
+
+def sentence(*pieces: Piece) -> Line:
+    """A line without items."""
+    return Line(pieces)
+
+
+def plain(pieces: Iterable[Piece]) -> str:
+    """The pieces as text."""
+    return "".join(map(str, pieces))
+
+
+def _tied(words: str) -> str:
+    return words.replace(" ", _TIE)
+
+
+def filled(line: Line) -> str:
+    """A line as text of at most a hundred characters a row; items are not torn apart."""
+    items = [_tied(plain(item)) + note[:1] + _tied(note[1:]) for item, note in line.listed()]
+    text = plain(line.head) + "; ".join(items + ["..."] * line.more)
+    indent = _INDENT if line.items else ""
+    return textwrap.fill(
+        text,
+        _WIDTH,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    ).replace(_TIE, " ")

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Warnings about a decision in words: the doubts, and what a small misalignment would change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..diagnostics.diagnostic import Diagnostic, Severity
+from ..result.certainty import CLOSE, Doubt, DoubtKind
+from ..result.result import Result
+
+#: A smallest non-zero singular value below this part of the largest is worth a warning.
+_NEARLY_ZERO = 1.0e-5
+_ALL_DIGITS = "give the geometry with all its digits"
+_LOOK = "look at the geometry; far from the origin, move it there"
+
+
+def warnings_of(result: Result) -> tuple[Diagnostic, ...]:
+    """Warnings and notes about the model, then about the decision on its rank."""
+    return (*result.data.problems.kept, *_of_the_decision(result))
+
+
+def _of_the_decision(result: Result) -> Iterator[Diagnostic]:
+    doubts = result.assessment.doubts
+    for doubt in doubts:
+        yield warning_of(result, doubt)
+    small, largest = result.gap.smallest_nonzero, max(result.scaled_singular_values, default=0.0)
+    if small is not None and small < _NEARLY_ZERO * largest and not doubts:
+        yield Diagnostic(
+            Severity.WARNING,
+            "close-decision",
+            f"the smallest singular value that counts as non-zero is {small / largest:.1e} "
+            "of the largest: a small misalignment would change the verdict",
+            help="look at the margin, and at the geometry",
+        )
+
+
+def warning_of(result: Result, doubt: Doubt) -> Diagnostic:
+    """A doubt as a warning: its code, a sentence, and what helps."""
+    sentence, advice = _words(result, doubt)
+    return Diagnostic(Severity.WARNING, doubt.code, sentence, help=advice)
+
+
+def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
+    size = f"{doubt.size:.1e}"
+    match doubt.kind:
+        case DoubtKind.UNCONFIRMED:
+            what = f"the method {result.method} did not confirm the rank by a second route"
+            return what, "analyse with the method svd"
+        case DoubtKind.CLOSE_TO_NOISE:
+            one = doubt.values == 1
+            counts = "a singular value counts" if one else f"{doubt.values} singular values count"
+            return (
+                f"{counts} as non-zero within a factor of {CLOSE:.0f} of what computing and "
+                f"rounding in the last bits may make of a zero, {size}",
+                "look at the geometry, or state with a tolerance what is to count as zero",
+            )
+        case DoubtKind.DIGITS_EXPLAIN:
+            full = result.rank == min(result.rows, result.columns)
+            what = "full rank" if full else f"rank {result.rank}"
+            return (
+                f"{what}, but a rounding of the deck's own digits explains it: the digits that "
+                f"were left out may make {size} of a zero",
+                _ALL_DIGITS,
+            )
+        case DoubtKind.COORDINATES_ROUNDED:
+            return (
+                f"singular values up to {size} count as zero because the coordinates are given "
+                "with so many digits only",
+                "give the coordinates with all their digits",
+            )
+        case DoubtKind.TOLERANCE_GIVEN:
+            what = f"singular values up to {size} count as zero because the tolerance that was "
+            return what + "given says so", ""
+        case DoubtKind.DIGITS_MAY_LIFT:
+            return (
+                "singular values count as zero in the geometry as it was typed; the digits that "
+                f"were left out may make {size} of them",
+                _ALL_DIGITS,
+            )
+        case DoubtKind.ZERO_ABOVE_STORING:
+            return (
+                f"singular values up to {size} count as zero, which is more than the rounding of "
+                "the geometry's last bits would make of a zero",
+                _LOOK,
+            )
+        case DoubtKind.REMAINDER:
+            return (
+                f"of a motion and a self-stress {size} is left in the scaled D(c), of which "
+                f"rounding in the last bits explains {doubt.explained:.1e}: their singular value "
+                "counts as zero, but may be tiny instead",
+                _LOOK,
+            )
+        case DoubtKind.FADING:
+            return (
+                f"a motion fades along the mechanism by {doubt.size:.0f} powers of ten, and so "
+                "does a self-stress: whether its singular value is zero or only tiny is beyond "
+                "the digits of the arithmetic",
+                _LOOK,
+            )

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Self-stresses along the members, against the equilibrium of every node."""
+
+import numpy as np
+import pytest
+from reference_decks import NAMES, text_of
+
+import flexact
+from flexact.core.elements import Class, Role, role_table
+from flexact.drawing import Drawing, Form, Resultants, drawing_of, resultants
+
+
+def loads_of(drawing: Drawing, values: Resultants, stress: flexact.SelfStress) -> np.ndarray:
+    """(nodes, 3) what the members and hinges pull at the nodes, by the statics of bars and beams.
+
+    From the resultants alone: the shear forces are the slopes of the bending moments. Those of
+    hinges, which nobody draws, are the forces of the self-stress itself.
+    """
+    loads = np.zeros((len(drawing.reference.position), 3))
+    members = drawing.members
+    for k in range(len(members)):
+        p, op, q, oq = members.nodes[k]
+        ex, ey, ez = members.frame[k].T
+        (n, _), (t, _), (my_p, my_q), (mz_p, mz_q) = values.members[k]
+        # M' + ex x F = 0 for a beam without loads along it.
+        # Across a link without length nothing shows the force, for it has no arm.
+        length = members.length[k] or np.inf
+        force = n * ex - (mz_q - mz_p) / length * ey + (my_q - my_p) / length * ez
+        loads[q] += force
+        loads[p] -= force
+        if op >= 0:
+            loads[op] -= t * ex + my_p * ey + mz_p * ez
+        if oq >= 0:
+            loads[oq] += t * ex + my_q * ey + mz_q * ez
+    arrays = drawing.data.arrays
+    for index, frame, (n, t, my, mz) in zip(
+        drawing.hinges.index, drawing.hinges.frame, values.hinges, strict=True
+    ):
+        roles = role_table()[arrays.element_kind[index]]
+        shear = [
+            stress.forces[index][roles == role].sum() for role in (Role.OFFSET_Y, Role.OFFSET_Z)
+        ]
+        p, op, q, oq = arrays.element_node[:, index] - 1
+        # In the plane Mz is about the global z axis, whichever way the axis of the joint is.
+        moment = np.array([0.0, 0.0, mz]) if drawing.data.planar else frame @ [t, my, mz]
+        force = frame @ [n, *shear]
+        loads[op] -= moment
+        loads[oq] += moment
+        if p >= 0:
+            arm = arrays.node_value[:3, q] - arrays.node_value[:3, p]
+            loads[q] += force
+            loads[p] -= force
+            loads[op] -= np.cross(arm, force)
+    return loads
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_self_stress_leaves_the_nodes_in_equilibrium(name: str) -> None:
+    # Members that a deck does not draw would be missing here.
+    analysis = flexact.analyse(flexact.read_text(text_of(name).replace("DONOTDRAW", "%"), name))
+    drawing = drawing_of(analysis.data)
+    free = analysis.data.arrays.coordinate_class.T == Class.DEPENDENT
+    for stress in analysis.self_stresses:
+        values = resultants(drawing, stress)
+        loads = loads_of(drawing, values, stress)
+        assert np.abs(loads).max() > 0.0 or not np.abs(values.members).max() > 0.0
+        assert np.abs(loads[free]).max(initial=0.0) <= 1e-12 * max(np.abs(loads).max(), 1.0)
+
+
+def test_the_twelve_trusses_are_half_in_tension_half_in_compression() -> None:
+    # Paper, Fig. 2(a): +-sqrt(3)/6.
+    analysis = flexact.analyse(flexact.read_text(text_of("paper/twelve_trusses")))
+    values = resultants(drawing_of(analysis.data), analysis.self_stresses[0])
+    assert values.dominant == "N"
+    force = np.sort(values["N"][:, 0])
+    np.testing.assert_allclose(force, [-np.sqrt(3) / 6] * 6 + [np.sqrt(3) / 6] * 6, rtol=1e-12)
+
+
+def test_the_clamped_folded_sheet_bends_at_its_clamped_ends_with_opposite_signs() -> None:
+    # Paper, Fig. 4(c); at the fold nothing.
+    analysis = flexact.analyse(flexact.read_text(text_of("paper/folded_sheet_clamped")))
+    drawing = drawing_of(analysis.data)
+    values = resultants(drawing, analysis.self_stresses[0])
+    assert values.dominant == "My"
+    clamped = [values["My"][0, 0], values["My"][1, 1]]
+    assert clamped[0] * clamped[1] < 0.0
+    np.testing.assert_allclose([values["My"][0, 1], values["My"][1, 0]], 0.0, atol=1e-15)
+    middle = values.along("My", np.array([0]), np.array([0.5]))
+    assert middle[0, 0] == pytest.approx(clamped[0] / 2)
+
+
+def test_six_folded_sheets_have_twelve_equal_moments() -> None:
+    # Paper, Fig. 6: at the clamped ends of all sheets; the torsion of the body is larger.
+    analysis = flexact.analyse(flexact.read_text(text_of("paper/six_folded_sheets")))
+    drawing = drawing_of(analysis.data)
+    values = resultants(drawing, analysis.self_stresses[0])
+    sheets = drawing.members.form == Form.SHEET
+    assert values.dominant == "My"
+    moments = np.abs(values["My"][sheets]).max(axis=1)
+    np.testing.assert_allclose(moments, moments[0], rtol=1e-9)
+    assert values.largest("T") > moments[0]
+
+
+def test_rounding_errors_are_no_stress() -> None:
+    analysis = flexact.analyse(flexact.read_text(text_of("paper/folded_sheet_clamped")))
+    values = resultants(drawing_of(analysis.data), analysis.self_stresses[0])
+    assert values.largest("My") > 0.01
+    assert [values.largest(each) for each in ("N", "T", "Mz")] == [0.0, 0.0, 0.0]
