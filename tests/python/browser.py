@@ -86,6 +86,14 @@ class Browser:
         """Wait until what was asked for has been drawn."""
         self.later(_DRAWN)
 
+    def enter(self, frame: int) -> None:
+        """Go into a frame; one of an origin of its own may still load when the page around it has."""
+        from selenium.webdriver.support.wait import WebDriverWait
+
+        self.driver.switch_to.frame(frame)
+        WebDriverWait(self, 60).until(lambda b: b.run("return typeof flexact") == "object")
+        self.drawn()
+
     def press(self, selector: str) -> None:
         """Click on an element, wherever it is."""
         self.run("document.querySelector(arguments[0]).click()", selector)

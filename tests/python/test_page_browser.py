@@ -486,9 +486,11 @@ def test_a_notebook_shows_the_page_in_a_frame(browser: Browser, tmp_path: Path) 
     path = write(tmp_path / "cell.html", html)
     browser.open(path)
     assert browser.console() == []
-    browser.driver.switch_to.frame(0)
+    browser.enter(0)
     browser.run("flexact.play(false)")
+    browser.drawn()
     assert browser.run("return flexact.data.movements.length") == 1
+    assert browser.console() == []
     browser.driver.switch_to.default_content()
     pixels = browser.pixels("iframe")
     assert changed(pixels, np.broadcast_to(pixels[2, 2], pixels.shape)) > 20_000
