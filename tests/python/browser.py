@@ -87,7 +87,7 @@ class Browser:
         self.later(_DRAWN)
 
     def enter(self, frame: int) -> None:
-        """Go into a frame; one of an origin of its own may still load when the page around it has."""
+        """Go into a frame, which may still load when the page around it has loaded."""
         from selenium.webdriver.support.wait import WebDriverWait
 
         self.driver.switch_to.frame(frame)
