@@ -5,29 +5,36 @@ module flexact_dense_route
    use flexact_decomposition, only: is_feasible, decompose_by, singular_values_by
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
+   use flexact_model, only: model_t
    use flexact_problem, only: problem_t
+   use flexact_proof, only: proof_t, unknown
    use flexact_rank, only: rank_rule_t, decide_rank
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_scaled_basis, only: add_scaled
    use flexact_smallest_values, only: offer_pair
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
+   use flexact_tiny_values, only: judgement_t, judge_zeros
    implicit none
    private
    public :: analyse_dense
 
-   !> Singular values of a component, descending, and all its singular vectors.
+   !> Singular values of a component, descending, and all its singular vectors; those
+   !> from rank + 1 on count as zero.
    type :: component_t
       integer, allocatable :: row(:), column(:)
       real(wp), allocatable :: values(:), u(:, :), vt(:, :)
+      integer :: rank = 0
    end type component_t
 
 contains
 
-   subroutine analyse_dense(problem, options, rule, result)
+   subroutine analyse_dense(model, problem, options, rule, proof, result)
+      type(model_t), intent(in) :: model
       type(problem_t), intent(in) :: problem
       type(options_t), intent(in) :: options
       type(rank_rule_t), intent(in) :: rule
+      type(proof_t), intent(in) :: proof
       type(result_t), intent(inout) :: result
       type(component_t), allocatable :: component(:)
       integer :: i
@@ -45,11 +52,79 @@ contains
       call merge_values(component, result)
       if (options%only_plain_values) return
       result%decision = decide_rank(rule, result%scaled_values)
+      call settle(model, problem, proof, component, result)
       do i = 1, size(component)
          call take_modes(problem, component(i), result)
          if (allocated(result%error)) return
       end do
    end subroutine analyse_dense
+
+   !> The rank of each component, where exact arithmetic or more digits know better than
+   !> the values do; where a tolerance was given, it alone decides.
+   subroutine settle(model, problem, proof, component, result)
+      type(model_t), intent(in) :: model
+      type(problem_t), intent(in) :: problem
+      type(proof_t), intent(in) :: proof
+      type(component_t), intent(inout) :: component(:)
+      type(result_t), intent(inout) :: result
+      logical :: is_raised
+      integer :: i
+
+      is_raised = .false.
+      do i = 1, size(component)
+         associate (item => component(i), proven => proof%rank(i))
+            item%rank = count(item%values > result%decision%tolerance)
+            if (result%decision%is_given .or. proven == item%rank) cycle
+            if (proven /= unknown .and. proven < item%rank) then
+               item%rank = proven
+            else if (item%rank < size(item%values)) then
+               call look_closer(model, problem, proof%as_typed, proven, item, is_raised, result)
+            end if
+         end associate
+      end do
+      if (.not. (is_raised .or. sum(component%rank) /= result%decision%rank)) return
+      result%decision%rank = sum(component%rank)
+      do i = 1, size(component)
+         ! Between values far below rounding, what counts as zero is given as zero.
+         if (is_raised) component(i)%values(component(i)%rank + 1:) = 0.0_wp
+      end do
+      call merge_values(component, result)
+      result%decision%tolerance = max(0.0_wp, maxval([(component(i)%values(component(i)%rank + 1:), i=1, size(component))]))
+   end subroutine settle
+
+   !> What the small values of a component are in truth.
+   subroutine look_closer(model, problem, as_typed, proven, item, is_raised, result)
+      type(model_t), intent(in) :: model
+      type(problem_t), intent(in) :: problem
+      logical, intent(in) :: as_typed
+      integer, intent(in) :: proven
+      type(component_t), intent(inout) :: item
+      logical, intent(inout) :: is_raised
+      type(result_t), intent(inout) :: result
+      type(judgement_t) :: judgement
+      integer :: excess
+
+      excess = merge(unknown, proven - item%rank, proven == unknown)
+      call judge_zeros(model, problem, item%row, item%column, item%u, item%values, item%vt, item%rank, excess, as_typed, judgement)
+      if (.not. judgement%is_made) then
+         result%undecided = result%undecided + max(0, excess)
+         if (proven == unknown) result%unjudged = .true.
+         return
+      end if
+      result%undecided = result%undecided + judgement%undecided
+      result%unseen = result%unseen + judgement%unseen
+      if (judgement%beyond_digits) result%unjudged = .true.
+      if (judgement%left > result%left) then
+         result%left = judgement%left
+         result%explained = judgement%explained
+      end if
+      if (judgement%nonzero == 0) return
+      is_raised = .true.
+      item%values(item%rank + 1:) = judgement%zeros%value
+      item%u(:, item%rank + 1:) = judgement%zeros%left
+      item%vt(item%rank + 1:, :) = transpose(judgement%zeros%right)
+      item%rank = item%rank + judgement%nonzero
+   end subroutine look_closer
 
    !> Bytes for U, V and the matrices of all components, and for the work on the
    !> largest.
@@ -139,10 +214,9 @@ contains
       type(problem_t), intent(in) :: problem
       type(component_t), intent(in) :: component
       type(result_t), intent(inout) :: result
-      integer :: rank, k
+      integer :: k
 
-      rank = count(component%values > result%decision%tolerance)
-      associate (row => component%row, column => component%column, scaling => problem%scaling)
+      associate (rank => component%rank, row => component%row, column => component%column, scaling => problem%scaling)
          call add_scaled(transpose(component%vt(rank + 1:, :)), column, scaling%column(column), result%motions, result%error)
          if (allocated(result%error)) return
          call add_scaled(component%u(:, rank + 1:), row, scaling%row(row), result%stresses, result%error)

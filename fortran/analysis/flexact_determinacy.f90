@@ -10,6 +10,7 @@ module flexact_determinacy
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t, make_problem
    use flexact_progress, only: stage_assembling
+   use flexact_proof, only: prove, no_proof, unknown
    use flexact_rank, only: rank_rule_t
    use flexact_result, only: options_t, result_t, method_auto, method_svd, method_sparse
    use flexact_scaling, only: rank_rule_of
@@ -45,19 +46,53 @@ contains
       result%method = options%method
       if (options%method == method_auto) result%method = choice(problem)
       call prepare(problem, result)
+      if (options%only_plain_values) then
+         call no_proof(problem%components%count, result%proof)
+      else
+         call prove(model, problem, options%prove, options%memory, result%proof)
+      end if
       if (result%method == method_sparse .and. cholmod_is_there() == 0) then
          call fail(error_library, result%error)
       else if (result%method == method_sparse) then
          call analyse_sparse(problem, options, rule, result)
-         if (.not. is_in_doubt(result) .or. cost(problem) > feasible .or. options%only_plain_values) return
+         result%unjudged = .not. result%proof%is_complete()
+         if (options%only_plain_values .or. cost(problem) > feasible) return
+         if (.not. (is_in_doubt(result) .or. disagrees(problem, result))) return
          complete%method = method_svd
          call prepare(problem, complete)
-         call analyse_dense(problem, options, rule, complete)
+         complete%proof = result%proof
+         call analyse_dense(model, problem, options, rule, result%proof, complete)
          if (.not. allocated(complete%error)) result = complete
       else
-         call analyse_dense(problem, options, rule, result)
+         call analyse_dense(model, problem, options, rule, result%proof, result)
       end if
    end subroutine analyse
+
+   !> Whether exact arithmetic has another rank than the sparse route for some component.
+   pure logical function disagrees(problem, result)
+      type(problem_t), intent(in) :: problem
+      type(result_t), intent(in) :: result
+      integer :: motions(problem%components%count), component_of(problem%partition%count%columns), i
+
+      motions = 0
+      associate (c => problem%components)
+         do i = 1, c%count
+            component_of(c%column(c%column_start(i):c%column_start(i + 1) - 1)) = i
+         end do
+      end associate
+      do i = 1, result%motions%vectors
+         associate (here => component_of(result%motions%place(result%motions%start(i))))
+            motions(here) = motions(here) + 1
+         end associate
+      end do
+      disagrees = .false.
+      do i = 1, problem%components%count
+         if (result%proof%rank(i) == unknown) cycle
+         associate (sides => shape_of(problem%components, i))
+            if (result%proof%rank(i) /= sides(2) - motions(i)) disagrees = .true.
+         end associate
+      end do
+   end function disagrees
 
    !> Operations of a complete decomposition, but for a factor.
    pure real(wp) function cost(problem)

@@ -5,6 +5,7 @@ module flexact_result
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_progress, only: progress_t
+   use flexact_proof, only: proof_t, prove_by_cost
    use flexact_rank, only: rank_t
    use flexact_sparse_basis, only: sparse_basis_t
    implicit none
@@ -30,6 +31,8 @@ module flexact_result
       !> Whether, in place of all else, the singular values of D(c) itself are wanted
       !> (by sparse the smallest), which come as scaled values then.
       logical :: only_plain_values = .false.
+      !> Whether the rank is to be proven in exact arithmetic.
+      integer :: prove = prove_by_cost
       type(progress_t) :: progress
    end type options_t
 
@@ -42,6 +45,15 @@ module flexact_result
       integer :: method = method_svd
       !> Whether error bounds, or two independent routes, support the rank.
       logical :: confirmed = .true.
+      type(proof_t) :: proof
+      !> So many values that count as zero may not be, by exact arithmetic or more digits; and
+      !> so many do not count as zero by exact arithmetic alone.
+      integer :: undecided = 0, unseen = 0
+      !> The largest of them, and what storing the geometry makes of it; zeros where that
+      !> is not known.
+      real(wp) :: left = 0.0_wp, explained = 0.0_wp
+      !> Whether there are zeros that nothing but the decomposition has seen.
+      logical :: unjudged = .false.
       type(rank_t) :: decision
       !> Singular values of the scaled matrix, descending: all of them, or the smallest.
       real(wp), allocatable :: scaled_values(:)

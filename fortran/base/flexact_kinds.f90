@@ -1,10 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The one real kind of the core.
+!> The kinds of real numbers of the core.
 module flexact_kinds
    use, intrinsic :: iso_fortran_env, only: real64
    implicit none
    private
-   public :: wp
+   public :: wp, qp
 
    integer, parameter :: wp = real64
+   integer, parameter :: wanted = selected_real_kind(30)
+   !> Of more than 30 digits, where the compiler has such a kind.
+   integer, parameter :: qp = merge(wanted, wp, wanted > 0)
 end module flexact_kinds

@@ -199,11 +199,11 @@ subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wish
    integer(c_int), intent(in) :: n, room, nn, ne
    integer(c_int), intent(in) :: nodes(5, nn), elements(12, ne)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
-   real(c_double), intent(in) :: wishes(4)
+   real(c_double), intent(in) :: wishes(5)
    integer(c_int), intent(inout), target :: stage(2)
    integer(c_int), intent(inout) :: index(3, n + 1), place(room)
    real(c_double), intent(inout) :: value(room), by_size(n, 8)
-   real(c_double), intent(out) :: facts(40)
+   real(c_double), intent(out) :: facts(48)
    type(model_t) :: model
 
    call unpack_model(nodes, places, elements, vectors, model)
@@ -213,7 +213,7 @@ end subroutine analyse_model
 ! What small changes of the geometry make of the singular values of pairs of
 ! vectors of D(c) (flexact_sensitivity). modes: k times the rows of a left vector,
 ! then the columns of a right one; pair: which two belong together, from 1.
-! effect: lifts by the last bits and by the digits typed, largest effects of
+! effect: lifts by the last bits, the digits typed and by storing, largest effects of
 ! moving a node and of turning an element; place: that node and that element, 0
 ! without one. used: rows and columns of D(c), which n must be.
 subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vectors, modes, pair, effect, place, used)
@@ -229,7 +229,7 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
    real(c_double), intent(in) :: modes(n, k)
    integer(c_int), intent(in) :: pair(2, pairs)
-   real(c_double), intent(out) :: effect(4, pairs)
+   real(c_double), intent(out) :: effect(5, pairs)
    integer(c_int), intent(out) :: place(2, pairs), used
    type(model_t) :: model
    type(model_count_t) :: counts
@@ -243,7 +243,7 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    if (used /= n .or. any(pair < 1) .or. any(pair > k)) return
    call find(model, modes(:counts%rows, :), modes(counts%rows + 1:, :), pair, found)
    do i = 1, pairs
-      effect(:, i) = [found(i)%lift_of_bits, found(i)%lift_of_digits, found(i)%by_move, found(i)%by_turn]
+      effect(:, i) = [found(i)%lift_of_bits, found(i)%lift_of_digits, found(i)%lift_of_storing, found(i)%by_move, found(i)%by_turn]
       place(:, i) = [found(i)%node, found(i)%element]
    end do
 end subroutine find_sensitivities

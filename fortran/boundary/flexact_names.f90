@@ -9,6 +9,7 @@ module flexact_names
    use flexact_appearance, only: section_names
    use flexact_model, only: class_names
    use flexact_progress, only: stage_names
+   use flexact_proof, only: proof_names
    use flexact_result, only: method_names
    use flexact_roles, only: role_names, dual_names
    use flexact_slots, only: node_kind_names
@@ -38,6 +39,7 @@ contains
       case ('roles'); names%name = [role_names]
       case ('duals'); names%name = [dual_names]
       case ('methods'); names%name = [method_names]
+      case ('proofs'); names%name = [proof_names]
       case ('errors'); names%name = [error_names]
       case ('stages'); names%name = [stage_names]
       case ('facts'); names = names_t(1, [fact_names])

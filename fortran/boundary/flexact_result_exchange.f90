@@ -21,13 +21,16 @@ module flexact_result_exchange
                                                     'confirmed', 'tolerance', 'characteristic length', 'noise', &
                                                     'reach of digits', 'components', 'rows of largest', &
                                                     'columns of largest', 'scaled values', 'pairs', 'motions', &
-                                                    'self-stresses']
+                                                    'self-stresses', 'proven rank', 'as typed', 'primes', &
+                                                    'failure', 'undecided', 'unjudged', 'left', 'explained', &
+                                                    'unseen']
 
 contains
 
    !> Analyse a model. wishes: method, tolerance (negative: from the data), bytes
    !> of memory that may be used, 1 if only the singular values of D(c) itself
-   !> are wanted (by sparse the smallest), which come as scaled values then. Rows of D(c) stand before its columns in
+   !> are wanted (by sparse the smallest), which come as scaled values then, and
+   !> whether the rank is to be proven (flexact_proof). Rows of D(c) stand before its columns in
    !> index(:2, i): owner and part of each, from 1;
    !> by_size: scale, singular values, and vectors of pairs.
    !> Vectors of motions, then of self-stresses: vector k begins at index(3, k)
@@ -48,6 +51,7 @@ contains
       if (wishes(2) >= 0) options%tolerance = wishes(2)
       options%memory = wishes(3)
       options%only_plain_values = wishes(4) > 0
+      options%prove = nint(wishes(5))
       options%progress%stage => stage
       call analyse(model, options, problem, answer)
       facts = 0
@@ -68,6 +72,11 @@ contains
       call give_basis(answer%motions, problem%partition%count%rows, index(3, :), place, value, vectors, moving)
       call give_basis(answer%stresses, 0, index(3, :), place, value, vectors, stressed)
       facts(25:26) = [moving, stressed]
+      associate (proof => answer%proof)
+         facts(27:30) = [real(proof%total(), wp), merge(1.0_wp, 0.0_wp, proof%as_typed), real(proof%primes, wp), proof%failure]
+      end associate
+      facts(31:32) = [answer%undecided, merge(1, 0, answer%unjudged)]
+      facts(33:35) = [answer%left, answer%explained, real(answer%unseen, wp)]
    end subroutine run
 
    pure subroutine give_labels(problem, index)

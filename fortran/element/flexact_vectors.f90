@@ -5,7 +5,7 @@ module flexact_vectors
    use flexact_scaled_norm, only: length_of
    implicit none
    private
-   public :: cross, length_of, coincide, unit, frame_along, planar_frame_along, planar_turn
+   public :: cross, length_of, coincide, unit, axis_across, frame_along, planar_frame_along, planar_turn
 
 contains
 
@@ -39,7 +39,6 @@ contains
    pure function frame_along(vector, hint) result(frame)
       real(wp), intent(in) :: vector(3), hint(3)
       real(wp) :: frame(3, 3)
-      real(wp) :: axis(3)
 
       frame(:, 1) = unit(vector)
       if (.not. any(abs(frame(:, 1)) > 0)) then
@@ -47,13 +46,18 @@ contains
          return
       end if
       frame(:, 2) = across(frame(:, 1), unit(hint))
-      if (.not. any(abs(frame(:, 2)) > 0)) then
-         axis = 0.0_wp
-         axis(minloc(abs(frame(:, 1)), 1)) = 1.0_wp
-         frame(:, 2) = across(frame(:, 1), axis)
-      end if
+      if (.not. any(abs(frame(:, 2)) > 0)) frame(:, 2) = across(frame(:, 1), axis_across(vector))
       frame(:, 3) = cross(frame(:, 1), frame(:, 2))
    end function frame_along
+
+   !> The global axis along which the unit vector of a vector is smallest.
+   pure function axis_across(vector) result(axis)
+      real(wp), intent(in) :: vector(3)
+      real(wp) :: axis(3)
+
+      axis = 0.0_wp
+      axis(minloc(abs(unit(vector)), 1)) = 1.0_wp
+   end function axis_across
 
    !> The direction of that part of a unit vector that is perpendicular to ex;
    !> zero where nothing but rounding is left. Projecting twice keeps ey

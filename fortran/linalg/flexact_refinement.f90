@@ -7,13 +7,11 @@
 !> J. Matrix Anal. Appl. 13, 1992, pp. 1204-1245). As V is orthogonal to
 !> working precision, these are the values of A.
 module flexact_refinement
-   use flexact_kinds, only: wp
+   use flexact_kinds, only: wp, qp
    implicit none
    private
    public :: is_refinable, exact_product
 
-   integer, parameter :: wanted = selected_real_kind(30)
-   integer, parameter :: qp = merge(wanted, wp, wanted > 0)
    !> m n**2, up to which a second decomposition and the products, which are fewer by
    !> the zeros of A, take less than a second: square matrices may be 250 x 250. It
    !> counts operations, so that results do not depend on the machine.

@@ -29,6 +29,8 @@ module flexact_rank
       !> Singular values up to here were taken for zero: the noise, or more
       !> where the digits of the data account for it; or as was asked.
       real(wp) :: tolerance = 0.0_wp
+      !> Whether that tolerance was asked for.
+      logical :: is_given = .false.
    end type rank_t
 
 contains
@@ -49,6 +51,7 @@ contains
       if (size(values) > 0) decision%noise = decision%noise + epsilon(1.0_wp)*rule%side*values(1)
       if (allocated(rule%tolerance)) then
          decision%tolerance = rule%tolerance
+         decision%is_given = .true.
          decision%rank = count(values > rule%tolerance)
          return
       end if

@@ -10,7 +10,7 @@ module flexact_sensitivity
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
    use flexact_slots, only: axes, is_position
-   use flexact_rounding, only: decimal, decimal_t, difference, half_units, last_bits, looks_rounded
+   use flexact_rounding, only: decimal, decimal_t, difference, half_bit, half_units, last_bits, looks_printed, looks_rounded
    use flexact_variation, only: variation_t, make_variation, parameters
    use flexact_scaling, only: extent_of
    use flexact_vectors, only: cross
@@ -30,6 +30,8 @@ module flexact_sensitivity
       !> its singular value: the sum over all numbers of the geometry.
       real(wp) :: lift_of_bits = 0.0_wp
       real(wp) :: lift_of_digits = 0.0_wp
+      !> What storing it, or printing it with ten digits or a few more, can make of it.
+      real(wp) :: lift_of_storing = 0.0_wp
       !> The node that changes it most where it is moved, and the largest
       !> change in units of the vectors by length; 0 where there is none.
       integer :: node = 0
@@ -147,6 +149,8 @@ contains
          end if
          found%lift_of_bits = found%lift_of_bits + dot_product(abs(of_vector), last_bits(vector, maxval(abs(vector))))
          found%lift_of_digits = found%lift_of_digits + dot_product(abs(of_vector), half_units_of(vector))
+         found%lift_of_storing = found%lift_of_storing &
+                                 + dot_product(abs(of_vector), stored_or_printed(vector, decimal(vector), .true.))
          by_turn = norm2(cross(variation%offset, of_offset) + cross(vector, of_vector))
          if (by_turn <= nothing(1)*norm2(variation%offset) + nothing(2)*norm2(vector)) return
          if (by_turn > more*found%by_turn) then
@@ -155,6 +159,17 @@ contains
          end if
       end associate
    end subroutine add_element
+
+   !> By how much a number may be wrong that was stored or printed: half a unit of its
+   !> last bit, or of its last digit.
+   elemental real(wp) function stored_or_printed(value, number, printed) result(half)
+      real(wp), intent(in) :: value
+      type(decimal_t), intent(in) :: number
+      logical, intent(in) :: printed
+
+      half = half_bit(value)
+      if (printed .and. looks_printed(number)) half = 0.5_wp*10.0_wp**number%place
+   end function stored_or_printed
 
    pure function half_units_of(vector) result(half)
       real(wp), intent(in) :: vector(:)
@@ -169,21 +184,24 @@ contains
       type(sensitivity_t), intent(inout) :: found(:)
       type(decimal_t), allocatable :: number(:, :)
       logical, allocatable :: rounded(:, :)
-      real(wp) :: half(axes), bits(axes), by_move, extent
+      logical :: printed(axes)
+      real(wp) :: half(axes), bits(axes), units(axes), by_move, extent
       integer :: node, i
 
       allocate (number(axes, model%nodes), rounded(axes, model%nodes))
       number = decimal(model%node_value(1:axes, :))
-      call find_rounded(model, number, rounded)
+      call find_rounded(model, number, rounded, printed)
       extent = extent_of(model)
       do node = 1, model%nodes
          if (.not. is_position(model%node_kind(node))) cycle
          half = half_units(number(:, node), rounded(:, node))
          bits = last_bits(model%node_value(1:axes, node), extent)
+         units = stored_or_printed(model%node_value(1:axes, node), number(:, node), printed)
          do i = 1, size(found)
             associate (change => by_node(1:axes, i, node), nothing => by_node(axes + 1, i, node), item => found(i))
                item%lift_of_bits = item%lift_of_bits + dot_product(abs(change), bits)
                item%lift_of_digits = item%lift_of_digits + dot_product(abs(change), half)
+               item%lift_of_storing = item%lift_of_storing + dot_product(abs(change), units)
                by_move = norm2(change)
                if (by_move > max(nothing, more*item%by_move)) then
                   item%by_move = by_move
@@ -194,23 +212,29 @@ contains
       end do
    end subroutine add_nodes
 
-   !> Which coordinates look rounded, both by themselves and as seen along an
-   !> element: the joints 100, 101, ... of a lattice do not.
-   subroutine find_rounded(model, number, rounded)
+   !> Which coordinates look rounded, both by themselves and, along their axis, as
+   !> seen along some element: the joints 100, 101, ... of a lattice do not. Along
+   !> which axes numbers were printed is told by what elements see, too.
+   subroutine find_rounded(model, number, rounded, printed)
       type(model_t), intent(in) :: model
       type(decimal_t), intent(in) :: number(:, :)
-      logical, intent(out) :: rounded(:, :)
-      logical :: far(axes)
-      integer :: k
+      logical, intent(out) :: rounded(:, :), printed(axes)
+      logical :: some(axes)
+      type(decimal_t) :: offset(axes)
+      integer :: k, node
 
-      rounded = .false.
+      some = .false.
+      printed = .false.
       do k = 1, model%elements
          associate (p => model%element_node(1, k), q => model%element_node(3, k))
             if (p == 0 .or. q == 0) cycle
-            far = looks_rounded(difference(number(:, p), number(:, q)))
-            rounded(:, p) = rounded(:, p) .or. (far .and. looks_rounded(number(:, p)))
-            rounded(:, q) = rounded(:, q) .or. (far .and. looks_rounded(number(:, q)))
+            offset = difference(number(:, p), number(:, q))
+            some = some .or. looks_rounded(offset)
+            printed = printed .or. looks_printed(offset)
          end associate
+      end do
+      do node = 1, model%nodes
+         rounded(:, node) = some .and. looks_rounded(number(:, node))
       end do
    end subroutine find_rounded
 end module flexact_sensitivity

@@ -9,7 +9,7 @@ module flexact_variation
    use flexact_element_table, only: element_kinds, deformations_of, frame_about, rule_along => frame_along
    use flexact_pose, only: pose_t, reference_t
    use flexact_scaled_norm, only: length_of
-   use flexact_vectors, only: cross, unit
+   use flexact_vectors, only: axis_across, cross, unit
    implicit none
    private
    public :: variation_t, make_variation, parameters
@@ -102,9 +102,9 @@ contains
       associate (vector => alone%element_vector(:, 1))
          select case (element_kinds(alone%element_kind(1))%frame)
          case (frame_about)
-            axis(minloc(abs(unit(vector)), 1)) = 1.0_wp
+            axis = axis_across(vector)
          case (rule_along)
-            if (.not. any(abs(vector) > 0)) axis(minloc(abs(unit(alone%node_value(1:3, 3))), 1)) = 1.0_wp
+            if (.not. any(abs(vector) > 0)) axis = axis_across(alone%node_value(1:3, 3))
          end select
       end associate
    end function free_axis

@@ -26,12 +26,14 @@ if TYPE_CHECKING:
     from .result.decompose import AnalysisError
     from .result.modes import Motion, SelfStress
     from .result.verdict import (
+        Alternative,
         Certainty,
         ClassCounts,
         Counts,
         Gap,
         Margin,
         Nearly,
+        Proof,
         Verdict,
     )
 
@@ -51,12 +53,14 @@ _HOMES = {
     "result.decompose": ("AnalysisError",),
     "result.modes": ("Motion", "SelfStress"),
     "result.verdict": (
-        *("Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Verdict"),
+        *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
+        "Verdict",
     ),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "Alternative",
     "Analysis",
     "AnalysisError",
     "Certainty",
@@ -76,6 +80,7 @@ __all__ = [
     "Nearly",
     "Node",
     "Place",
+    "Proof",
     "SelfStress",
     "Severity",
     "Sheet",

@@ -127,6 +127,7 @@ def analyse(
     *,
     method: str = "auto",
     tolerance: float | None = None,
+    prove: bool | None = None,
     name: str | None = None,
     progress: Progress | None = None,
 ) -> Analysis:
@@ -142,6 +143,8 @@ def analyse(
             models.
         tolerance: Singular values of the scaled D(c) up to this one count as zero; by
             default it follows from the data and the arithmetic.
+        prove: Whether the rank is to be proven in exact arithmetic, as far as memory and some
+            minutes allow; by default where it costs little.
         name: What the result is called; by default the model's name or the path.
         progress: Called with what is being done and how much of that is done, from 0 to 1,
             some times a second.
@@ -152,7 +155,7 @@ def analyse(
         AnalysisError: the model is too large for the memory, the decomposition did not
             converge, or this build lacks what the method needs.
         TypeError: what is given is neither a model nor a path, or the tolerance no number,
-            or the method or the name no text.
+            or the method or the name no text, or `prove` no truth value.
         ValueError: there is no such method, or the tolerance is negative or not finite.
     """
     if not isinstance(model, (Model, str, bytes, os.PathLike)):
@@ -160,7 +163,7 @@ def analyse(
         raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
     if not isinstance(name, (str, type(None))):
         raise TypeError(f"the name of a result must be text, not {type(name).__name__}")
-    asked = asked_for(method, tolerance)
+    asked = asked_for(method, tolerance, prove)
     if not isinstance(model, Model):
         model = read(model)
     return result_of(model.data, asked, name, progress, Analysis)

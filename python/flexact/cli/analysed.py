@@ -35,6 +35,12 @@ def add_decision(parser: argparse.ArgumentParser) -> None:
         metavar="T",
         help="singular values of the scaled matrix up to T count as zero",
     )
+    parser.add_argument(
+        "--prove",
+        action=argparse.BooleanOptionalAction,
+        default=None,
+        help="whether to prove the rank in exact arithmetic (where it costs little)",
+    )
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +77,7 @@ def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: 
     _announce_wait(deck, model, chosen.method)
     return result_of(
         model,
-        asked_for(chosen.method, chosen.zero_tolerance),
+        asked_for(chosen.method, chosen.zero_tolerance, chosen.prove),
         deck.name,
         bar.of_analysis(model),
     )

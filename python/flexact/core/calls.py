@@ -61,6 +61,7 @@ STAGES = tuple(names_of("stages"))
 #: How the core can fail, by number.
 ERRORS = tuple(names_of("errors"))
 _FACTS = tuple(names_of("facts"))
+_PROOFS = dict(zip((None, True, False), names_of("proofs").values(), strict=True))
 
 
 def element_rows() -> list[ElementKind]:
@@ -160,6 +161,7 @@ def analyse_model(
     stage: IntArray | None = None,
     memory: float = math.inf,
     only_plain_values: bool = False,
+    prove: bool | None = None,
 ) -> RawAnalysis:
     """Decompose D(c).
 
@@ -171,6 +173,7 @@ def analyse_model(
         memory: bytes that may be used.
         only_plain_values: whether, in place of all else, the singular values of D(c) itself
             are wanted (by the method sparse the smallest), as `scaled_values`.
+        prove: whether the rank is to be proven in exact arithmetic; None: where it costs little.
     """
     # Memory is taken only where it is written to.
     most = 3 * model.nodes.shape[1] + 6 * model.elements.shape[1]
@@ -182,7 +185,10 @@ def analyse_model(
     facts = _core.analyse_model(
         *model,
         np.array(
-            (METHODS.index(method), asked, min(memory, sys.float_info.max), only_plain_values),
+            (
+                *(METHODS.index(method), asked, min(memory, sys.float_info.max)),
+                *(only_plain_values, _PROOFS[prove]),
+            ),
             float,
         ),
         np.zeros(2, np.int32) if stage is None else stage,
@@ -222,6 +228,15 @@ def analyse_model(
         components=int(named["components"]),
         largest_component=(int(named["rows of largest"]), int(named["columns of largest"])),
         error=ERRORS[int(named["error"])],
+        proven_rank=int(named["proven rank"]),
+        as_typed=named["as typed"] == 1,
+        primes=int(named["primes"]),
+        failure=named["failure"],
+        undecided=int(named["undecided"]),
+        unjudged=named["unjudged"] == 1,
+        unseen=int(named["unseen"]),
+        left=named["left"],
+        explained=named["explained"],
         motions=_basis_of(n, start[: motions + 1], place, value, m),
         stresses=_basis_of(m, start[motions:], place, value, 0),
     )

@@ -138,6 +138,24 @@ class RawAnalysis(NamedTuple):
     """What the decomposition needs of memory, where the core knows."""
     reach_of_digits: float
     """No more than that, in the scaled matrix, can digits explain that were not typed."""
+    proven_rank: int
+    """In exact arithmetic; -1 where it is not known."""
+    as_typed: bool
+    """Whether that is of the decimals as typed, or of the doubles as stored."""
+    primes: int
+    """Modulo so many primes."""
+    failure: float
+    """The probability that it is too low is at most this."""
+    undecided: int
+    """So many values that count as zero may not be, by exact arithmetic or more digits."""
+    unseen: int
+    """So many values do not count as zero by exact arithmetic alone: they are below 1e-31."""
+    left: float
+    """The largest of those undecided; 0 where that is not known."""
+    explained: float
+    """What storing the geometry can make of it."""
+    unjudged: bool
+    """Whether there are zeros that nothing but the decomposition has seen."""
     motions: Basis
     """n - rank vectors, an orthonormal basis of the null space of D(c); see `analysis`.
 
@@ -160,6 +178,8 @@ class RawSensitivities(NamedTuple):
     """(p,) what rounding in the last bits can make of each."""
     lift_of_digits: FloatArray
     """(p,) what half a unit of the last digits typed can make of it."""
+    lift_of_storing: FloatArray
+    """(p,) what storing it, or printing it with ten digits or a few more, can make of it."""
     by_move: FloatArray
     """(p,) its largest change by the move of one node [1/m]."""
     by_turn: FloatArray

@@ -63,14 +63,15 @@ def verdict(analysis: Result, name: str, advice: Advised) -> str:
 
 def _certainty(analysis: Result) -> str:
     if analysis.certainty is Certainty.CERTAIN:
-        return ' <span class="sure">Certain.</span>'
+        is_proven = analysis.proof is not None and analysis.proof.rank == analysis.rank
+        return f' <span class="sure">{"Proven" if is_proven else "Numerically certain"}.</span>'
     counts = (analysis.under_constrained, analysis.over_constrained)
     under, over = analysis.nearly or counts
     other = (
         f": there may be {under} motion{'s' * (under != 1)} and "
         f"{over} self-stress{'es' * (over != 1)}"
     ) * ((under, over) != counts)
-    return f' <a class="sure doubt" href="#decision">Nearly certain only{other}.</a>'
+    return f' <a class="sure doubt" href="#decision">Doubtful{other}.</a>'
 
 
 def _todo(advice: Advised) -> str:

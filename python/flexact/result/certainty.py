@@ -10,14 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .alternatives import alternatives_of
 from .outcome import Outcome
 from .rank_evidence import STORED, Evidence
-from .verdict import Certainty, Nearly
+from .verdict import Alternative, Certainty
 
-#: Values up to this multiple of the noise are in doubt. The noise is what a rounding or two of
-#: each number can do; a geometry that was itself computed (a loop closed by iteration, a scene
-#: moved away and back) has lost some dozens of times that, and does not say so.
-CLOSE = 100.0
+#: Values up to this multiple of the noise are looked at.
+_NEAR = 100.0
+#: Of those, the ones up to this multiple of what storing the geometry makes of them are in doubt:
+#: a geometry that was itself computed has lost some bits more, and does not say so.
+CLEARLY = 30.0
 _EPSILON = float(np.finfo(np.float64).eps)
 #: Where motions and self-stresses of sound mechanisms both fade it is by 4 powers of ten at most;
 #: where a tiny value counts as zero, by 10 and more.
@@ -35,15 +37,17 @@ class DoubtKind(str, Enum):
     UNCONFIRMED = "unconfirmed"
     """No second route confirmed the rank."""
     CLOSE_TO_NOISE = "close to noise"
-    """Values count as non-zero that rounding may have made; `size`: the noise."""
+    """Values count as non-zero that storing the geometry may have made; `size`: the largest."""
     DIGITS_EXPLAIN = "digits explain"
     """Values count as non-zero that missing digits explain; `size`: what those may make."""
     COORDINATES_ROUNDED = "coordinates rounded"
     """Values up to `size` count as zero because the coordinates have few digits."""
     TOLERANCE_GIVEN = "tolerance given"
     """Values up to `size` count as zero because of the tolerance that was given."""
-    DIGITS_MAY_LIFT = "digits may lift"
-    """Zeros of the geometry as typed, of which missing digits may make `size`."""
+    UNSEEN = "unseen"
+    """`values` are not zero in exact arithmetic, but too small for any digits that are computed."""
+    UNDECIDED = "undecided"
+    """`values` that count as zero are not zero for the numbers as they are, but may be meant."""
     ZERO_ABOVE_STORING = "zero above storing"
     """Values up to `size` count as zero, which storing the geometry does not explain."""
     REMAINDER = "remainder"
@@ -57,7 +61,6 @@ _CODES = {
     DoubtKind.DIGITS_EXPLAIN: "rounded-geometry",
     DoubtKind.COORDINATES_ROUNDED: "rounded-coordinates",
     DoubtKind.TOLERANCE_GIVEN: "given-tolerance",
-    DoubtKind.DIGITS_MAY_LIFT: "rounded-geometry",
 }
 
 
@@ -67,6 +70,8 @@ class Doubt(NamedTuple):
     kind: DoubtKind
     values: int = 0
     """How many of the smallest singular values that count as non-zero may be zero."""
+    zeros: int = 0
+    """How many of the largest that count as zero may not be."""
     size: float = 0.0
     explained: float = 0.0
 
@@ -80,34 +85,57 @@ class Assessment(NamedTuple):
     """What is to be thought of a decision."""
 
     certainty: Certainty
-    nearly: Nearly | None
+    alternatives: tuple[Alternative, ...]
     doubts: tuple[Doubt, ...]
 
 
 def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
     """Whether the decision is certain.
 
-    It is in doubt where a value that counts as non-zero is close to the noise, or within
-    reach of the digits that the geometry was typed with; where one that counts as zero is
-    above the noise, or may be tiny (`rank_evidence`); and where the method has not confirmed
-    the rank.
+    It is in doubt where a value that counts as non-zero is within reach of how the geometry
+    was stored or typed, so that a change within the last digit would lower the rank; where
+    one that counts as zero is above the noise, or is not zero for the numbers as they are;
+    and where neither exact arithmetic nor the method has confirmed the rank.
     """
     found = tuple(_doubts(outcome, evidence))
     if not found:
-        return Assessment(Certainty.CERTAIN, None, ())
-    rank = outcome.rank - max(doubt.values for doubt in found)
-    nearly = Nearly(outcome.columns - rank, outcome.rows - rank)
-    return Assessment(Certainty.NEARLY, nearly, found)
+        return Assessment(Certainty.CERTAIN, (), ())
+    lower = max(doubt.values for doubt in found)
+    higher = max(doubt.zeros for doubt in found)
+    return Assessment(Certainty.NEARLY, alternatives_of(outcome, evidence, lower, higher), found)
 
 
 def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
-    if not outcome.raw.confirmed:
-        yield Doubt(DoubtKind.UNCONFIRMED)
-    if count := _nonzeros_up_to(outcome, CLOSE * outcome.raw.noise):
-        yield Doubt(DoubtKind.CLOSE_TO_NOISE, count, outcome.raw.noise)
+    raw = outcome.raw
+    is_proven = raw.proven_rank == outcome.rank
+    if not (raw.confirmed or is_proven):
+        yield Doubt(DoubtKind.UNCONFIRMED, values=1)
+    yield from _close_to_noise(outcome, evidence)
     yield from _explained_by_digits(outcome, evidence)
-    yield from _zeros_above_noise(outcome)
-    yield from _zeros_below_noise(outcome, evidence)
+    if raw.unseen:
+        yield Doubt(DoubtKind.UNSEEN, values=raw.unseen)
+    if raw.undecided:
+        yield Doubt(
+            DoubtKind.UNDECIDED, zeros=raw.undecided, size=raw.left, explained=raw.explained
+        )
+    if not is_proven:
+        yield from _zeros_above_noise(outcome)
+        if raw.unjudged:
+            yield from _zeros_below_noise(outcome, evidence)
+
+
+def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+    near = _nonzeros_up_to(outcome, _NEAR * outcome.raw.noise)
+    if not near:
+        return
+    looked_at = evidence.pairs[:near]
+    close = [pair for pair in looked_at if pair.value <= CLEARLY * pair.lift_of_storing]
+    count = looked_at.index(close[-1]) + 1 if close else 0
+    if near > len(looked_at) and count == len(looked_at):
+        count = near
+    if count:
+        size = max((pair.lift_of_storing for pair in close), default=outcome.raw.noise)
+        yield Doubt(DoubtKind.CLOSE_TO_NOISE, values=count, size=size)
 
 
 def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
@@ -123,7 +151,7 @@ def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt
     count = max(every.index(lifted[-1]) + 1, len(lifted))
     if len(lifted) == len(every):
         count = max(count, _nonzeros_up_to(outcome, reach))
-    yield Doubt(DoubtKind.DIGITS_EXPLAIN, count, reach)
+    yield Doubt(DoubtKind.DIGITS_EXPLAIN, values=count, size=reach)
 
 
 def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
@@ -131,27 +159,20 @@ def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
     if zero is None or zero <= outcome.raw.noise:
         return
     is_given = outcome.asked.tolerance is not None
-    yield Doubt(DoubtKind.TOLERANCE_GIVEN if is_given else DoubtKind.COORDINATES_ROUNDED, size=zero)
+    kind = DoubtKind.TOLERANCE_GIVEN if is_given else DoubtKind.COORDINATES_ROUNDED
+    values = outcome.scaled_singular_values
+    above = int(np.count_nonzero(values > outcome.raw.noise))
+    rank = max(above + min(outcome.rows, outcome.columns) - values.size, outcome.raw.proven_rank)
+    yield Doubt(kind, zeros=max(1, rank - outcome.rank), size=zero)
 
 
 def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
-    """Zeros that are larger than storing the geometry makes them, or would not last.
-
-    Those that the last digits typed could as well have lifted are zeros by chance, or because
-    they are meant to be.
-    """
+    """Zeros that may be tiny, where nothing but the decomposition has seen them."""
     zero = outcome.gap.largest_zero
     if zero is None or not zero <= outcome.raw.noise:
         return
-    if not (outcome.under_constrained and outcome.over_constrained):
-        return
-    yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero), 1)
-    if _CUT_OFF * outcome.raw.reach_of_digits <= outcome.raw.noise:
-        return
-    lifts = (pair.lift_of_digits for group in evidence.zero_pairs for pair in group)
-    reach = _CUT_OFF * max(lifts, default=0.0)
-    if reach > outcome.raw.noise:
-        yield Doubt(DoubtKind.DIGITS_MAY_LIFT, size=reach)
+    if outcome.under_constrained and outcome.over_constrained:
+        yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero), 1)
 
 
 def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator[Doubt]:
@@ -159,12 +180,12 @@ def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator
     largest = max(outcome.scaled_singular_values[:1].max(initial=0.0), 1.0)
     computed = _EPSILON * max(outcome.rows, outcome.columns) * largest
     if zero > computed and zero > computed + _stored(evidence):
-        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, size=zero)
+        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, zeros=1, size=zero)
     left = evidence.largest_remainder
     if left and left.value > left.explained:
-        yield Doubt(DoubtKind.REMAINDER, size=left.value, explained=left.explained)
+        yield Doubt(DoubtKind.REMAINDER, zeros=1, size=left.value, explained=left.explained)
     if evidence.powers_faded >= _FADED:
-        yield Doubt(DoubtKind.FADING, size=evidence.powers_faded)
+        yield Doubt(DoubtKind.FADING, zeros=1, size=evidence.powers_faded)
 
 
 def _stored(evidence: Evidence) -> float:

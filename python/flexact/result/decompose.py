@@ -29,14 +29,16 @@ _FAILURES = {
 _REMOVED = {"qr": "use svd, or auto"}
 
 
-def asked_for(method: str, tolerance: float | None) -> Asked:
+def asked_for(method: str, tolerance: float | None, prove: bool | None = None) -> Asked:
     """What an analysis is asked for, if there is such a thing.
 
     Raises:
-        TypeError: the method is no text, or the tolerance no number.
+        TypeError: the method is no text, the tolerance no number, or `prove` no truth value.
         ValueError: there is no such method, or the tolerance is negative or not finite.
     """
-    return Asked(_checked_method(method), _checked_tolerance(tolerance))
+    if not isinstance(prove, (bool, type(None))):
+        raise TypeError(f"prove must be True, False or None, not {type(prove).__name__}")
+    return Asked(_checked_method(method), _checked_tolerance(tolerance), prove)
 
 
 def _checked_method(method: str) -> str:
@@ -80,7 +82,9 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
     room = memory.allowance(memory.dense_needed(most, most))
 
     def work(stage: IntArray | None) -> RawAnalysis:
-        return calls.analyse_model(data.packed, *asked, stage, room)
+        return calls.analyse_model(
+            data.packed, asked.method, asked.tolerance, stage, room, prove=asked.prove
+        )
 
     try:
         raw = work(None) if progress is None else reported(work, progress)

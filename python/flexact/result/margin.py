@@ -20,20 +20,22 @@ def margins(outcome: Outcome, evidence: Evidence) -> tuple[Margin, ...]:
     """One for each zero, at most 8, then one for each of the smallest other singular values.
 
     To first order: a value that is not zero is brought to zero by `value / change`, a zero
-    above the tolerance by `tolerance / change`. A motion without self-stress, or a self-stress
+    above what can be told from zero likewise. A motion without self-stress, or a self-stress
     without motion, belongs to no singular value and is not lifted.
     """
+    told = max(outcome.tolerance, outcome.raw.noise)
     zeros = (
-        least(_margin(outcome, pair, outcome.tolerance) for pair in group)._replace(
+        least(margin_of(outcome, pair, told) for pair in group)._replace(
             singular_value=group[0].value
         )
         for group in evidence.zero_pairs
     )
-    others = (_margin(outcome, pair, pair.value) for pair in evidence.pairs)
+    others = (margin_of(outcome, pair, pair.value) for pair in evidence.pairs)
     return (*zeros, *others)
 
 
-def _margin(outcome: Outcome, pair: Pair, distance: float) -> Margin:
+def margin_of(outcome: Outcome, pair: Pair, distance: float) -> Margin:
+    """The misalignments that change the value of a pair by `distance`, to first order."""
     moves = pair.by_move * outcome.characteristic_length > _NOTHING
     turns = pair.by_turn > _NOTHING
     length = distance / pair.by_move if moves else math.inf

@@ -17,7 +17,7 @@ from ..core.arrays import FloatArray
 from ..core.raw import RawAnalysis, RawAssembly
 from ..model.data import ModelData
 from ..model.labels import Labels, column_labels, row_labels
-from .verdict import ClassCounts, Counts, Gap, Verdict
+from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
 
 class Asked(NamedTuple):
@@ -27,6 +27,8 @@ class Asked(NamedTuple):
     """One of `flexact.core.calls.METHODS`."""
     tolerance: float | None = None
     """None: it follows from the data and the arithmetic."""
+    prove: bool | None = None
+    """Whether the rank is to be proven in exact arithmetic; None: where it costs little."""
 
 
 _PLAIN = Asked()
@@ -110,6 +112,15 @@ class Outcome(Frozen):
         return self.raw.method
 
     @property
+    def proof(self) -> Proof | None:
+        """The rank in exact arithmetic; None where it was not computed."""
+        raw = self.raw
+        if raw.proven_rank < 0:
+            return None
+        of = "decimals" if raw.as_typed else "doubles"
+        return Proof(of, raw.proven_rank, raw.primes, raw.failure)
+
+    @property
     def parts(self) -> int:
         """Number of connected components of D(c), which are decomposed one by one."""
         return self.raw.components
@@ -144,10 +155,12 @@ class Outcome(Frozen):
     def condition_number(self) -> float | None:
         """Largest over smallest singular value of D(c), in the model's units.
 
-        None where D(c) is rank-deficient or empty, the quotient is not finite, or the largest
-        is not given.
+        None where D(c) is rank-deficient or empty, the quotient is not finite, the largest is
+        not given, or the smallest is below rounding.
         """
-        values = self.singular_values
+        values, small = self.singular_values, self.gap.smallest_nonzero
+        if small is not None and small <= self.raw.noise:
+            return None
         full = self.rank == min(self.rows, self.columns) == values.size > 0
         if not full or not values[-1] > 0.0:
             return None

@@ -19,7 +19,7 @@ from .outcome import Asked, Outcome
 from .rank_evidence import Evidence
 from .sensitivity import Pair
 from .sparse_basis import orthonormal
-from .verdict import Certainty, Margin, Nearly
+from .verdict import Alternative, Certainty, Margin, Nearly
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,9 +62,19 @@ class Result(Outcome):
         return self.assessment.certainty
 
     @property
+    def alternatives(self) -> tuple[Alternative, ...]:
+        """Counts that may be meant instead, likeliest first, at most three; none without doubt."""
+        return self.assessment.alternatives
+
+    @property
     def nearly(self) -> Nearly | None:
-        """The counts that hold if every singular value in doubt is zero; None without doubt."""
-        return self.assessment.nearly
+        """The counts of the first of the `alternatives`; None without doubt."""
+        if self.certainty is Certainty.CERTAIN:
+            return None
+        first = next(iter(self.alternatives), None)
+        if first is None:
+            return Nearly(self.under_constrained, self.over_constrained)
+        return Nearly(first.under_constrained, first.over_constrained)
 
     @property
     def pairs(self) -> tuple[Pair, ...]:

@@ -33,6 +33,8 @@ class Pair(NamedTuple):
     """What rounding in the last bits of the geometry can make of it."""
     lift_of_digits: float
     """What half a unit of the last digits typed can make of it."""
+    lift_of_storing: float
+    """What storing it, or printing it with ten digits or a few more, can make of it."""
     by_move: float
     """Its largest change where one node is moved [1/m]."""
     by_turn: float
@@ -107,6 +109,7 @@ def _named(outcome: Outcome, value: FloatArray, found: RawSensitivities) -> tupl
             float(value[k]),
             float(found.lift_of_bits[k]),
             float(found.lift_of_digits[k]),
+            float(found.lift_of_storing[k]),
             float(found.by_move[k]),
             float(found.by_turn[k]),
             _number(arrays.node_number, found.node[k]),

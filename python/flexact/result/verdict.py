@@ -75,10 +75,34 @@ class Certainty(str, Enum):
 
 
 class Nearly(NamedTuple):
-    """The counts that hold if every singular value in doubt is zero."""
+    """The likeliest counts beside those that were found."""
 
     under_constrained: int
     over_constrained: int
+
+
+class Alternative(NamedTuple):
+    """Counts that may be meant, and what change of the geometry leads there, to first order."""
+
+    under_constrained: int
+    over_constrained: int
+    change_m: float | None
+    """By so much one node must be moved [m]; None where no such move does it, 0 where no change
+    is needed for the numbers as they are."""
+    change_rad: float | None
+    """By so much one element must be turned about its centre [rad], likewise."""
+
+
+class Proof(NamedTuple):
+    """The rank of D(c) in exact arithmetic."""
+
+    of: str
+    """Of the "decimals" as they were typed, or of the "doubles" as they are stored."""
+    rank: int
+    primes: int
+    """It was computed modulo so many random primes."""
+    failure_probability: float
+    """A rank modulo a prime is never too high; that it is too low has at most this probability."""
 
 
 class Margin(NamedTuple):

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..result.result import Result
+from ..result.verdict import Alternative, Certainty, Proof
 from .naming import counted, counts_in_words
 from .sentences import Line, Named, Piece, sentence
 
@@ -37,16 +38,61 @@ def decision(result: Result) -> Iterator[Line]:
 
 
 def _certainty(result: Result) -> Iterator[Line]:
-    """Whether the decision is certain, and what would change it; warnings hold the doubts."""
-    if result.nearly is None:
-        yield sentence("The decision is certain.")
+    """What is proven, what may be meant, and what would change it; warnings hold the doubts."""
+    if result.certainty is Certainty.CERTAIN:
+        yield sentence(_how_certain(result))
     else:
-        counts = counts_in_words(*result.nearly)
-        yield sentence(
-            "The decision is nearly certain only: if every singular value in doubt is zero, the "
-            f"mechanism is {counts}."
-        )
+        others = [_alternative(item) for item in result.alternatives]
+        meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
+        yield sentence(f"The decision is doubtful{meant}.")
+        if result.proof:
+            yield sentence(f"{_AS_THEY_ARE[result.proof.of]} the rank is {_proven(result.proof)}.")
     yield _margin(result)
+
+
+def _how_certain(result: Result) -> str:
+    proof = result.proof
+    if proof is None:
+        return f"Numerically certain, by the method {result.method}; not proven: {_why(result)}."
+    if proof.rank == result.rank:
+        return f"Proven for {_OF[proof.of]}: the rank is {_proven(proof)}."
+    return (
+        "Numerically certain within the rounding of the geometry; "
+        f"{_AS_THEY_ARE[proof.of].lower()}, to the last digit, the rank is {_proven(proof)}."
+    )
+
+
+_OF = {"decimals": "the decimals as typed", "doubles": "the numbers as stored"}
+_AS_THEY_ARE = {"decimals": "With the decimals as typed", "doubles": "With the numbers as stored"}
+
+
+def _proven(proof: Proof) -> str:
+    """A rank in exact arithmetic with what is left of doubt."""
+    primes = counted(proof.primes, "random prime", "", "s")
+    if not proof.failure_probability:
+        return f"{proof.rank} (full, modulo {primes})"
+    return f"{proof.rank} (modulo {primes}; too low with a probability below " + (
+        f"{proof.failure_probability:.0e})"
+    )
+
+
+def _why(result: Result) -> str:
+    """Why there is no proof."""
+    if result.asked.prove is False:
+        return "no proof was asked for"
+    if not result.raw.primes:
+        return "this build has no FLINT (apt-get install libflint-dev, then build Flexact again)"
+    if result.asked.prove is None:
+        return "D(c) is large (--prove, or prove=True, takes the time)"
+    return "D(c) is too large"
+
+
+def _alternative(item: Alternative) -> str:
+    """Counts, and the change that leads there."""
+    counts = counts_in_words(item.under_constrained, item.over_constrained)
+    changes = (("m", item.change_m), ("rad", item.change_rad))
+    ways = [f"{change:.1e} {unit}" for unit, change in changes if change]
+    return f"{counts} (a change by {' or '.join(ways)})" if ways else counts
 
 
 def _margin(result: Result) -> Line:

@@ -127,6 +127,8 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         "tolerance": analysis.tolerance,
         "certainty": analysis.certainty.value,
         "nearly": analysis.nearly._asdict() if analysis.nearly else None,
+        "alternatives": [item._asdict() for item in analysis.alternatives],
+        "proof": analysis.proof._asdict() if analysis.proof else None,
         "gap": analysis.gap._asdict(),
         "margin": {"length": analysis.margin.length, "angle": analysis.margin.angle},
         "singular_values": analysis.singular_values.tolist(),

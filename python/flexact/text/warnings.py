@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..diagnostics.diagnostic import Diagnostic, Severity
-from ..result.certainty import CLOSE, Doubt, DoubtKind
+from ..result.certainty import CLEARLY, Doubt, DoubtKind
 from ..result.result import Result
 
 #: A smallest non-zero singular value below this part of the largest is worth a warning.
@@ -51,8 +51,8 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
             one = doubt.values == 1
             counts = "a singular value counts" if one else f"{doubt.values} singular values count"
             return (
-                f"{counts} as non-zero within a factor of {CLOSE:.0f} of what computing and "
-                f"rounding in the last bits may make of a zero, {size}",
+                f"{counts} as non-zero within a factor of {CLEARLY:.0f} of what storing the "
+                f"geometry may make of a zero, {size}",
                 "look at the geometry, or state with a tolerance what is to count as zero",
             )
         case DoubtKind.DIGITS_EXPLAIN:
@@ -72,11 +72,23 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
         case DoubtKind.TOLERANCE_GIVEN:
             what = f"singular values up to {size} count as zero because the tolerance that was "
             return what + "given says so", ""
-        case DoubtKind.DIGITS_MAY_LIFT:
+        case DoubtKind.UNSEEN:
+            one = doubt.values == 1
             return (
-                "singular values count as zero in the geometry as it was typed; the digits that "
-                f"were left out may make {size} of them",
-                _ALL_DIGITS,
+                f"{'a singular value is' if one else f'{doubt.values} singular values are'} not "
+                "zero in exact arithmetic, but too small to be compared with the rounding of the "
+                "geometry",
+                _LOOK,
+            )
+        case DoubtKind.UNDECIDED:
+            one = doubt.zeros == 1
+            counts = "a singular value counts" if one else f"{doubt.zeros} singular values count"
+            left = f"it is {size}, and storing them makes {doubt.explained:.1e}"
+            unknown = "how large it is was not computed"
+            return (
+                f"{counts} as zero, but for the numbers as they are {'is' if one else 'are'} not: "
+                f"{left if doubt.size else unknown}",
+                _LOOK,
             )
         case DoubtKind.ZERO_ABOVE_STORING:
             return (

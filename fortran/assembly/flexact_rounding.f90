@@ -3,12 +3,13 @@
 !> the digits that they were typed with.
 module flexact_rounding
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_kinds, only: wp
+   use flexact_kinds, only: wp, qp
    implicit none
    private
    public :: decimal_t, decimal, difference, digits_of
+   public :: typed_t, typed
    public :: coarsest_digit
-   public :: last_bits, last_digit, looks_rounded, half_units
+   public :: last_bits, last_digit, looks_printed, looks_rounded, half_bit, half_units
 
    !> What arithmetic before us may have cost: where the model was made, and, of
    !> a model far from the origin, where it was moved to.
@@ -16,11 +17,13 @@ module flexact_rounding
    real(wp), parameter :: bits_of_place = 4*epsilon(1.0_wp)
    !> A number of more digits cannot be told from one known to the last bit.
    integer, parameter :: most_digits = 14
+   !> Any decimal of so many digits comes back from the number that is read of it.
+   integer, parameter :: most_typed = 15
    !> Nobody means a number of this many digits as it stands: it was printed.
    integer, parameter :: printed_digits = 10
-   !> Numbers up to this one are meant as they stand, times any power of ten,
-   !> and their halves, quarters, ... too: 12, 0.5, 0.125, 12.25.
-   integer(int64), parameter :: largest_meant = 99
+   !> Numbers up to this one are meant as they stand, times any power of ten, and
+   !> their quarters, eighths, ... too; and two digits of which the last is a five.
+   integer(int64), parameter :: largest_meant = 25
    !> The rounding of six coordinates adds up in the direction of an element:
    !> half a unit each, times the root of six.
    real(wp), parameter :: units = 1.25_wp
@@ -33,7 +36,44 @@ module flexact_rounding
       integer :: place = 0
    end type decimal_t
 
+   !> A number by its shortest decimal, mantissa * 10**place.
+   type :: typed_t
+      !> Whether fifteen digits give it: then they are those that were typed, as no
+      !> two decimals of so many digits are read as one number.
+      logical :: short = .true.
+      integer(int64) :: mantissa = 0
+      integer :: place = 0
+   end type typed_t
+
 contains
+
+   !> The decimal of at most fifteen digits that is read as this number.
+   pure elemental type(typed_t) function typed(value)
+      real(wp), intent(in) :: value
+      integer :: place
+      real(wp) :: power
+
+      if (abs(value) < 1.0e15_wp .and. abs(value - anint(value)) <= 0) then
+         typed%mantissa = nint(value, int64)
+         return
+      end if
+      typed%short = .false.
+      if (.not. (abs(value) > 1.0e-200_wp .and. abs(value) < 1.0e200_wp)) return
+      place = floor(log10(abs(value))) - most_typed + 1
+      typed%place = place
+      if (place < 0 .and. place >= -22) then
+         ! Such a power is exact, so that a quotient is rounded once, as in reading.
+         power = 10.0_wp**(-place)
+         typed%mantissa = nint(value*power, int64)
+         typed%short = abs(typed%mantissa/power - value) <= 0
+      else if (place < 0) then
+         typed%mantissa = nint(value*10.0_qp**(-place), int64)
+         typed%short = abs(real(typed%mantissa/10.0_qp**(-place), wp) - value) <= 0
+      else
+         typed%mantissa = nint(value/10.0_qp**place, int64)
+         typed%short = abs(real(typed%mantissa*10.0_qp**place, wp) - value) <= 0
+      end if
+   end function typed
 
    !> By how much a number may be wrong in its last bits, in its own unit, in a
    !> model of this extent.
@@ -41,6 +81,13 @@ contains
       real(wp), intent(in) :: value, extent
       last_bits = bits_of_model*min(abs(value), extent) + bits_of_place*abs(value)
    end function last_bits
+
+   !> Half a unit of the last bit.
+   pure elemental real(wp) function half_bit(value)
+      real(wp), intent(in) :: value
+      half_bit = 0.0_wp
+      if (abs(value) > 0) half_bit = spacing(value)/2
+   end function half_bit
 
    !> The digits of a number, where there are no more than 14 of them up to the
    !> rounding of a change of units.
@@ -112,13 +159,19 @@ contains
       end do
    end function digits_of
 
+   !> Whether a number has ten digits or a few more: it was printed, not typed.
+   pure elemental logical function looks_printed(number)
+      type(decimal_t), intent(in) :: number
+      looks_printed = number%short .and. digits_of(number) >= printed_digits
+   end function looks_printed
+
    !> By how much a number that was printed with ten digits or a few more may be
    !> wrong, in its own unit; zero for any other.
    pure elemental real(wp) function last_digit(number)
       type(decimal_t), intent(in) :: number
 
       last_digit = 0.0_wp
-      if (number%short .and. digits_of(number) >= printed_digits) last_digit = units*10.0_wp**number%place
+      if (looks_printed(number)) last_digit = units*10.0_wp**number%place
    end function last_digit
 
    !> A bound of how much a number may be wrong that was rounded to a few digits,
@@ -129,17 +182,19 @@ contains
       if (number%short .and. digits_of(number) > 1) coarsest_digit = 10*10.0_wp**number%place
    end function coarsest_digit
 
-   !> Whether a number has the digits of one that was rounded (0.866, 0.70711),
-   !> and not of one that is meant as it stands (0.5, 12, 0.375).
+   !> Whether a number has the digits of one that was rounded (0.87, 0.866, 0.70711),
+   !> and not of one that is meant as it stands (0.5, 12, 0.85, 0.375).
    pure elemental logical function looks_rounded(number)
       type(decimal_t), intent(in) :: number
       integer(int64) :: rest
 
       rest = abs(number%mantissa)
+      looks_rounded = number%short .and. rest > largest_meant .and. .not. (rest < 100 .and. mod(rest, 5_int64) == 0)
+      if (mod(rest, 25_int64) /= 0) return
       do while (rest > 0 .and. mod(rest, 5_int64) == 0)
          rest = rest/5
       end do
-      looks_rounded = number%short .and. rest > largest_meant
+      looks_rounded = looks_rounded .and. rest > largest_meant
    end function looks_rounded
 
    !> By how much some numbers may be wrong that were rounded together, to one

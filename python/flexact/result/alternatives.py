@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The counts that may be meant instead of those that were found, and what change leads there."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+from .margin import margin_of
+from .outcome import Outcome
+from .rank_evidence import Evidence
+from .verdict import Alternative, Margin
+
+#: So many are given.
+_MOST = 3
+
+
+def alternatives_of(
+    outcome: Outcome, evidence: Evidence, lower: int, higher: int
+) -> tuple[Alternative, ...]:
+    """The counts that may hold instead, likeliest first, at most three.
+
+    Args:
+        outcome: What was found.
+        evidence: What may be made of its singular values.
+        lower: How many of the smallest values that count as non-zero may be zero.
+        higher: How many of the largest that count as zero may not be.
+    """
+    ranks = [rank for rank in _ranks(outcome, evidence, lower, higher) if rank != outcome.rank]
+    return tuple(_alternative(outcome, evidence, rank) for rank in dict.fromkeys(ranks))[:_MOST]
+
+
+def _ranks(outcome: Outcome, evidence: Evidence, lower: int, higher: int) -> Iterator[int]:
+    """All values in doubt; then as many as stand together, the widest gap above them first."""
+    if lower:
+        yield outcome.rank - lower
+    if higher:
+        yield outcome.rank + higher
+    if outcome.proof:
+        yield outcome.proof.rank
+    values = [pair.value for pair in evidence.pairs[:lower]]
+    gaps = [after / before if before else 0.0 for before, after in itertools.pairwise(values)]
+    for k in sorted(range(len(gaps)), key=lambda k: -gaps[k]):
+        yield outcome.rank - k - 1
+    for k in range(higher - 1, 0, -1):
+        yield outcome.rank + k
+
+
+def _alternative(outcome: Outcome, evidence: Evidence, rank: int) -> Alternative:
+    counts = (outcome.columns - rank, outcome.rows - rank)
+    if rank > outcome.rank:
+        # The numbers as they are say so, or nothing is known of how far they are from it.
+        return Alternative(*counts, 0.0, 0.0)
+    needed = evidence.pairs[: outcome.rank - rank]
+    every = [margin_of(outcome, pair, pair.value) for pair in needed]
+    return Alternative(*counts, *_all_of(every))
+
+
+def _all_of(margins: list[Margin]) -> tuple[float | None, float | None]:
+    """A length and an angle by which each of some values is brought to zero."""
+    lengths = [margin.length for margin in margins]
+    angles = [margin.angle for margin in margins]
+    return _largest(lengths), _largest(angles)
+
+
+def _largest(sizes: list[float | None]) -> float | None:
+    known = [size for size in sizes if size is not None]
+    return max(known) if known and len(known) == len(sizes) else None
