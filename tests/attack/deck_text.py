@@ -12,11 +12,11 @@ from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
 
-from .exact_deck import ORIGIN, Deck, Element, Vector
+from .exact_deck import ORIGIN, ZERO, Deck, Element, Vector
 
 Writer = Callable[[Fraction], str]
 #: Numbers of significant digits, each as likely; 17 and more are all the digits of a double.
-DIGITS = (2, 3, 4, 6, 8, 10, 12, 15, 16, 17, 17, 17)
+DIGITS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 15, 16, 17, 17, 17)
 _ALL_DIGITS = 17
 #: Whole numbers beyond this are no doubles.
 _LONGEST = 10**15
@@ -48,7 +48,7 @@ def in_whole_numbers(deck: Deck) -> Deck | None:
     numbers = [part for place in deck.places.values() for part in place]
     numbers += [part for each in deck.elements.values() for part in each.vector or ()]
     unit = math.lcm(*(number.denominator for number in numbers))
-    if unit * max(1, *map(abs, numbers)) > _LONGEST:
+    if unit * max(map(abs, numbers), default=ZERO) > _LONGEST:
         return None
 
     def scaled(v: Vector) -> Vector:

@@ -9,6 +9,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 Vector = tuple[Fraction, Fraction, Fraction]
+#: A node and an axis, or an element and a deformation.
+Label = tuple[int, int]
 
 ZERO = Fraction(0)
 ORIGIN: Vector = (ZERO, ZERO, ZERO)
@@ -55,6 +57,12 @@ class Element(NamedTuple):
         """What its keyword means."""
         return KINDS[self.keyword]
 
+    @property
+    def positions(self) -> list[int]:
+        """Its position nodes."""
+        every = zip(self.nodes, self.kind.slots, strict=True)
+        return [node for node, slot in every if slot == "p"]
+
 
 @dataclass
 class Deck:
@@ -69,8 +77,8 @@ class Deck:
 
     elements: dict[int, Element] = field(default_factory=dict)
     places: dict[int, Vector] = field(default_factory=dict)
-    held: set[tuple[int, int]] = field(default_factory=set)
-    released: set[tuple[int, int]] = field(default_factory=set)
+    held: set[Label] = field(default_factory=set)
+    released: set[Label] = field(default_factory=set)
 
     @property
     def planar(self) -> bool:
@@ -92,22 +100,31 @@ class Deck:
             return (0, 1) if slot == "p" else (2,)
         return (0, 1, 2)
 
-    def columns(self) -> dict[tuple[int, int], int]:
+    def columns(self) -> dict[Label, int]:
         """(node, axis) of each dependent coordinate, and its column."""
         every = ((node, axis) for node, slot in self.slots.items() for axis in self.axes(slot))
         return {label: k for k, label in enumerate(each for each in every if each not in self.held)}
 
     def chord(self, element: Element) -> Vector:
         """From p to q; zero for an element without positions."""
-        ends = [
-            self.places.get(node, ORIGIN)
-            for node, slot in zip(element.nodes, element.kind.slots, strict=True)
-            if slot == "p"
-        ]
+        ends = [self.place(node) for node in element.positions]
         if len(ends) < 2:
             return ORIGIN
         (a, b, c), (d, e, f) = ends
         return d - a, e - b, f - c
+
+    def place(self, node: int) -> Vector:
+        """Where a position node is."""
+        return self.places.get(node, ORIGIN)
+
+    def stored(self) -> Deck:
+        """The deck with the double nearest to each number."""
+        elements = {
+            number: each if each.vector is None else each._replace(vector=_stored(each.vector))
+            for number, each in self.elements.items()
+        }
+        places = {node: _stored(place) for node, place in self.places.items()}
+        return Deck(elements, places, self.held, self.released)
 
 
 def read(text: str) -> Deck:
@@ -161,7 +178,12 @@ def _vector(words: list[str]) -> Vector:
     return x, y, z[0] if z else ZERO
 
 
-def _held(node: int, slot: str, planar: bool, components: list[int]) -> set[tuple[int, int]]:
+def _stored(v: Vector) -> Vector:
+    x, y, z = (Fraction(float(part)) for part in v)
+    return x, y, z
+
+
+def _held(node: int, slot: str, planar: bool, components: list[int]) -> set[Label]:
     """Coordinates that a statement names; those of an orientation in space count from lambda0."""
     if slot == "o" and planar:
         return {(node, 2)}

@@ -7,10 +7,11 @@ is kept as c, y, z of its directions: c the chord or axis, z = c x v of a vector
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import TypeVar
 
-from .exact_deck import AXES, Deck, Element, Vector
+from .exact_deck import AXES, ORIGIN, Deck, Element, Label, Vector
 
 Number = TypeVar("Number", int, Fraction)
 Triple = tuple[Number, Number, Number]
@@ -42,20 +43,41 @@ def square(a: Triple[Number]) -> Number:
     return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]
 
 
+def rows_of(
+    deck: Deck, number: Callable[[Fraction], Number]
+) -> Iterator[tuple[Label, tuple[int, ...], Row[Number]]]:
+    """Each row of D(c): element and deformation, the nodes, and a block for each of these.
+
+    Args:
+        deck: The deck.
+        number: What is reckoned with in place of a fraction.
+    """
+
+    def triple(v: Vector) -> Triple[Number]:
+        return number(v[0]), number(v[1]), number(v[2])
+
+    for label, element in deck.elements.items():
+        chord, axis = triple(deck.chord(element)), triple(element.vector or ORIGIN)
+        second = triple(second_vector(deck, element))
+        for k, row in enumerate(rows(element.keyword, chord, axis, second), start=1):
+            if (label, k) not in deck.released:
+                yield (label, k), element.nodes, row
+
+
 def second_vector(deck: Deck, element: Element) -> Vector:
     """What the y axis of its frame is to be near to: the vector given, or a global axis.
 
-    Among axes that are equally far from the first the doubles choose, as which one is taken is
-    a matter of convention.
+    Among axes that are about as far from the first the doubles choose: which one is taken is a
+    matter of convention.
     """
-    turns_about_vector = element.keyword in ("HINGE", "BEARING")
-    if element.vector is not None and not turns_about_vector:
-        return element.vector
-    if turns_about_vector:
+    if element.kind.planar or element.keyword == "TRUSS":
+        return ORIGIN
+    if element.keyword in ("HINGE", "BEARING"):
         first = [abs(float(part)) for part in element.vector or ()]
+    elif element.vector is not None:
+        return element.vector
     else:
-        ends = [n for n, slot in zip(element.nodes, element.kind.slots, strict=True) if slot == "p"]
-        p, q = ([float(part) for part in deck.places.get(node, (0, 0, 0))] for node in ends)
+        p, q = ([float(part) for part in deck.place(node)] for node in element.positions)
         first = [abs(b - a) for a, b in zip(p, q, strict=True)]
     return AXES[first.index(min(first))]
 
@@ -82,8 +104,9 @@ def rows(
         return [(minus(f), f) for f in _frame(axis, second)]
     if keyword == "BEARING":
         frame = _frame(axis, second)
-        moves = [(*row, none) for row in _arm(chord, frame)]
-        return [*moves, *((none, minus(f), none, f) for f in frame)]
+        moves: list[Row[Number]] = [(minus(f), cross(f, chord), f, none) for f in frame]
+        turns: list[Row[Number]] = [(none, minus(f), none, f) for f in frame]
+        return moves + turns
     return _planar(keyword, chord, none)
 
 

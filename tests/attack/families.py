@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import random
 from collections.abc import Callable
 from fractions import Fraction
 from typing import NamedTuple
@@ -27,6 +26,23 @@ from .deck_text import (
 from .exact_deck import Deck, Vector, read
 from .sketch import Chance, Sketch, outer, plus, vector
 from .truth import Counts, counts_of
+
+#: What may stand beside each other in one deck, by whether it is planar.
+_BESIDE: dict[bool, tuple[Callable[[Chance], Sketch], ...]] = {
+    True: (frameworks.desargues, chains.collinear, chains.levers, chains.ring),
+    False: (frameworks.octahedron, bodies.platform, bodies.guide, bodies.loop),
+}
+
+
+def pair(chance: Chance) -> Sketch:
+    """Two mechanisms in one deck that share nothing, of different sizes."""
+    both = _BESIDE[chance.random() < 0.5]
+    sketch, other = chance.choice(both)(chance), chance.choice(both)(chance)
+    scale = Fraction(10) ** chance.randint(-6, 6)
+    shift = frameworks.whole(chance, sketch.planar, 30)
+    sketch.take_in(other, scale, shift)
+    return sketch
+
 
 FAMILIES: dict[str, Callable[[Chance], Sketch]] = {
     "desargues": frameworks.desargues,
@@ -51,6 +67,7 @@ FAMILIES: dict[str, Callable[[Chance], Sketch]] = {
     "loop": bodies.loop,
     "mixed": bodies.mixed,
     "far-whole": bodies.far_whole,
+    "pair": pair,
 }
 #: Points that are this close, as a part of their distance from the origin, are one point.
 _ONE_POINT = 1e-15
@@ -83,12 +100,12 @@ def case_of(family: str, seed: int, number: int) -> Case:
     chance = Chance(name)
     for _ in range(_ATTEMPTS):
         start = chance.getstate()
-        drawn = _drawn(family, chance)
+        drawn = _drawn(family, chance, may_be_whole=True)
         text = text_of(drawn.shown, drawn.style)
         typed = read(text)
         if not _is_sound(typed) or (has_long_numbers(text) and not drawn.sketch.long):
             continue
-        if drawn.sketch.hairy:
+        if drawn.sketch.hairy and drawn.style.digits < math.inf:
             end = chance.getstate()
             drawn = _without_hair(family, drawn, start)
             chance.setstate(end)
@@ -105,11 +122,12 @@ class _Drawn(NamedTuple):
     style: Style
 
 
-def _drawn(family: str, chance: Chance) -> _Drawn:
+def _drawn(family: str, chance: Chance, may_be_whole: bool) -> _Drawn:
     """A sketch turned, scaled, moved and renumbered."""
     sketch = FAMILIES[family](chance)
     deck, style = sketch.deck, Style(exact, exact, math.inf)
-    whole = in_whole_numbers(deck) if chance.random() < 0.25 else None
+    wanted = chance.random() < 0.25
+    whole = in_whole_numbers(deck) if wanted and may_be_whole else None
     if whole is not None and not sketch.plain:
         deck = whole
     elif not sketch.plain:
@@ -124,9 +142,7 @@ def _without_hair(family: str, drawn: _Drawn, start: object) -> _Drawn:
     chance = Chance()
     chance.setstate(start)  # type: ignore[arg-type]
     chance.hairless = True
-    other = _drawn(family, chance)
-    if other.deck.places.keys() != drawn.deck.places.keys():
-        return drawn
+    other = _drawn(family, chance, may_be_whole=False)
     every = [part for place in drawn.deck.places.values() for part in place]
     apart = max(
         abs(float(a - b))
@@ -143,7 +159,7 @@ def _meant(drawn: _Drawn) -> Counts | None:
     return counts_of(drawn.deck) if _is_sound(drawn.deck) else None
 
 
-def _placed(deck: Deck, chance: random.Random) -> Deck:
+def _placed(deck: Deck, chance: Chance) -> Deck:
     """Turned, in other units and far from the origin, each by some chance."""
     kind = chance.random()
     turn: Callable[[Vector], Vector] = vector
@@ -165,8 +181,7 @@ def _is_sound(deck: Deck) -> bool:
             return False
         if element.keyword == "PINBODY" or "p" not in element.kind.slots:
             continue
-        ends = [n for n, slot in zip(element.nodes, element.kind.slots, strict=True) if slot == "p"]
-        reach = max(abs(float(part)) for node in ends for part in deck.places.get(node, (0,)))
+        reach = max(_size(deck.place(node)) for node in element.positions)
         chord = deck.chord(element)
         if element.keyword != "BEARING" and _size(chord) <= _ONE_POINT * reach:
             return False

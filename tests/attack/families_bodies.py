@@ -182,9 +182,12 @@ def mixed(chance: Chance) -> Sketch:
         keyword = chance.choice(kinds)
         p, q = chance.sample(points, 2)
         slots = KINDS[keyword].slots
-        nodes = (*p, *q) if slots == "popo" else (*p, q[0])
-        if len(slots) == 2:
-            nodes = (p[0], q[0]) if slots == "pp" else (p[1], q[1])
+        nodes = {
+            "pp": (p[0], q[0]),
+            "oo": (p[1], q[1]),
+            "pop": (*p, q[0]),
+            "popo": (*p, *q),
+        }[slots]
         number = sketch.add(keyword, *nodes, along=_along(sketch, chance, keyword, (p[0], q[0])))
         every = range(1, KINDS[keyword].deformations + 1)
         free = chance.sample(every, chance.randint(0, len(every) - 1))

@@ -176,7 +176,7 @@ def lattice(chance: Chance) -> Sketch:
     nodes = {}
     for place in places:
         shift = direction(chance, planar, 3) if moved else vector((0, 0, 0))
-        nodes[place] = sketch.node(plus(place, shift, Fraction(1, 16)))
+        nodes[place] = sketch.node(plus(vector(place), shift, Fraction(1, 16)))
     limit = 2 if planar else 3
     near = [
         (nodes[a], nodes[b])

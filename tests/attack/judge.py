@@ -6,11 +6,12 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterator
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 import flexact
+from flexact.core.arrays import FloatArray
 from flexact.core.elements import Class
 
 from .families import Case
@@ -72,8 +73,17 @@ def judge(case: Case, chosen: tuple[str, ...]) -> Judged:
     except flexact.FlexactError as error:
         refused = Answer(Judgement.REFUSED, str(error).splitlines()[0])
         return Judged(case, dict.fromkeys(chosen, refused), False)
-    answers = {method: _answer(case, _analysed(model, method)) for method in chosen}
+    answers = {method: _answered(case, model, method) for method in chosen}
     return Judged(case, answers, plain not in case.truths)
+
+
+def _answered(case: Case, model: flexact.Model, method: str) -> Answer:
+    try:
+        return _answer(case, _analysed(model, method))
+    except flexact.AnalysisError as error:
+        if "SuiteSparse" in str(error):
+            raise
+        return Answer(Judgement.REFUSED, str(error).splitlines()[0])
 
 
 def numpy_counts(model: flexact.Model) -> Counts:
@@ -84,7 +94,7 @@ def numpy_counts(model: flexact.Model) -> Counts:
     return Counts(columns - rank, rows - rank)
 
 
-def dense_jacobian(model: flexact.Model) -> np.ndarray[Any, np.dtype[np.float64]]:
+def dense_jacobian(model: flexact.Model) -> FloatArray:
     """D(c): deformations that are not released, coordinates that are dependent."""
     whole = flexact.jacobian(model)
     arrays = model.data.arrays
@@ -92,7 +102,8 @@ def dense_jacobian(model: flexact.Model) -> np.ndarray[Any, np.dtype[np.float64]
     dependent = int(Class.DEPENDENT)
     kept_rows = rows[rows != int(Class.NONE)] != dependent
     kept_columns = columns[columns != int(Class.NONE)] == dependent
-    return whole.toarray()[kept_rows][:, kept_columns]
+    kept: FloatArray = whole.toarray()[kept_rows][:, kept_columns]
+    return kept
 
 
 def _analysed(model: flexact.Model, method: str) -> flexact.Analysis:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import os
+import random
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -20,10 +21,12 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from tqdm import tqdm
+from tqdm import tqdm  # type: ignore[import-untyped]
 
+from attack.exact_deck import read
 from attack.families import FAMILIES, Case, case_of
 from attack.judge import OFFENCES, Answer, Judged, Judgement, judge, methods
+from attack.truth import counts_of
 
 _HEADS = {
     Judgement.RIGHT: "right",
@@ -102,7 +105,9 @@ def _described(case: Case, answers: dict[str, Answer]) -> str:
     said = "; ".join(
         f"{method}: {answer.judgement.value} ({answer.words})" for method, answer in answers.items()
     )
-    return f"- {case.name}.dat: typed {tuple(case.typed)}, meant {meant}. {said}"
+    stored = tuple(counts_of(read(case.text).stored()))
+    truth = f"typed {tuple(case.typed)}, meant {meant}, as stored in doubles {stored}"
+    return f"- {case.name}.dat: {truth}. {said}"
 
 
 def main() -> int:
@@ -111,9 +116,13 @@ def main() -> int:
     families = asked.family or list(FAMILIES)
     chosen = tuple(asked.method or methods())
     score, folder = Score(), Folder(asked.keep)
-    every = ((number, family) for number in itertools.count() for family in families)
-    every = itertools.islice(every, asked.count)
-    progress = tqdm(every, total=asked.count, unit=" decks", disable=asked.quiet)
+    endless = ((number, family) for number in itertools.count() for family in families)
+    progress = tqdm(
+        itertools.islice(endless, asked.count),
+        total=asked.count,
+        unit=" decks",
+        disable=asked.quiet,
+    )
     try:
         for number, family in progress:
             judged = judge(case_of(family, asked.seed, number), chosen)
@@ -124,6 +133,7 @@ def main() -> int:
         pass
     finally:
         progress.close()
+    print(f"seed {asked.seed}")
     print("\n".join(score.lines(chosen)))
     return 1 if score.offences() else 0
 
@@ -131,7 +141,8 @@ def main() -> int:
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--count", type=int, help="how many decks; default until stopped")
-    parser.add_argument("--seed", type=int, default=1)
+    seed = random.SystemRandom().randrange(10**6)
+    parser.add_argument("--seed", type=int, default=seed, help="default any; it is printed")
     parser.add_argument("--family", action="append", choices=FAMILIES, help="may be repeated")
     parser.add_argument("--method", action="append", choices=methods(), help="may be repeated")
     parser.add_argument("--keep", type=Path, help="folder that offending decks are written to")

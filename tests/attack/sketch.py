@@ -124,6 +124,19 @@ class Sketch:
         """A point that belongs to a rigid body."""
         self.add("PLRBEAM" if self.planar else "RBEAM", body, turning, end)
 
+    def take_in(self, other: Sketch, scale: Real, shift: Place) -> None:
+        """Draw another mechanism beside this one, in another size."""
+        node, element = self._numbers, len(self.deck.elements)
+        self._numbers += other._numbers
+        for label, each in other.deck.elements.items():
+            nodes = tuple(node + end for end in each.nodes)
+            self.deck.elements[element + label] = each._replace(nodes=nodes)
+        for label, place in other.deck.places.items():
+            self.deck.places[node + label] = plus(shift, place, scale)
+        self.deck.held |= {(node + label, axis) for label, axis in other.deck.held}
+        self.deck.released |= {(element + label, part) for label, part in other.deck.released}
+        self.hairy |= other.hairy
+
     def _next(self) -> int:
         self._numbers += 1
         return self._numbers

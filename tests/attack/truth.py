@@ -8,13 +8,12 @@ minors of that size: for decks of this kind less than once in 10**14 times, by b
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
 
-from .exact_deck import ORIGIN, Deck, Vector, read
-from .exact_rows import Row, rows, second_vector
+from .exact_deck import Deck, Label, read
+from .exact_rows import Row, rows_of
 
 #: One row: entries that are not zero, by column.
 SparseRow = dict[int, int]
@@ -40,28 +39,23 @@ def counts_of(deck: Deck) -> Counts:
     columns = deck.columns()
     found = []
     for prime in primes():
-        matrix = [row for _, row in residues(deck, columns, prime)]
-        found.append((rank(matrix, prime), len(matrix)))
-    best, height = max(found)
+        matrix = residues(deck, columns, prime)
+        found.append((len(matrix), rank(matrix, prime)))
+    height, best = max(found)
     return Counts(len(columns) - best, height - best)
 
 
-def residues(
-    deck: Deck, columns: dict[tuple[int, int], int], prime: int
-) -> Iterator[tuple[tuple[int, int], SparseRow]]:
-    """(element, deformation) and the row of D(c) of each that is not released."""
-    for number, element in deck.elements.items():
-        chord = _residue(deck.chord(element), prime)
-        axis = _residue(element.vector or ORIGIN, prime)
-        needs_frame = element.keyword not in ("TRUSS", "HINGE") and not element.kind.planar
-        if needs_frame or element.keyword == "HINGE":
-            second = _residue(second_vector(deck, element), prime)
-        else:
-            second = (0, 0, 0)
-        every = rows(element.keyword, chord, axis, second)
-        for k, row in enumerate(every, start=1):
-            if (number, k) not in deck.released:
-                yield (number, k), _sparse(element.nodes, row, columns, prime)
+def residues(deck: Deck, columns: dict[Label, int], prime: int) -> list[SparseRow]:
+    """The rows of D(c) modulo a prime."""
+
+    def residue(number: Fraction) -> int:
+        bottom = number.denominator
+        if bottom == 1:
+            return number.numerator % prime
+        return number.numerator * pow(bottom, -1, prime) % prime
+
+    every = rows_of(deck, residue)
+    return [_sparse(nodes, row, columns, prime) for _, nodes, row in every]
 
 
 def rank(matrix: list[SparseRow], prime: int) -> int:
@@ -100,7 +94,7 @@ def _rarest(pivot: SparseRow, left: list[SparseRow]) -> int:
 
 
 def _sparse(
-    nodes: tuple[int, ...], row: Row[int], columns: dict[tuple[int, int], int], prime: int
+    nodes: tuple[int, ...], row: Row[int], columns: dict[Label, int], prime: int
 ) -> SparseRow:
     made: SparseRow = {}
     for node, block in zip(nodes, row, strict=True):
@@ -109,18 +103,6 @@ def _sparse(
             if value and column is not None:
                 made[column] = (made.get(column, 0) + value) % prime
     return {column: value for column, value in made.items() if value}
-
-
-def _residue(vector: Vector, prime: int) -> tuple[int, int, int]:
-    x, y, z = (_of_fraction(part, prime) for part in vector)
-    return x, y, z
-
-
-def _of_fraction(number: Fraction, prime: int) -> int:
-    bottom = number.denominator
-    if bottom == 1:
-        return number.numerator % prime
-    return number.numerator * pow(bottom, -1, prime) % prime
 
 
 @cache
