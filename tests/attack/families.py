@@ -29,7 +29,7 @@ from .truth import Counts, counts_of
 
 #: What may stand beside each other in one deck, by whether it is planar.
 _BESIDE: dict[bool, tuple[Callable[[Chance], Sketch], ...]] = {
-    True: (frameworks.desargues, chains.collinear, chains.levers, chains.ring),
+    True: (frameworks.desargues, chains.levers, chains.ring),
     False: (frameworks.octahedron, bodies.platform, bodies.guide, bodies.loop),
 }
 
@@ -87,6 +87,8 @@ class Case(NamedTuple):
     """Of its digits as they are."""
     meant: Counts | None
     """Of what they stand for, where that is known."""
+    digits: float
+    """Digits of its largest number; endless where nothing was rounded."""
 
     @property
     def truths(self) -> tuple[Counts, ...]:
@@ -109,7 +111,7 @@ def case_of(family: str, seed: int, number: int) -> Case:
             end = chance.getstate()
             drawn = _without_hair(family, drawn, start)
             chance.setstate(end)
-        return Case(name, text, counts_of(typed), _meant(drawn))
+        return Case(name, text, counts_of(typed), _meant(drawn), drawn.style.digits)
     raise RuntimeError(f"{name}: no deck that is sound")
 
 
@@ -143,6 +145,8 @@ def _without_hair(family: str, drawn: _Drawn, start: object) -> _Drawn:
     chance.setstate(start)  # type: ignore[arg-type]
     chance.hairless = True
     other = _drawn(family, chance, may_be_whole=False)
+    if other.deck.places.keys() != drawn.deck.places.keys():
+        return drawn
     every = [part for place in drawn.deck.places.values() for part in place]
     apart = max(
         abs(float(a - b))

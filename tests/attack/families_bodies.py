@@ -175,10 +175,10 @@ def mixed(chance: Chance) -> Sketch:
     """A few elements of all kinds between points of whole numbers, with classes of all kinds."""
     planar = chance.random() < 0.4
     sketch = Sketch(planar)
-    places = apart(chance, chance.randint(3, 5), planar, 3)
+    places = apart(chance, chance.randint(3, 7), planar, 3)
     points = [(sketch.node(place), sketch.turning()) for place in places]
     kinds = [keyword for keyword, kind in KINDS.items() if kind.planar == planar]
-    for _ in range(chance.randint(2, 7)):
+    for _ in range(chance.randint(2, 11)):
         keyword = chance.choice(kinds)
         p, q = chance.sample(points, 2)
         slots = KINDS[keyword].slots

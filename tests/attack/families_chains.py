@@ -43,7 +43,7 @@ def collinear(chance: Chance) -> Sketch:
     """Bars on a line, fixed at both ends."""
     planar = chance.random() < 0.6
     sketch = Sketch(planar)
-    number = chance.randint(2, 8)
+    number = chance.randint(2, 14)
     start, along = whole(chance, planar), direction(chance, planar, 9)
     parts = sorted(chance.sample(range(1, 60), number + 1))
     nodes = [sketch.node(plus(start, along, Fraction(part, 20))) for part in parts]
@@ -59,7 +59,7 @@ def graded(chance: Chance) -> Sketch:
     size, step = (2, 3)[not planar], Fraction(10) ** chance.randint(1, 4)
     nodes = [sketch.node(place, fixed=True) for place in apart(chance, size, planar, 2)]
     length = Fraction(1)
-    for _ in range(chance.randint(2, 8)):
+    for _ in range(chance.randint(2, 12)):
         length *= step if length < 10**12 else 1
         joint = sketch.node(plus(sketch.at(nodes[-1]), direction(chance, planar), length))
         sketch.bars((joint, end) for end in nodes[-size:])
@@ -188,7 +188,7 @@ def levers(chance: Chance) -> Sketch:
 def ring(chance: Chance) -> Sketch:
     """Joints in a ring that each slide; the last path closes the ring, exactly or by a hair."""
     sketch = Sketch(planar=True)
-    number = chance.randint(3, 9)
+    number = chance.randint(3, 14)
     places = apart(chance, number, True, 12)
     joints = [sketch.node(place) for place in places]
     by = hair(chance, sketch)
@@ -228,7 +228,7 @@ def _lead(sketch: Sketch, joint: int, motion: Vector, by: Fraction) -> None:
 
 def polygon(chance: Chance) -> Sketch:
     """A regular polygon whose corners slide in and out: with an even number, all by turns."""
-    number = chance.randint(3, 10)
+    number = chance.randint(3, 14)
     even = int(number % 2 == 0)
     sketch = Sketch(planar=True, meant=Counts(even, even))
     joints = []

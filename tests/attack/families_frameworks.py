@@ -198,7 +198,7 @@ def grown(chance: Chance) -> Sketch:
     size = 2 if planar else 3
     nodes = [sketch.node(place, fixed=True) for place in apart(chance, size, planar)]
     by = hair(chance, sketch, 0.4)
-    for _ in range(chance.randint(1, 10 if planar else 8)):
+    for _ in range(chance.randint(2, 15 if planar else 12)):
         ends = chance.sample(nodes, size)
         place = whole(chance, planar, 20)
         if chance.random() < 0.3:

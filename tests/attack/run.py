@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import math
 import os
 import random
 import sys
@@ -107,7 +108,8 @@ def _described(case: Case, answers: dict[str, Answer]) -> str:
     )
     stored = tuple(counts_of(read(case.text).stored()))
     truth = f"typed {tuple(case.typed)}, meant {meant}, as stored in doubles {stored}"
-    return f"- {case.name}.dat: {truth}. {said}"
+    digits = "all" if math.isinf(case.digits) else f"{case.digits:.0f}"
+    return f"- {case.name}.dat: {digits} digits; {truth}. {said}"
 
 
 def main() -> int:

@@ -32,11 +32,11 @@ DECKS = 40
 #: that is not certain lacks the truth.
 TODAY: dict[Judgement, tuple[str, ...]] = {
     Judgement.WRONG: (
-        *("bipartite", "long-digits", "staircase", "mirrored", "platform", "far-whole"),
+        *("bipartite", "long-digits", "staircase", "mirrored", "platform", "far-whole", "pair"),
     ),
     Judgement.MISSING: (
         *("desargues", "octahedron", "lattice", "grown", "two-wires", "graded", "staircase"),
-        *("mirrored", "levers", "guide", "loop", "pair"),
+        *("mirrored", "levers", "guide", "loop", "pair", "ring"),
     ),
 }
 #: Decks whose digits do not close, as irrational numbers stand in them: what is typed.
