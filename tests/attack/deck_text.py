@@ -113,10 +113,9 @@ def mapped(deck: Deck, move: Callable[[Vector], Vector], turn: Callable[[Vector]
 def quaternion(chance: random.Random, planar: bool, plain: bool) -> tuple[Fraction, ...]:
     """A rotation: about an axis whose cosine and sine end after few decimals, or any."""
     if plain:
-        other = chance.choice((2, 3, 7)) * chance.choice((-1, 1))
         axis = 3 if planar else chance.choice((1, 2, 3))
-        parts = [chance.choice((1, 3)) if other % 3 else 1, 0, 0, 0]
-        parts[axis] = other
+        parts = [0, 0, 0, 0]
+        parts[0], parts[axis] = chance.choice(((1, 2), (2, 1), (1, 3), (3, -1), (1, -7), (7, 1)))
         return tuple(Fraction(part) for part in parts)
     if planar:
         angle = math.radians(chance.choice((30, 45, 60, 15, 10, chance.uniform(-180, 180))))

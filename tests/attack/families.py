@@ -73,7 +73,7 @@ FAMILIES: dict[str, Callable[[Chance], Sketch]] = {
 _ONE_POINT = 1e-15
 #: A vector whose sine with its chord is below this gives no direction.
 _PARALLEL = 1e-12
-_ATTEMPTS = 20
+_ATTEMPTS = 100
 #: A hair that is not this many units of the last digit is not seen.
 _SEEN = 100.0
 
@@ -147,14 +147,24 @@ def _without_hair(family: str, drawn: _Drawn, start: object) -> _Drawn:
     other = _drawn(family, chance, may_be_whole=False)
     if other.deck.places.keys() != drawn.deck.places.keys():
         return drawn
-    every = [part for place in drawn.deck.places.values() for part in place]
-    apart = max(
-        abs(float(a - b))
-        for node, place in drawn.deck.places.items()
-        for a, b in zip(place, other.deck.places[node], strict=True)
+    seen = _SEEN * 10.0**-drawn.style.digits
+    return drawn if _difference(drawn.deck, other.deck) > seen else other
+
+
+def _difference(deck: Deck, other: Deck) -> float:
+    """How far two decks are apart, as a part of their coordinates or of a direction's."""
+    places = [each for node in deck.places for each in deck.place(node)]
+    others = [each for node in deck.places for each in other.place(node)]
+    pairs = [(places, others)]
+    for number, element in deck.elements.items():
+        of_other = other.elements.get(number, element).vector
+        if element.vector is not None and of_other is not None:
+            pairs.append((list(element.vector), list(of_other)))
+    return max(
+        float(max(abs(a - b) for a, b in zip(these, those, strict=True)) / max(map(abs, these)))
+        for these, those in pairs
+        if any(these)
     )
-    seen = _SEEN * 10.0**-drawn.style.digits * float(max(map(abs, every)))
-    return drawn if apart > seen else other
 
 
 def _meant(drawn: _Drawn) -> Counts | None:

@@ -120,7 +120,8 @@ def _answer(case: Case, analysis: flexact.Analysis) -> Answer:
         judgement = _certain(case, given, offered)
     else:
         judgement = _doubtful(case, given, offered, analysis)
-    codes = sorted({doubt.code for doubt in analysis.assessment.doubts})
+    doubts = getattr(getattr(analysis, "assessment", None), "doubts", ())
+    codes = sorted({str(doubt.code) for doubt in doubts})
     words = f"{'certain' if certain else 'nearly'} {tuple(given)}"
     if offered:
         words += f", offered {[tuple(each) for each in offered]}"
@@ -155,8 +156,8 @@ def _doubtful(
 
 def _is_clear(analysis: flexact.Analysis) -> bool:
     """Whether the smallest value that is not zero is far above what its digits may make."""
-    pairs = analysis.pairs
+    pairs = getattr(analysis, "pairs", ())
     if not pairs:
         return False
     first = pairs[0]
-    return first.value > _FAR_ABOVE * max(first.lift_of_digits, first.lift_of_bits)
+    return bool(first.value > _FAR_ABOVE * max(first.lift_of_digits, first.lift_of_bits))

@@ -33,6 +33,7 @@ DECKS = 40
 TODAY: dict[Judgement, tuple[str, ...]] = {
     Judgement.WRONG: (
         *("bipartite", "long-digits", "staircase", "mirrored", "platform", "far-whole", "pair"),
+        "guide",
     ),
     Judgement.MISSING: (
         *("desargues", "octahedron", "lattice", "grown", "two-wires", "graded", "staircase"),
