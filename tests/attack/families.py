@@ -35,9 +35,14 @@ _BESIDE: dict[bool, tuple[Callable[[Chance], Sketch], ...]] = {
 
 
 def pair(chance: Chance) -> Sketch:
-    """Two mechanisms in one deck that share nothing, of different sizes."""
+    """Two mechanisms in one deck that share nothing, of different sizes; hairs would show in one
+    and not in the other.
+    """
     both = _BESIDE[chance.random() < 0.5]
-    sketch, other = chance.choice(both)(chance), chance.choice(both)(chance)
+    bare = Chance(chance.random())
+    bare.hairless = True
+    sketch, other = (chance.choice(both)(bare) for _ in range(2))
+    sketch.hairy = other.hairy = False
     scale = Fraction(10) ** chance.randint(-6, 6)
     shift = frameworks.whole(chance, sketch.planar, 30)
     sketch.take_in(other, scale, shift)

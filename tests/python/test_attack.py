@@ -32,7 +32,7 @@ DECKS = 40
 #: that is not certain lacks the truth.
 TODAY: dict[Judgement, tuple[str, ...]] = {
     Judgement.WRONG: (
-        *("bipartite", "long-digits", "staircase", "mirrored", "platform", "far-whole", "pair"),
+        *("bipartite", "long-digits", "staircase", "mirrored", "platform", "far-whole"),
         "guide",
     ),
     Judgement.MISSING: (
