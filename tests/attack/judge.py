@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Flexact says of a deck, held against its exact counts."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from enum import Enum
+from typing import NamedTuple
+
+import numpy as np
+
+import flexact
+from flexact.core.arrays import FloatArray
+from flexact.core.elements import Class
+
+from .families import Case
+from .truth import Counts
+
+#: The methods under attack; the last leaves out the proof, where there is one to leave out.
+METHODS = ("auto", "svd", "jacobi", "sparse")
+UNPROVED = "auto, unproved"
+CAN_PROVE = "prove" in inspect.signature(flexact.analyse).parameters
+#: A doubt is without need where the smallest value is this many times what rounding makes.
+_FAR_ABOVE = 1000.0
+
+
+class Judgement(str, Enum):
+    """How an answer stands to the truth, the best first."""
+
+    RIGHT = "certain, right"
+    MEANT = "certain of what is meant, not typed"
+    TYPED = "certain as typed, meant otherwise"
+    GIVEN = "doubtful, truth given"
+    OFFERED = "doubtful, truth offered"
+    NEEDLESS = "doubtful without need"
+    MISSING = "doubtful, truth missing"
+    WRONG = "certain, wrong"
+    REFUSED = "refused"
+
+
+#: What the claim forbids.
+OFFENCES = (Judgement.WRONG, Judgement.MISSING)
+
+
+class Answer(NamedTuple):
+    """What is said of a deck."""
+
+    judgement: Judgement
+    words: str
+    """The counts, what else is offered, and why."""
+
+
+class Judged(NamedTuple):
+    """A deck with what every method says of it."""
+
+    case: Case
+    answers: dict[str, Answer]
+    numpy_is_wrong: bool
+    """Whether dgesdd and numpy's rule count otherwise than the truth, on D(c) as it stands."""
+
+
+def methods() -> tuple[str, ...]:
+    """All that this version of the package offers."""
+    return (*METHODS, UNPROVED) if CAN_PROVE else METHODS
+
+
+def judge(case: Case, chosen: tuple[str, ...]) -> Judged:
+    """What the methods chosen say, and what numpy says."""
+    try:
+        model = flexact.read_text(case.text)
+        plain = numpy_counts(model)
+    except flexact.FlexactError as error:
+        refused = Answer(Judgement.REFUSED, str(error).splitlines()[0])
+        return Judged(case, dict.fromkeys(chosen, refused), False)
+    answers = {method: _answered(case, model, method) for method in chosen}
+    return Judged(case, answers, plain not in case.truths)
+
+
+def _answered(case: Case, model: flexact.Model, method: str) -> Answer:
+    try:
+        return _answer(case, _analysed(model, method))
+    except flexact.AnalysisError as error:
+        if "SuiteSparse" in str(error):
+            raise
+        return Answer(Judgement.REFUSED, str(error).splitlines()[0])
+
+
+def numpy_counts(model: flexact.Model) -> Counts:
+    """By numpy's rule, max(m, n) eps sigma_1, on D(c) in the deck's units."""
+    matrix = dense_jacobian(model)
+    rows, columns = matrix.shape
+    rank = int(np.linalg.matrix_rank(matrix)) if matrix.size else 0
+    return Counts(columns - rank, rows - rank)
+
+
+def dense_jacobian(model: flexact.Model) -> FloatArray:
+    """D(c): deformations that are not released, coordinates that are dependent."""
+    whole = flexact.jacobian(model)
+    arrays = model.data.arrays
+    rows, columns = arrays.deformation_class.T.ravel(), arrays.coordinate_class.T.ravel()
+    dependent = int(Class.DEPENDENT)
+    kept_rows = rows[rows != int(Class.NONE)] != dependent
+    kept_columns = columns[columns != int(Class.NONE)] == dependent
+    kept: FloatArray = whole.toarray()[kept_rows][:, kept_columns]
+    return kept
+
+
+def _analysed(model: flexact.Model, method: str) -> flexact.Analysis:
+    if method == UNPROVED:
+        return flexact.analyse(model, **{"prove": False})  # type: ignore[arg-type]
+    return flexact.analyse(model, method=method)
+
+
+def _answer(case: Case, analysis: flexact.Analysis) -> Answer:
+    given = Counts(analysis.under_constrained, analysis.over_constrained)
+    offered = tuple(_offered(analysis))
+    certain = analysis.certainty is flexact.Certainty.CERTAIN
+    if certain:
+        judgement = _certain(case, given, offered)
+    else:
+        judgement = _doubtful(case, given, offered, analysis)
+    doubts = getattr(getattr(analysis, "assessment", None), "doubts", ())
+    codes = sorted({str(doubt.code) for doubt in doubts})
+    words = f"{'certain' if certain else 'nearly'} {tuple(given)}"
+    if offered:
+        words += f", offered {[tuple(each) for each in offered]}"
+    return Answer(judgement, f"{words} {' '.join(codes)}".strip())
+
+
+def _offered(analysis: flexact.Analysis) -> Iterator[Counts]:
+    """Other counts that the analysis names."""
+    others = (getattr(analysis, "nearly", None), *getattr(analysis, "alternatives", ()))
+    for other in others:
+        if other is not None:
+            yield Counts(other.under_constrained, other.over_constrained)
+
+
+def _certain(case: Case, given: Counts, offered: tuple[Counts, ...]) -> Judgement:
+    if given not in case.truths:
+        return Judgement.WRONG
+    if given != case.typed:
+        return Judgement.MEANT
+    silent = case.meant is not None and case.meant not in (given, *offered)
+    return Judgement.TYPED if silent else Judgement.RIGHT
+
+
+def _doubtful(
+    case: Case, given: Counts, offered: tuple[Counts, ...], analysis: flexact.Analysis
+) -> Judgement:
+    if given in case.truths:
+        agreed = case.meant in (None, case.typed)
+        return Judgement.NEEDLESS if agreed and _is_clear(analysis) else Judgement.GIVEN
+    return Judgement.OFFERED if set(offered) & set(case.truths) else Judgement.MISSING
+
+
+def _is_clear(analysis: flexact.Analysis) -> bool:
+    """Whether the smallest value that is not zero is far above what its digits may make."""
+    pairs = getattr(analysis, "pairs", ())
+    if not pairs:
+        return False
+    first = pairs[0]
+    return bool(first.value > _FAR_ABOVE * max(first.lift_of_digits, first.lift_of_bits))
