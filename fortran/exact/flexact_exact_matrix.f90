@@ -44,6 +44,8 @@ contains
          end associate
       end do
       matrix%start(size(rows) + 1) = used + 1
+      matrix%column = matrix%column(:used)
+      matrix%entry = matrix%entry(:used)
    end subroutine make_exact_matrix
 
    !> Keep what stands in columns of D(c) and is not zero.

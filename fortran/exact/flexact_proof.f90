@@ -13,6 +13,7 @@ module flexact_proof
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t
    use flexact_rounding, only: typed_t, typed
+   use flexact_singletons, only: take_singletons
    implicit none
    private
    public :: proof_t, prove, no_proof
@@ -128,8 +129,7 @@ contains
       logical, intent(inout) :: is_joined(:)
       type(proof_t), intent(inout) :: proof
       type(exact_matrix_t) :: matrix
-      integer(int64), allocatable :: dense(:, :)
-      integer :: sides(2), k, entry
+      integer :: sides(2), k
 
       sides = shape_of(problem%components, i)
       proof%rank(i) = 0
@@ -137,21 +137,46 @@ contains
       associate (c => problem%components)
          call make_exact_matrix(model, problem%partition, c%row(c%row_start(i):c%row_start(i + 1) - 1), arithmetic, matrix)
       end associate
-      allocate (dense(sides(2), sides(1)), source=0_int64)
-      do k = 1, sides(1)
-         do entry = matrix%start(k), matrix%start(k + 1) - 1
-            associate (column => matrix%column(entry))
-               ! What rounding made zero may join components: they are not two then.
-               if (component_of(column) /= i) then
-                  is_joined([i, component_of(column)]) = .true.
-                  return
-               end if
-               dense(place(column), k) = matrix%entry(entry)%residue
+      ! What rounding made zero may join components: they are not two then.
+      do k = 1, size(matrix%column)
+         associate (other => component_of(matrix%column(k)))
+            if (other /= i) is_joined([i, other]) = .true.
+         end associate
+      end do
+      if (is_joined(i)) return
+      matrix%column = place(matrix%column)
+      proof%rank(i) = rank_of(matrix, sides(2), arithmetic%modulus)
+   end subroutine prove_component
+
+   !> Without what needs no arithmetic.
+   pure integer function rank_of(matrix, columns, modulus) result(rank)
+      type(exact_matrix_t), intent(in) :: matrix
+      integer, intent(in) :: columns
+      integer(int64), intent(in) :: modulus
+      logical :: is_row_left(size(matrix%start) - 1), is_column_left(columns)
+      integer :: new_place(columns), i, k, entry
+      integer(int64), allocatable :: dense(:, :)
+
+      call take_singletons(matrix%start, matrix%column, columns, rank, is_row_left, is_column_left)
+      if (.not. any(is_row_left)) return
+      allocate (dense(count(is_column_left), count(is_row_left)), source=0_int64)
+      k = 0
+      do i = 1, columns
+         if (is_column_left(i)) k = k + 1
+         new_place(i) = k
+      end do
+      k = 0
+      do i = 1, size(is_row_left)
+         if (.not. is_row_left(i)) cycle
+         k = k + 1
+         do entry = matrix%start(i), matrix%start(i + 1) - 1
+            associate (j => matrix%column(entry))
+               if (is_column_left(j)) dense(new_place(j), k) = matrix%entry(entry)%residue
             end associate
          end do
       end do
-      proof%rank(i) = flint_rank(sides(1), sides(2), dense, arithmetic%modulus)
-   end subroutine prove_component
+      rank = rank + flint_rank(size(dense, 2), size(dense, 1), dense, modulus)
+   end function rank_of
 
    !> Whether fifteen digits give every number of the geometry.
    pure logical function all_typed(model)

@@ -14,7 +14,9 @@ import flexact
 from flexact.core.arrays import FloatArray
 from flexact.core.elements import Class
 
+from .exact_deck import read
 from .families import Case
+from .storing import explains
 from .truth import Counts
 
 #: The methods under attack; the last leaves out the proof, where there is one to leave out.
@@ -31,6 +33,7 @@ class Judgement(str, Enum):
     RIGHT = "certain, right"
     MEANT = "certain of what is meant, not typed"
     TYPED = "certain as typed, meant otherwise"
+    STORED = "certain within what storing the numbers explains"
     GIVEN = "doubtful, truth given"
     OFFERED = "doubtful, truth offered"
     NEEDLESS = "doubtful without need"
@@ -138,11 +141,18 @@ def _offered(analysis: flexact.Analysis) -> Iterator[Counts]:
 
 def _certain(case: Case, given: Counts, offered: tuple[Counts, ...]) -> Judgement:
     if given not in case.truths:
-        return Judgement.WRONG
+        return Judgement.STORED if _is_stored(case, given) else Judgement.WRONG
     if given != case.typed:
         return Judgement.MEANT
     silent = case.meant is not None and case.meant not in (given, *offered)
     return Judgement.TYPED if silent else Judgement.RIGHT
+
+
+def _is_stored(case: Case, given: Counts) -> bool:
+    """Whether more values than are zero as typed are zero within the storing of the numbers."""
+    deck = read(case.text)
+    rank = len(deck.columns()) - given.under_constrained
+    return given.under_constrained > case.typed.under_constrained and explains(deck, rank)
 
 
 def _doubtful(

@@ -33,6 +33,7 @@ _HEADS = {
     Judgement.RIGHT: "right",
     Judgement.MEANT: "as meant",
     Judgement.TYPED: "as typed",
+    Judgement.STORED: "stored",
     Judgement.GIVEN: "given",
     Judgement.OFFERED: "offered",
     Judgement.NEEDLESS: "needless",

@@ -18,7 +18,9 @@ import pytest
 Report = TypeVar("Report", pytest.CollectReport, pytest.TestReport)
 
 #: Reasons of `pytest.importorskip`, and of skips where a program or a library is missing.
-_NOT_INSTALLED = re.compile(r"could not import|chromium|suitesparse|needs (matplotlib|vtk)", re.I)
+_NOT_INSTALLED = re.compile(
+    r"could not import|chromium|suitesparse|flint|needs (matplotlib|vtk)", re.I
+)
 
 
 def in_ci(environment: Mapping[str, str] = os.environ) -> bool:

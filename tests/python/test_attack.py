@@ -31,14 +31,8 @@ DECKS = 40
 #: Families in which the claim does not hold today: a wrong count is called certain, or an answer
 #: that is not certain lacks the truth.
 TODAY: dict[Judgement, tuple[str, ...]] = {
-    Judgement.WRONG: (
-        *("bipartite", "long-digits", "staircase", "mirrored", "platform", "far-whole"),
-        "guide",
-    ),
-    Judgement.MISSING: (
-        *("desargues", "octahedron", "lattice", "grown", "two-wires", "graded", "staircase"),
-        *("mirrored", "levers", "guide", "loop", "pair", "ring"),
-    ),
+    Judgement.WRONG: (),
+    Judgement.MISSING: (),
 }
 #: Decks whose digits do not close, as irrational numbers stand in them: what is typed.
 NOT_AS_MEANT = {

@@ -31,7 +31,7 @@ from verdicts import (
     never_wrong,
 )
 
-from flexact import Analysis, Certainty, Model, analyse, read_text
+from flexact import Analysis, Model, analyse, read_text
 
 sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
 families: Any = importlib.import_module("families")
@@ -154,14 +154,15 @@ LONG_LEVERS = [(100, 2.0), (60, 4.0), (20, 10.0), (40, 10.0), (30, 300.0), (12, 
 
 
 @pytest.mark.parametrize(("number", "ratio"), LONG_LEVERS)
-def test_levers_that_amplify_beyond_the_doubles_are_not_certain(number: int, ratio: float) -> None:
+def test_levers_that_amplify_beyond_the_doubles_are_right_or_nearly(
+    number: int, ratio: float
+) -> None:
     """Their determinant is not zero, though their smallest singular value is below 1e-19."""
     model = levers(number, ratio)
     assert exact_rank.rank_of_bars(model) == 2 * number
     for method in METHODS:
-        analysis = never_wrong(analyse(model, method=method), (0, 0))
-        assert analysis.certainty is Certainty.NEARLY
-        assert analysis.assessment.doubts[0].code == "close-decision"
+        never_wrong(analyse(model, method=method), (0, 0))
+        assert_right_or_nearly(analyse(model, method=method), (0, 0))
 
 
 @pytest.mark.parametrize("arm", [1.6, 1.1, 1.01])
@@ -286,46 +287,28 @@ def test_the_smallest_values_fall_as_they_should() -> None:
         assert after == pytest.approx(before / 4, rel=0.05)
 
 
-# Beyond what doubles can tell: the counts given, and those if what is in doubt is zero, are one,
-# and the truth is neither. A value that counts as zero and may be tiny is told, not counted.
+# Beyond what doubles can tell
 
-#: What is made, the truth, and what is answered instead, by every method.
-BEYOND: dict[str, tuple[Callable[[], Model], Counts, Counts]] = {
-    **{f"bars at 1e-{p}": (partial(two_wires, 10.0**-p), (0, 0), (1, 1)) for p in range(14, 19)},
+BEYOND: dict[str, tuple[Callable[[], Model], Counts]] = {
+    **{f"bars at 1e-{p}": (partial(two_wires, 10.0**-p), (0, 0)) for p in range(14, 19)},
+    **{f"wires at 1e-{p}": (partial(two_wire_flexures, 10.0**-p), (4, 0)) for p in range(14, 19)},
+    **{f"laeuchli 1e-{p}": (partial(laeuchli, p), (0, 1)) for p in range(14, 19)},
+    "fold lines at 1e-14": (partial(two_fold_lines, 1e-14), (6, 0)),
     **{
-        f"wires at 1e-{p}": (partial(two_wire_flexures, 10.0**-p), (4, 0), (5, 1))
-        for p in range(14, 19)
-    },
-    **{f"laeuchli 1e-{p}": (partial(laeuchli, p), (0, 1), (2, 3)) for p in range(14, 19)},
-    "fold lines at 1e-14": (partial(two_fold_lines, 1e-14), (6, 0), (7, 1)),
-    **{
-        f"{number} levers by {ratio:g}": (partial(levers, number, ratio), (0, 0), (1, 1))
+        f"{number} levers by {ratio:g}": (partial(levers, number, ratio), (0, 0))
         for number, ratio in ((44, 2.0), (47, 2.0), (22, 4.0), (24, 4.0), (14, 10.0), *LONG_LEVERS)
     },
 }
-#: The same, by the method sparse alone: the others take too long.
-BEYOND_SPARSE: dict[str, tuple[Callable[[], Model], Counts, Counts]] = {
-    f"stages {arm:g}, {side} a side": (partial(many_stages, arm, side), (0, 0), (side, side))
-    for arm, side in ((1.6, 16), (1.1, 20), (1.01, 14))
-}
 
 
-def not_yet(name: str, method: str) -> Any:
-    """A case that is expected to fail, with what it answers today."""
-    case = (BEYOND | BEYOND_SPARSE)[name]
-    reason = f"answers {case[2]}, and {case[2]} if what is in doubt is zero; the truth is {case[1]}"
-    marks = pytest.mark.xfail(strict=True, raises=AssertionError, reason=reason)
-    return pytest.param(*case[:2], method, id=f"{name} {method}", marks=marks)
-
-
-@pytest.mark.parametrize(
-    ("make", "truth", "method"),
-    [
-        *(not_yet(name, method) for name in BEYOND for method in METHODS),
-        *(not_yet(name, "sparse") for name in BEYOND_SPARSE),
-    ],
-)
-def test_the_truth_is_among_the_answers(
-    make: Callable[[], Model], truth: Counts, method: str
-) -> None:
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("name", BEYOND)
+def test_the_truth_is_among_the_answers(name: str, method: str) -> None:
+    make, truth = BEYOND[name]
     assert_right_or_nearly(analyse(make(), method=method), truth)
+
+
+@pytest.mark.xfail(strict=True, raises=AssertionError, reason="too large for a proof by default")
+@pytest.mark.parametrize(("arm", "side"), [(1.6, 16), (1.1, 20), (1.01, 14)])
+def test_the_truth_is_among_the_answers_of_large_models(arm: float, side: int) -> None:
+    assert_right_or_nearly(analyse(many_stages(arm, side), method="sparse"), (0, 0))

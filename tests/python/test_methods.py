@@ -69,7 +69,7 @@ def test_a_tolerance_decides_and_is_echoed() -> None:
 
 def failing(error: str, monkeypatch: pytest.MonkeyPatch) -> None:
     raw = analyse(ring(3)).raw._replace(error=error, bytes_needed=3.5e9)
-    monkeypatch.setattr(calls, "analyse_model", lambda *_: raw)
+    monkeypatch.setattr(calls, "analyse_model", lambda *_, **__: raw)
 
 
 @pytest.mark.parametrize("failure", [each for each in calls.ERRORS if each != "none"])
@@ -85,7 +85,7 @@ def test_failures_of_the_core_are_errors_of_the_analysis(
 
 
 def test_memory_that_runs_out_on_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise MemoryError
 
     monkeypatch.setattr(calls, "analyse_model", full)
