@@ -113,7 +113,6 @@ contains
       end if
       result%undecided = result%undecided + judgement%undecided
       result%unseen = result%unseen + judgement%unseen
-      if (judgement%beyond_digits) result%unjudged = .true.
       if (judgement%left > result%left) then
          result%left = judgement%left
          result%explained = judgement%explained

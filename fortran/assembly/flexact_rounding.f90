@@ -67,13 +67,19 @@ contains
          typed%mantissa = nint(value*power, int64)
          typed%short = abs(typed%mantissa/power - value) <= 0
       else if (place < 0) then
-         typed%mantissa = nint(value*10.0_qp**(-place), int64)
+         typed%mantissa = nearest_whole(value*10.0_qp**(-place))
          typed%short = abs(real(typed%mantissa/10.0_qp**(-place), wp) - value) <= 0
       else
-         typed%mantissa = nint(value/10.0_qp**place, int64)
+         typed%mantissa = nearest_whole(value/10.0_qp**place)
          typed%short = abs(real(typed%mantissa*10.0_qp**place, wp) - value) <= 0
       end if
    end function typed
+
+   !> Intrinsic nint would ask for a library of its own.
+   pure elemental integer(int64) function nearest_whole(value)
+      real(qp), intent(in) :: value
+      nearest_whole = int(value + sign(0.5_qp, value), int64)
+   end function nearest_whole
 
    !> By how much a number may be wrong in its last bits, in its own unit, in a
    !> model of this extent.

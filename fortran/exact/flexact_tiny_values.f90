@@ -10,6 +10,7 @@ module flexact_tiny_values
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t
    use flexact_refined_zeros, only: many_digits_t, refined_zeros_t, refine_zeros, least_told
+   use flexact_scaled_norm, only: length_of
    use flexact_sensitivity, only: sensitivity_t, find_sensitivities
    implicit none
    private
@@ -18,6 +19,8 @@ module flexact_tiny_values
    !> A value this many times larger than what half units make of it is not zero; one
    !> that they explain was meant to be.
    real(wp), parameter :: clearly = 30.0_wp
+   !> What components of a vector that fades are to its largest: vectors have 30 digits.
+   real(wp), parameter :: faded(2) = [1.0e-28_wp, 1.0e-7_wp]
    !> Products of numbers of many digits that are spent at most, a good tenth of a second.
    real(wp), parameter :: most_products = 2.0e6_wp
 
@@ -30,8 +33,6 @@ module flexact_tiny_values
       integer :: nonzero = 0, unseen = 0, undecided = 0
       !> The largest of those that may be zero, and what storing the geometry makes of it.
       real(wp) :: left = 0.0_wp, explained = 0.0_wp
-      !> Whether some may be too small for the digits.
-      logical :: beyond_digits = .false.
    end type judgement_t
 
 contains
@@ -60,10 +61,10 @@ contains
       if (allocated(error)) return
       judgement%is_made = .true.
       asked = count(judgement%zeros%value > least_told)
-      judgement%beyond_digits = excess < 0 .and. asked < size(judgement%zeros%value)
       if (excess >= 0) asked = excess
       call find_lifts(model, problem, row, column, judgement%zeros, asked, lift)
       call compare(judgement%zeros%value(:asked), lift, judgement)
+      if (excess < 0) call doubt_fading(asked, judgement)
    end subroutine judge_zeros
 
    !> Values that are not zero in exact arithmetic, descending, with what storing makes of them.
@@ -82,6 +83,7 @@ contains
          judgement%nonzero = k
       end do
       judgement%unseen = judgement%nonzero - seen
+      judgement%zeros%value(seen + 1:judgement%nonzero) = least_told
       if (judgement%nonzero == size(value)) return
       judgement%left = value(judgement%nonzero + 1)
       judgement%explained = lift(judgement%nonzero + 1)
@@ -89,6 +91,27 @@ contains
          if (value(k) > lift(k)) judgement%undecided = k - judgement%nonzero
       end do
    end subroutine compare
+
+   !> Where exact arithmetic is not at hand, a value that no digits show may be tiny, if its
+   !> vectors fade: each element passes on a part of the motion of the last.
+   pure subroutine doubt_fading(asked, judgement)
+      integer, intent(in) :: asked
+      type(judgement_t), intent(inout) :: judgement
+      integer :: k
+
+      do k = asked + 1, size(judgement%zeros%value)
+         if (fades(judgement%zeros%left(:, k)) .and. fades(judgement%zeros%right(:, k))) &
+            judgement%undecided = k - judgement%nonzero
+      end do
+   end subroutine doubt_fading
+
+   !> Whether components are small, but not by rounding.
+   pure logical function fades(vector)
+      real(wp), intent(in) :: vector(:)
+      associate (part => abs(vector)/maxval(abs(vector)))
+         fades = any(part > faded(1) .and. part < faded(2))
+      end associate
+   end function fades
 
    !> The rows of a component, scaled as the problem's.
    pure subroutine make_many_digits(model, problem, row, column, as_typed, matrix)
@@ -115,7 +138,7 @@ contains
          associate (of_row => matrix%value(matrix%start(i):matrix%start(i + 1) - 1), &
                     scaled => problem%matrix%by_row%value(problem%matrix%by_row%start(row(i)): &
                                                           problem%matrix%by_row%start(row(i) + 1) - 1))
-            if (any(abs(of_row) > 0)) of_row = of_row*(norm2(scaled)/norm2(of_row))
+            if (any(abs(of_row) > 0)) of_row = of_row*(length_of(scaled)/length_of(real(of_row, wp)))
          end associate
       end do
    end subroutine make_many_digits

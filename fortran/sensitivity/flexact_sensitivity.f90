@@ -24,6 +24,9 @@ module flexact_sensitivity
    !> Of several that change as much as can be told, the first is named.
    real(wp), parameter :: more = 1 + 1.0e-6_wp
 
+   !> Zeros that were turned are no larger than this part of the geometry.
+   real(wp), parameter :: remnant = 16*epsilon(1.0_wp)
+
    !> Of one pair of vectors.
    type :: sensitivity_t
       !> What rounding in the last bits, and of the digits typed, can make of
@@ -139,7 +142,7 @@ contains
       real(wp), intent(in) :: effect(parameters), nothing(2)
       real(wp), intent(inout) :: by_node(:, :)
       type(sensitivity_t), intent(inout) :: found
-      real(wp) :: by_turn
+      real(wp) :: by_turn, units(axes)
 
       associate (p => model%element_node(1, k), q => model%element_node(3, k), &
                  vector => model%element_vector(:, k), of_offset => effect(1:3), of_vector => effect(4:6))
@@ -149,8 +152,8 @@ contains
          end if
          found%lift_of_bits = found%lift_of_bits + dot_product(abs(of_vector), last_bits(vector, maxval(abs(vector))))
          found%lift_of_digits = found%lift_of_digits + dot_product(abs(of_vector), half_units_of(vector))
-         found%lift_of_storing = found%lift_of_storing &
-                                 + dot_product(abs(of_vector), stored_or_printed(vector, decimal(vector), .true.))
+         units = stored_or_printed(vector, decimal(vector), .true., maxval(abs(vector)))
+         found%lift_of_storing = found%lift_of_storing + dot_product(abs(of_vector), units)
          by_turn = norm2(cross(variation%offset, of_offset) + cross(vector, of_vector))
          if (by_turn <= nothing(1)*norm2(variation%offset) + nothing(2)*norm2(vector)) return
          if (by_turn > more*found%by_turn) then
@@ -160,14 +163,16 @@ contains
       end associate
    end subroutine add_element
 
-   !> By how much a number may be wrong that was stored or printed: half a unit of its
-   !> last bit, or of its last digit.
-   elemental real(wp) function stored_or_printed(value, number, printed) result(half)
-      real(wp), intent(in) :: value
+   !> By how much a number may be wrong that was stored or printed, in a geometry of this
+   !> size: half a unit of its last bit, or of its last digit. What is no more than some
+   !> last bits of the size, in many digits, is what a turn has left of a zero.
+   elemental real(wp) function stored_or_printed(value, number, printed, extent) result(half)
+      real(wp), intent(in) :: value, extent
       type(decimal_t), intent(in) :: number
       logical, intent(in) :: printed
 
       half = half_bit(value)
+      if (.not. number%short .and. abs(value) < remnant*extent) half = half_bit(extent)
       if (printed .and. looks_printed(number)) half = 0.5_wp*10.0_wp**number%place
    end function stored_or_printed
 
@@ -196,7 +201,7 @@ contains
          if (.not. is_position(model%node_kind(node))) cycle
          half = half_units(number(:, node), rounded(:, node))
          bits = last_bits(model%node_value(1:axes, node), extent)
-         units = stored_or_printed(model%node_value(1:axes, node), number(:, node), printed)
+         units = stored_or_printed(model%node_value(1:axes, node), number(:, node), printed, extent)
          do i = 1, size(found)
             associate (change => by_node(1:axes, i, node), nothing => by_node(axes + 1, i, node), item => found(i))
                item%lift_of_bits = item%lift_of_bits + dot_product(abs(change), bits)

@@ -75,7 +75,7 @@ def test_an_angle_below_the_rounding_is_proven(power: int) -> None:
     analysis = analyse(two_wires(10.0**-power))
     assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
     assert analysis.proof is not None and analysis.proof[1:] == (2, 1, 0.0)
-    assert codes(analysis) == ["close-decision"]
+    assert [item.code for item in analysis.warnings] == ["close-decision"]
 
 
 def test_no_angle_at_all_is_certain() -> None:

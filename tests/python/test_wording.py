@@ -7,6 +7,7 @@ Other tests ask for codes, numbers and names, so that prose can be improved here
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import re
 from collections.abc import Callable, Iterator
@@ -42,6 +43,7 @@ from flexact.files.decks import DeckFile
 from flexact.files.outputs import OutputError, plan_files, write_together
 from flexact.regress.comparison import differences
 from flexact.regress.stored_answer import StoredAnswerError, answer_of, read_answer
+from flexact.result.outcome import Asked
 from flexact.text.describe import describe
 from flexact.text.log import log_text
 
@@ -69,7 +71,15 @@ def in_parts() -> Analysis:
 
 
 def not_confirmed(method: str) -> Analysis:
-    return changed(analyse(ring(5)), confirmed=False, method=method)
+    analysis = analyse(ring(5), prove=False)
+    return changed(analysis, confirmed=False, method=method)
+
+
+def unjudged() -> Analysis:
+    """As of a model that is too large for exact arithmetic and for more digits."""
+    given = analyse(levers(20, 10.0), tolerance=1e-15)
+    asked = dataclasses.replace(given, asked=Asked())
+    return changed(asked, proven_rank=-1, unjudged=True)
 
 
 RESULTS: dict[str, Callable[[], Analysis]] = {
@@ -94,6 +104,13 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
     "small_angle": lambda: analyse(two_wires(1e-4)),
     "close_decision": lambda: analyse(two_wires(1e-13)),
     "beyond_the_digits": lambda: analyse(levers(20, 10.0)),
+    "beyond_the_digits_unjudged": unjudged,
+    "undecided": lambda: changed(analyse(ring(6)), undecided=1, left=1e-16, explained=2e-17),
+    "unseen": lambda: changed(analyse(ring(5)), unseen=1),
+    "zero_meant": lambda: analyse(flexact.read(ROOT / "input_decks" / "linkages" / "bennett.dat")),
+    "not_proven": lambda: analyse(ring(5), prove=False),
+    "no_exact_arithmetic": lambda: changed(analyse(ring(5)), proven_rank=-1, primes=0),
+    "too_large_by_default": lambda: changed(analyse(ring(5)), proven_rank=-1),
     "not_confirmed": lambda: not_confirmed("sparse"),
     # Methods
     "method_asked_for": lambda: analyse(twelve_trusses(), method="jacobi"),
@@ -227,10 +244,10 @@ def test_messages_of_failed_analyses(as_stored: AsStored, monkeypatch: pytest.Mo
     said = []
     for error in ("convergence", "memory", "library", "not found"):
         failed = raw._replace(error=error, bytes_needed=3.5e9)
-        monkeypatch.setattr(calls, "analyse_model", lambda *_, failed=failed: failed)
+        monkeypatch.setattr(calls, "analyse_model", lambda *_, failed=failed, **__: failed)
         said.append(said_by(lambda: analyse(ring(3))))
 
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise MemoryError
 
     monkeypatch.setattr(calls, "analyse_model", full)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 
 from .margin import margin_of
@@ -38,12 +39,21 @@ def _ranks(outcome: Outcome, evidence: Evidence, lower: int, higher: int) -> Ite
         yield outcome.rank + higher
     if outcome.proof:
         yield outcome.proof.rank
-    values = [pair.value for pair in evidence.pairs[:lower]]
-    gaps = [after / before if before else 0.0 for before, after in itertools.pairwise(values)]
-    for k in sorted(range(len(gaps)), key=lambda k: -gaps[k]):
-        yield outcome.rank - k - 1
-    for k in range(higher - 1, 0, -1):
+    for k in _groups([pair.value for pair in evidence.pairs[:lower]]):
+        yield outcome.rank - k
+    below = outcome.scaled_singular_values.size + outcome.rank - min(outcome.rows, outcome.columns)
+    zeros = outcome.scaled_singular_values[max(below, 0) :][:higher]
+    for k in _groups([1.0 / value if value else math.inf for value in zeros.tolist()]):
         yield outcome.rank + k
+
+
+def _groups(ascending: list[float]) -> list[int]:
+    """How many of the first values stand together, the widest gap above them first."""
+    gaps = [
+        after / before if 0.0 < before < math.inf else 0.0
+        for before, after in itertools.pairwise(ascending)
+    ]
+    return sorted(range(1, len(gaps) + 1), key=lambda k: -gaps[k - 1])
 
 
 def _alternative(outcome: Outcome, evidence: Evidence, rank: int) -> Alternative:

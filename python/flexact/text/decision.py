@@ -68,12 +68,9 @@ _AS_THEY_ARE = {"decimals": "With the decimals as typed", "doubles": "With the n
 
 def _proven(proof: Proof) -> str:
     """A rank in exact arithmetic with what is left of doubt."""
-    primes = counted(proof.primes, "random prime", "", "s")
     if not proof.failure_probability:
-        return f"{proof.rank} (full, modulo {primes})"
-    return f"{proof.rank} (modulo {primes}; too low with a probability below " + (
-        f"{proof.failure_probability:.0e})"
-    )
+        return f"{proof.rank}"
+    return f"{proof.rank} (too low with a probability below {proof.failure_probability:.0e})"
 
 
 def _why(result: Result) -> str:
