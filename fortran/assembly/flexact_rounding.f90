@@ -78,7 +78,7 @@ contains
    !> Intrinsic nint would ask for a library of its own.
    pure elemental integer(int64) function nearest_whole(value)
       real(qp), intent(in) :: value
-      nearest_whole = int(value + sign(0.5_qp, value), int64)
+      nearest_whole = int(value + merge(-0.5_qp, 0.5_qp, value < 0), int64)
    end function nearest_whole
 
    !> By how much a number may be wrong in its last bits, in its own unit, in a
