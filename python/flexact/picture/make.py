@@ -19,6 +19,7 @@ from ..text.describe import verdict_in_words
 from .animation import gif_bytes
 from .figure import compose
 from .files import png_bytes, svg_bytes
+from .loading import load_matplotlib
 from .subject import Chosen, moving_subject, subjects_of
 
 if TYPE_CHECKING:
@@ -119,6 +120,7 @@ def _figure(
     plain: bool,
 ) -> Figure:
     check_packages()
+    load_matplotlib()
     drawing = drawing_of(analysis.data)
     subjects = subjects_of(analysis, drawing, chosen)
     seen = view_of(view, drawing)
@@ -153,6 +155,7 @@ def picture_bytes(
     check_packages()
     asked = Chosen(**chosen)
     with _quiet():
+        load_matplotlib()
         if kind == ".gif":
             drawing = drawing_of(analysis.data)
             subject, seen = moving_subject(analysis, drawing, asked), view_of(view, drawing)
