@@ -1,11 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> An analysis as flat arrays: what is wished for, and what comes back.
 module flexact_result_exchange
+   use flexact_blas, only: blas_work_t, blas_begin, blas_end, blas_bytes, is_small
    use flexact_components, only: largest_component
    use flexact_determinacy, only: analyse
+   use flexact_error, only: error_memory
    use flexact_exchange, only: give_basis, counts_of
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
+   use flexact_partition, only: model_count_t, count_model
    use flexact_problem, only: problem_t
    use flexact_result, only: result_t, options_t, most_pairs
    implicit none
@@ -25,7 +28,39 @@ module flexact_result_exchange
                                                     'failure', 'undecided', 'unjudged', 'left', 'explained', &
                                                     'unseen']
 
+   !> Bytes that an analysis takes besides the factors of D(c): for each row and each column (to
+   !> 900 were measured, of chains, lattices and loose bars), and on every occasion. Where the
+   !> address space has a limit, they must be there before it begins.
+   real(wp), parameter :: bytes_each = 1100.0_wp
+   real(wp), parameter :: aside = 16.0e6_wp
+
 contains
+
+   !> Analyse a model within what flexact_blas says of threads and memory; all as for run_with_blas.
+   subroutine run(model, wishes, stage, index, place, value, by_size, facts)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: wishes(:)
+      integer, intent(inout), target :: stage(:)
+      integer, intent(inout) :: index(:, :), place(:)
+      real(wp), intent(inout) :: value(:), by_size(:, :)
+      real(wp), intent(out) :: facts(:)
+      type(model_count_t) :: counts
+      type(blas_work_t) :: work
+      real(wp) :: bytes, limited(size(wishes))
+
+      counts = count_model(model%coordinate_class, model%deformation_class)
+      bytes = aside + bytes_each*(real(counts%rows, wp) + counts%columns)
+      if (blas_begin(is_small(counts%rows, counts%columns), bytes, work) /= 0) then
+         facts = 0
+         facts(:2) = [real(error_memory, wp), blas_bytes + bytes]
+         return
+      end if
+      limited = wishes
+      if (work%limited /= 0) limited(3) = max(0.0_wp, wishes(3) - bytes)
+      call run_with_blas(model, limited, stage, index, place, value, by_size, facts)
+      call blas_end(work)
+      if (work%limited /= 0 .and. nint(facts(1)) == error_memory) facts(2) = facts(2) + bytes
+   end subroutine run
 
    !> Analyse a model. wishes: method, tolerance (negative: from the data), bytes
    !> of memory that may be used, 1 if only the singular values of D(c) itself
@@ -35,7 +70,7 @@ contains
    !> by_size: scale, singular values, and vectors of pairs.
    !> Vectors of motions, then of self-stresses: vector k begins at index(3, k)
    !> of place (from 0) and value.
-   subroutine run(model, wishes, stage, index, place, value, by_size, facts)
+   subroutine run_with_blas(model, wishes, stage, index, place, value, by_size, facts)
       type(model_t), intent(in) :: model
       real(wp), intent(in) :: wishes(:)
       integer, intent(inout), target :: stage(:)
@@ -77,7 +112,7 @@ contains
       end associate
       facts(31:32) = [answer%undecided, merge(1, 0, answer%unjudged)]
       facts(33:35) = [answer%left, answer%explained, real(answer%unseen, wp)]
-   end subroutine run
+   end subroutine run_with_blas
 
    pure subroutine give_labels(problem, index)
       type(problem_t), intent(in) :: problem

@@ -155,7 +155,8 @@ def analyse(
         AnalysisError: the model is too large for the memory, the decomposition did not
             converge, or this build lacks what the method needs.
         TypeError: what is given is neither a model nor a path, or the tolerance no number,
-            or the method or the name no text, or `prove` no truth value.
+            the method or the name no text, `prove` no truth value, or `progress` nothing to
+            call.
         ValueError: there is no such method, or the tolerance is negative or not finite.
     """
     if not isinstance(model, (Model, str, bytes, os.PathLike)):
@@ -163,6 +164,8 @@ def analyse(
         raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
     if not isinstance(name, (str, type(None))):
         raise TypeError(f"the name of a result must be text, not {type(name).__name__}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be something to call, not {type(progress).__name__}")
     asked = asked_for(method, tolerance, prove)
     if not isinstance(model, Model):
         model = read(model)

@@ -7,6 +7,7 @@ import re
 import textwrap
 from pathlib import Path
 
+import numpy as np
 import pytest
 from wording import AsStored
 
@@ -145,6 +146,44 @@ def test_deck_of_the_manual_is_the_parallel_guide() -> None:
     deck = next(b for b in blocks((DOCS / "decks.md").read_text("utf-8")) if "BEAM 1" in b)
     analysis = flexact.analyse(flexact.read_text(deck))
     assert (analysis.under_constrained, analysis.over_constrained) == (0, 1)
+
+
+@pytest.mark.parametrize(
+    ("statement", "along", "towards"),
+    [
+        ("HINGE 1 2 4 0 0 1", (0, 0, 1), (1, 0, 0)),
+        ("HINGE 1 2 4 0 3 0", (0, 1, 0), (1, 0, 0)),
+        ("HINGE 1 2 4 -2 0 0", (-1, 0, 0), (0, 1, 0)),
+        ("HINGE 1 2 4 3 1 -2", (3, 1, -2), (0, 1, 0)),
+        ("HINGE 1 2 4 3 -2 1", (3, -2, 1), (0, 0, 1)),
+        ("BEARING 1 1 2 3 4 2 2 1", (2, 2, 1), (0, 0, 1)),
+        ("BEAM 1 1 2 3 4", (1, 2, 3), (1, 0, 0)),
+        ("BEAM 1 1 2 3 4 0 1 1", (1, 2, 3), (0, 1, 1)),
+        ("RBEAM 1 1 2 3", (1, 2, 3), (1, 0, 0)),
+        ("RBEAM 1 1 2 3 -1 0 1", (1, 2, 3), (-1, 0, 1)),
+        ("PINBODY 1 1 2 3", (1, 2, 3), (1, 0, 0)),
+    ],
+)
+def test_local_axes_are_those_of_the_manual(
+    statement: str, along: tuple[float, ...], towards: tuple[float, ...]
+) -> None:
+    """Gram and Schmidt find y: what is left of `towards` without its part along x."""
+    deck = f"{statement}\nBEAM 2 5 2 6 4\nTRUSS 3 1 3\nX 3 1 2 3\nX 6 7 8 9\nFIX 5\nEND\n"
+    frame = flexact.read_text(deck).data.frames.frame[0]
+    x = np.array(along) / np.linalg.norm(along)
+    y = np.array(towards) - x * (x @ towards)
+    y /= np.linalg.norm(y)
+    assert frame == pytest.approx(np.column_stack((x, y, np.cross(x, y))), abs=1e-15)
+
+
+@pytest.mark.parametrize("turned", [(0, 1, 0), (0, 0, 1)])
+def test_second_and_third_of_a_hinge_are_about_its_y_and_z(turned: tuple[int, ...]) -> None:
+    model = flexact.read_text("HINGE 1 2 4 3 1 -2\nBEAM 2 5 2 6 4\nX 6 7 8 9\nFIX 5\nEND\n")
+    axis, small = model.data.frames.frame[0] @ np.array(turned), 1e-6
+    move = np.zeros((len(model.node_numbers), 3))
+    move[model.node_index(4)] = small * axis
+    found = flexact.deformations(model, model.reference().moved(move))[:3]
+    assert found == pytest.approx(small * np.array(turned), abs=1e-11)
 
 
 def test_readme_is_short() -> None:

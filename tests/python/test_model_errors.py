@@ -6,7 +6,7 @@ The words of each stand in golden/messages.
 
 import numpy as np
 import pytest
-from wrong_use import BUILDER, Call, code_of, each, two_nodes_and_a_bar
+from wrong_use import ARGUMENTS, BUILDER, Call, code_of, each, two_nodes_and_a_bar
 
 import flexact
 from flexact import Model, ModelError
@@ -19,6 +19,20 @@ def test_wrong_use_is_a_model_error_at_once(code: str, call: Call) -> None:
         call(model, a, b, bar)
     assert code_of(error) == code
     assert str(error.value).startswith(f"error[{code}]: ")
+    assert model.element_numbers.tolist() == [1]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("kind", "call"), [(kind, call) for kind, calls in ARGUMENTS.items() for call in calls]
+)
+def test_wrong_arguments_are_told_in_words(kind: type[Exception], call: Call) -> None:
+    """Words of Flexact's own, and not too many of them."""
+    model, a, b, bar = two_nodes_and_a_bar()
+    with pytest.raises(kind) as error:
+        call(model, a, b, bar)
+    assert error.type is kind
+    assert 10 < len(str(error.value)) < 300
     assert model.element_numbers.tolist() == [1]
 
 

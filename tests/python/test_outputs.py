@@ -4,6 +4,8 @@
 import os
 import re
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,6 +15,7 @@ from flexact.base.errors import BatchError
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.files.decks import DeckFile, FolderError, find_decks
 from flexact.files.outputs import OutputError, plan_files, write_together
+from flexact.files.temporary import remove_left, temporary_name
 
 
 def test_a_folder_stands_for_its_decks_in_order(tmp_path: Path) -> None:
@@ -150,6 +153,48 @@ def test_an_interruption_leaves_nothing(tmp_path: Path, monkeypatch: pytest.Monk
     with pytest.raises(KeyboardInterrupt):
         write_together({tmp_path / "x.json": b"first"})
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
+    code = """
+import os, signal, sys
+from pathlib import Path
+from flexact.files.outputs import write_together
+os.replace = lambda *places: os.kill(os.getpid(), signal.SIGKILL)
+write_together({Path(sys.argv[1]) / "x.json": b"1", Path(sys.argv[1]) / "x.log": b"2"})
+"""
+    killed = subprocess.run([sys.executable, "-c", code, str(tmp_path)])
+    assert killed.returncode == -signal.SIGKILL
+    assert len(list(tmp_path.iterdir())) == 2
+    write_together({tmp_path / "y.json": b"1"})
+    assert [path.name for path in tmp_path.iterdir()] == ["y.json"]
+
+
+def test_temporary_files_of_others_stay(tmp_path: Path) -> None:
+    """Those of processes that live, of other systems, links, folders, and what only looks so."""
+    ours = temporary_name()
+    system, process = ours.split("-")[1:3]
+    (dead := subprocess.Popen([sys.executable, "-c", ""])).wait()
+    stay = {
+        f".flexact-{system}-{process}-987654321.tmp",
+        f".flexact-{system}-{os.getppid()}-0.tmp",
+        f".flexact-{system}-1-0.tmp",
+        f".flexact-{system}-{10**30}-0.tmp",
+        f".flexact-{'0' * 12}-{dead.pid}-0.tmp",
+        f".flexact-{dead.pid}-0.tmp",
+        f".flexact-{system}-{dead.pid}-0.tmp.json",
+        f"flexact-{system}-{dead.pid}-0.tmp",
+        f".flexact-{system}--{dead.pid}-0.tmp",
+        f".flexact-{system}-0-0.tmp",
+    }
+    for name in stay:
+        write(tmp_path / name, "")
+    (tmp_path / f".flexact-{system}-{dead.pid}-1.tmp").symlink_to(tmp_path / "x")
+    (tmp_path / f".flexact-{system}-{dead.pid}-2.tmp").mkdir()
+    before = set(tmp_path.iterdir())
+    write(tmp_path / f".flexact-{system}-{dead.pid}-3.tmp", "")
+    remove_left(tmp_path)
+    assert set(tmp_path.iterdir()) == before
 
 
 def test_an_interruption_waits_until_all_files_are_there(

@@ -5,7 +5,9 @@ Points of the drawings are projected here, and the pixels there are looked at.
 """
 
 import itertools
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +21,7 @@ from flexact.drawing.selection import NotThereError
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 
+from flexact.page import page
 from flexact.picture import PictureError, SubjectError, ViewError, draw, picture_bytes
 
 #: What stands before the statements of the picture block.
@@ -301,6 +304,37 @@ def test_hinges_are_cylinders_in_their_colour() -> None:
     rgb = Pixels(figure).rgb / np.maximum(Pixels(figure).rgb.max(axis=-1, keepdims=True), 1)
     shaded = np.all(np.abs(rgb - purple / purple.max()) < 0.03, axis=-1)
     assert shaded.sum() > 300
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"motion": "1"},
+        {"freedom": 1.0},
+        {"stress": np.zeros(2)},
+        {"quantity": np.zeros(2)},
+        {"view": 1},
+        {"view": np.zeros(2)},
+        {"phase": "0"},
+        {"phase": 10**400},
+        {"phase": float("nan")},
+        {"phase": 2},
+        {"size": 1},
+        {"size": (1, 2, 3)},
+        {"size": (0, 10)},
+        {"size": (10**400, 10)},
+        {"size": np.zeros((2, 2))},
+    ],
+)
+def test_wrong_arguments_are_told_in_words(wrong: dict[str, Any], tmp_path: Path) -> None:
+    with pytest.raises((TypeError, ValueError), match=r" is .*(not|wide)"):
+        draw(of_text(tmp_path, TRIANGLE), **wrong)
+
+
+@pytest.mark.parametrize("of_what", [draw, page])
+def test_what_is_no_result_is_not_drawn(of_what: Callable[..., object]) -> None:
+    with pytest.raises(TypeError, match="result"):
+        of_what(1)
 
 
 @pytest.mark.parametrize("given", ["RED 1", "0.2 0.9 0.1"])

@@ -31,6 +31,37 @@ def test_a_picture_is_written(
     assert files_in(tmp_path / "new") == [f"x.{suffix}"]
 
 
+@pytest.mark.parametrize(
+    "backend", ["module://matplotlib_inline.backend_inline", "module://no.such", "bogus", "qtagg"]
+)
+def test_no_backend_is_needed(backend: str, decks: Path, tmp_path: Path) -> None:
+    """Matplotlib refuses to be imported where it does not know the backend."""
+    code = f"""
+import os, sys
+from flexact.cli.main import main
+folder = {str(tmp_path)!r}
+for verb, suffix in (("picture", "png"), ("picture", "svg"), ("report", "html")):
+    assert main([verb, {str(decks / "both.dat")!r}, "-o", f"{{folder}}/x.{{suffix}}"]) == 0
+assert os.environ["MPLBACKEND"] == {backend!r}
+assert "matplotlib.pyplot" not in sys.modules
+"""
+    environment = {**os.environ, "MPLBACKEND": backend}
+    made = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True)
+    assert made.returncode == 0, made.stderr.decode()
+    assert b"data:image/png" in (tmp_path / "x.html").read_bytes()
+
+
+def test_a_backend_that_there_is_stays_chosen(decks: Path, tmp_path: Path) -> None:
+    code = f"""
+import flexact
+flexact.analyse({str(decks / "both.dat")!r}).save({str(tmp_path / "x.png")!r})
+import matplotlib
+assert matplotlib.rcParams["backend"] == "pdf"
+"""
+    environment = {**os.environ, "MPLBACKEND": "pdf"}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True)
+
+
 def test_options_reach_the_picture(decks: Path, tmp_path: Path) -> None:
     made = set()
     for options in (

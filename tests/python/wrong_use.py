@@ -2,8 +2,11 @@
 """Wrong calls of the builder by the code of their error; test_wording.py keeps the words."""
 
 from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import pytest
 
 import flexact
@@ -81,6 +84,78 @@ BUILDER: dict[str, list[Call]] = {
         lambda m, a, b, e: Model(name=5),  # type: ignore[arg-type]
         lambda m, a, b, e: m.truss(a, b, 5),  # type: ignore[arg-type]
         lambda m, a, b, e: m.sheet(a, b, (0, 0, 1), 2, 5),  # type: ignore[arg-type]
+    ],
+}
+
+#: Numbers that are too long, and numbers of another kind.
+VAST = 10**400
+NO_NUMBERS: tuple[Any, ...] = ("x", b"x", 1j, None, object(), np.array(1j), np.array(["1"]), [[]])
+
+
+def placed(value: object) -> flexact.Configuration:
+    return flexact.Configuration([2, 2], value)  # type: ignore[arg-type]
+
+
+#: Wrong arguments of what is no part of the builder, by the kind of the error.
+ARGUMENTS: dict[type[Exception], list[Call]] = {
+    TypeError: [
+        lambda m, a, b, e: Model.from_data(1),  # type: ignore[arg-type]
+        lambda m, a, b, e: Model.from_data(m),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.jacobian(1),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.jacobian(m.data),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.jacobian(m, 1),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.jacobian(m, np.zeros((2, 4))),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.deformations(None, m.reference()),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.deformations(m, m),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.jacobian(m, None, 1j),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.jacobian(m, c_t=np.array([1j])),
+        lambda m, a, b, e: flexact.jacobian(m, c_t="1"),
+        lambda m, a, b, e: m.reference().moved("x"),
+        lambda m, a, b, e: m.reference().moved(np.zeros((2, 3), complex)),
+        lambda m, a, b, e: placed([["0"] * 4] * 2),
+        lambda m, a, b, e: placed(None),
+        lambda m, a, b, e: flexact.Configuration("ab", np.zeros((2, 4))),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.analyse(m, progress=1),  # type: ignore[arg-type]
+        *(lambda m, a, b, e, t=t: flexact.analyse(m, tolerance=t) for t in NO_NUMBERS if t),
+        lambda m, a, b, e: flexact.analyse(m, tolerance=np.zeros(2)),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.analyse(m, method=1),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.analyse(m, name=1),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.analyse(1),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.read(1),  # type: ignore[arg-type]
+        lambda m, a, b, e: flexact.read_text(1),  # type: ignore[arg-type]
+    ],
+    ValueError: [
+        *(
+            lambda m, a, b, e, t=t: flexact.analyse(m, tolerance=t)
+            for t in (VAST, -VAST, Fraction(VAST), NAN, INF, -1, Decimal("sNaN"))
+        ),
+        lambda m, a, b, e: flexact.jacobian(m, c_t=VAST),
+        lambda m, a, b, e: flexact.jacobian(m, c_t=[1.0, 2.0]),
+        lambda m, a, b, e: flexact.jacobian(m, placed(np.zeros((2, 4))).moved([[0, 0, VAST]] * 2)),
+        lambda m, a, b, e: m.reference().moved(np.zeros((3, 3))),
+        lambda m, a, b, e: m.reference().moved([[1, 2], [3]]),
+        lambda m, a, b, e: placed([[0, 0, 0, VAST]] * 2),
+        lambda m, a, b, e: placed(np.zeros((2, 3))),
+        lambda m, a, b, e: flexact.Configuration([VAST], np.zeros((1, 4))),
+        lambda m, a, b, e: flexact.Configuration([99], np.zeros((1, 4))),
+        lambda m, a, b, e: flexact.Configuration([1.5], np.zeros((1, 4))),
+    ],
+    ModelError: [
+        lambda m, a, b, e: m.node(VAST, 0, 0),
+        lambda m, a, b, e: m.node(0, 0, -(10**5000)),
+        lambda m, a, b, e: m.node(np.zeros(2), 0, 0),  # type: ignore[arg-type]
+        lambda m, a, b, e: m.sheet(a, b, (0, 0, 1), VAST),
+        lambda m, a, b, e: m.sheet(a, b, (0, 0, 1), -(10**5000)),
+        lambda m, a, b, e: m.release(10**5000, 1),
+        lambda m, a, b, e: m.release(e, 10**5000),
+        lambda m, a, b, e: m.fix(10**5000),
+        lambda m, a, b, e: m.fix(a, np.zeros(3)),  # type: ignore[arg-type]
+        lambda m, a, b, e: m.handle(1, np.zeros(3)),  # type: ignore[arg-type]
+        lambda m, a, b, e: m.node_index([]),  # type: ignore[arg-type]
+        lambda m, a, b, e: m.node_index(10**5000),
+        lambda m, a, b, e: m.element_index("1"),  # type: ignore[arg-type]
+        lambda m, a, b, e: m.element_index(10**5000),
+        lambda m, a, b, e: m.look(e, section=10**5000),
     ],
 }
 

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+#: Bits of a number, and letters of what is given, beyond which a message leaves them out.
+_LONG_NUMBER, _LONG_TEXT = 64, 60
+
 
 def harmless(text: str, keep_tabs: bool = False) -> str:
     """The text with nothing in it that could move a cursor: one character for one."""
@@ -19,3 +22,15 @@ def _harmless(c: str, keep_tabs: bool) -> str:
     if ord(c) < 0x20:
         return chr(0x2400 + ord(c))
     return "\u2421" if c == "\x7f" else "\ufffd"
+
+
+def in_short(given: object) -> str:
+    """A wrong argument as a message names it, on one line; there are numbers of any length."""
+    if isinstance(given, int) and given.bit_length() > _LONG_NUMBER:
+        return "a number of so many digits"
+    try:
+        text = harmless(" ".join(repr(given).split()))
+    except ValueError:
+        # Python writes no number of thousands of digits, in a list either.
+        text = type(given).__name__
+    return text if len(text) <= _LONG_TEXT else f"{text[: _LONG_TEXT - 3]}..."

@@ -8,10 +8,34 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..base.plain_text import in_short
+
 IntArray = NDArray[np.int32]
 FloatArray = NDArray[np.float64]
 ByteArray = NDArray[np.int8]
 BoolArray = NDArray[np.bool_]
+
+#: What numpy makes numbers of all the same.
+_NO_NUMBER = (str, bytes, type(None))
+
+
+def floats(given: ArrayLike, what: str) -> FloatArray:
+    """Numbers that somebody gives, in an array of any shape.
+
+    Raises:
+        TypeError: They are no numbers.
+        ValueError: One is too large, or the lists in it differ in length.
+    """
+    try:
+        array = np.asarray(given)
+        parts = array.flat if array.dtype.kind == "O" else ()
+        if array.dtype.kind not in "biufO" or any(isinstance(part, _NO_NUMBER) for part in parts):
+            raise TypeError
+        return np.asarray(array, np.float64)
+    except TypeError:
+        raise TypeError(f"{what} must be numbers, not {in_short(given)}") from None
+    except (ValueError, OverflowError):
+        raise ValueError(f"{what} must be numbers of one shape, none of them too large") from None
 
 
 class ModelArrays(NamedTuple):

@@ -11,6 +11,7 @@ import sys
 
 import numpy as np
 
+from ..base.memory import address_space
 from . import _core
 from .arrays import FloatArray, IntArray, PackedModel, room_for, unpacked
 from .basis import Basis
@@ -28,11 +29,17 @@ from .raw import (
 
 #: Entries of the bases of motions and self-stresses beyond which vectors are left out.
 _MOST_ENTRIES = 40_000_000
+#: The part of the memory that the bases may take.
+_PART_OF_VECTORS = 0.25
 #: Bytes of the shortest statement of an element, with its line's end.
 _SHORTEST_ELEMENT = len("BEAM 1 1 2")
 #: Stored entries of the whole Jacobian that one element has at most.
 _ENTRIES_OF_ELEMENT = 6 * 12
 
+
+#: Bytes that the core takes, at most, for a model's copy and for each call: for each node and
+#: element, and more for each element where the Jacobian is made; for each byte of a deck.
+_OF_MODEL, _OF_JACOBIAN, _OF_TEXT = 1_000, 4_000, 100
 
 _NO_VECTORS = np.zeros(1, np.int32)
 _NO_VECTORS.setflags(write=False)
@@ -81,12 +88,29 @@ def element_rows() -> list[ElementKind]:
     return rows
 
 
+def _require_room(needed: float) -> None:
+    """Raise where a limit of the address space does not leave so many bytes to the core.
+
+    It would end the process. Where there is no limit, the system lends more than it has.
+    """
+    if needed > (left := address_space()):
+        raise MemoryError(
+            f"about {needed / 1e6:.3g} MB are needed, but the limits of the process leave "
+            f"{left / 1e6:.3g} MB"
+        )
+
+
+def _require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
+    _require_room(_OF_MODEL * model.nodes.shape[1] + of_element * model.elements.shape[1])
+
+
 def read_deck(text: bytes) -> RawDeck:
     """Read a deck; its problems come back as values.
 
     Args:
         text: bytes of the deck, fewer than 2**31.
     """
+    _require_room(_OF_TEXT * len(text))
     data = np.frombuffer(text, np.int8)
     ne = min(text.count(b"\n") + 1, len(text) // _SHORTEST_ELEMENT + 1)
     room = room_for(min(4 * ne, len(text) // 2 + 4), ne)
@@ -106,6 +130,7 @@ def read_deck(text: bytes) -> RawDeck:
 
 def check_model(model: PackedModel) -> RawDiagnostics:
     """Everything that is wrong with a model, as for a deck but without places."""
+    _require_room_for(model)
     return RawDiagnostics(*_core.check_model(*model))
 
 
@@ -120,6 +145,7 @@ def count_model(model: PackedModel) -> RawCount:
 
 def find_frames(model: PackedModel) -> RawFrames:
     """Reference frames and lengths of a sound model's elements."""
+    _require_room_for(model)
     frame, length = _core.find_frames(*model)
     return RawFrames(np.moveaxis(frame, 2, 0), length)
 
@@ -142,6 +168,7 @@ def assemble(model: PackedModel, configuration: FloatArray, c_t: FloatArray) -> 
         raise ValueError(f"c_t has shape {c_t.shape}, not {(elements,)}")
     place = np.empty((2, _ENTRIES_OF_ELEMENT * elements), np.int32, order="F")
     value = np.empty(place.shape[1])
+    _require_room_for(model, _OF_JACOBIAN)
     deformation, used = _core.assemble(
         *model,
         np.asfortranarray(configuration, np.float64),
@@ -179,8 +206,10 @@ def analyse_model(
     most = 3 * model.nodes.shape[1] + 6 * model.elements.shape[1]
     index = np.empty((3, most + 1), np.int32, order="F")
     by_size = np.empty((most, 8), order="F")
-    room = max(1, min(most * most, _MOST_ENTRIES))
+    # Where the address space is limited, what is set aside counts as used.
+    room = max(1, min(most * most, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
     place, value = np.empty(room, np.int32), np.empty(room)
+    _require_room_for(model)
     asked = -1.0 if tolerance is None else tolerance
     facts = _core.analyse_model(
         *model,
@@ -242,6 +271,10 @@ def analyse_model(
     )
 
 
+def _part(memory: float, part: float) -> int:
+    return int(min(part * memory, 2.0**62))
+
+
 def _basis_of(size: int, start: IntArray, place: IntArray, value: FloatArray, before: int) -> Basis:
     """Some of the vectors that stand in a row, whose places lie behind `before` others."""
     first, last = int(start[0]), int(start[-1])
@@ -271,6 +304,7 @@ def find_sensitivities(
     many = (stresses.shape[1], motions.shape[1])
     modes = np.zeros((rows + columns, max(*many, 1)), order="F")
     modes[:rows, : many[0]], modes[rows:, : many[1]] = stresses, motions
+    _require_room(_OF_MODEL * (rows + columns) + 4 * modes.nbytes)
     effect, place, used = _core.find_sensitivities(
         *model, modes, np.asfortranarray(pairs + 1, np.int32)
     )

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..base.errors import BatchError
+from ..base.errors import BatchError, require_kind
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from .drawing import Drawing
@@ -81,7 +81,7 @@ def view_of(text: str | None, drawing: Drawing) -> View:
     Raises:
         ViewError: There is no such view.
     """
-    asked = check_view(text or ISO)
+    asked = check_view(ISO if text is None else text)
     if drawing.planar:
         return FLAT
     return asked or _iso(drawing)
@@ -89,6 +89,7 @@ def view_of(text: str | None, drawing: Drawing) -> View:
 
 def check_view(text: str) -> View | None:
     """The view, if there is such a one; None where it takes a drawing; errors as of `view_of`."""
+    require_kind(text, str, "a view is given by its name or by two angles in a text")
     if text == ISO:
         return None
     if text in NAMED:

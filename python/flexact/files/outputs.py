@@ -12,6 +12,7 @@ from pathlib import Path
 from ..base.errors import BatchError, reason_of
 from ..base.interruption import undisturbed
 from .decks import DeckFile
+from .temporary import remove_left, temporary_name
 
 
 class OutputError(BatchError):
@@ -88,6 +89,7 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 
     Everything is written beside its place first, and moved there when all of it is written.
     Folders are made where they are missing; a link stays one, and what it leads to is written.
+    What a killed process has left beside the places is removed.
 
     Raises:
         OutputError: A folder or file cannot be written; no file of the set has changed then.
@@ -98,10 +100,11 @@ def write_together(files: Mapping[Path, bytes]) -> None:
     try:
         for target in files:
             places[target] = _place(target)
-        for number, (target, content) in enumerate(files.items()):
+        for target, content in files.items():
             place = places[target]
             place.parent.mkdir(parents=True, exist_ok=True)
-            temporary = place.with_name(f".flexact-{os.getpid()}-{number}.tmp")
+            remove_left(place.parent)
+            temporary = place.with_name(temporary_name())
             waiting[temporary] = target
             temporary.write_bytes(content)
         with undisturbed():

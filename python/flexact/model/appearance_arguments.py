@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from ..base.plain_text import in_short
 from ..core.elements import kind_of
 from ..diagnostics.errors import model_error
 from .appearance import CrossSection
@@ -137,7 +138,7 @@ def _numbers(given: object, wanted: int, what: str) -> tuple[float, ...]:
         if len(parts) != wanted:
             raise ValueError
     except (TypeError, ValueError, OverflowError):
-        raise model_error("bad-number", f"{what}, not {given!r}") from None
+        raise model_error("bad-number", f"{what}, not {in_short(given)}") from None
     if not all(map(math.isfinite, parts)):
         raise model_error("bad-number", f"{what}, and one of them is not finite")
     return parts

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from operator import index as whole_number
 
+from ..base.plain_text import in_short
 from ..core.elements import (
     AXES,
     POSITION_NAMES,
@@ -18,7 +19,7 @@ from ..core.elements import (
 )
 from ..core.raw import ElementKind
 from ..diagnostics.errors import model_error
-from .draft import NO_VECTOR, Draft, Vector
+from .draft import LARGEST, NO_VECTOR, Draft, Vector
 from .handles import Element, Node, Sheet
 
 #: As the core's check of a y vector.
@@ -118,7 +119,7 @@ def orientation(draft: Draft, point: Node) -> int:
 def handle(draft: Draft, position_number: int, orientation_number: int) -> Node:
     """The point of two node numbers; a missing orientation is made anew."""
     position_number = position(draft, position_number)
-    if orientation_number == 0:
+    if whole(orientation_number, "an orientation is given by its number") == 0:
         return Node(position_number, draft.add_orientation(), draft.owner)
     orientation_number = _node_number(draft, orientation_number)
     wanted = NodeKind.ANGLE if draft.planar else NodeKind.ORIENTATION
@@ -131,17 +132,22 @@ def handle(draft: Draft, position_number: int, orientation_number: int) -> Node:
     return Node(position_number, orientation_number, draft.owner)
 
 
-def _number(given: object, what: str) -> int:
+def whole(given: object, what: str) -> int:
+    """A whole number; `what` says of what.
+
+    Raises:
+        ModelError: it is none.
+    """
     try:
         return whole_number(given)  # type: ignore[arg-type]
     except TypeError:
-        raise model_error("bad-number", f"{what}, not {given!r}") from None
+        raise model_error("bad-number", f"{what}, not {in_short(given)}") from None
 
 
 def _node_number(draft: Draft, given: object) -> int:
-    number = _number(given, "a node is given by its handle or its number")
+    number = whole(given, "a node is given by its handle or its number")
     if number not in draft.node_kind:
-        raise model_error("no-such-node", f"there is no node {number}")
+        raise model_error("no-such-node", f"there is no node {in_short(number)}")
     return number
 
 
@@ -187,9 +193,9 @@ def _unit(given: Vector) -> Vector:
 
 def between(draft: Draft, p: Node, q: Node, parts: int) -> list[Vector]:
     """Points that divide the way from p to q into equal parts."""
-    parts = _number(parts, "the number of beams must be a whole number")
-    if parts < 1:
-        raise model_error("out-of-range", f"a sheet cannot be divided into {parts} beams")
+    parts = whole(parts, "the number of beams must be a whole number")
+    if not 1 <= parts <= LARGEST:
+        raise model_error("out-of-range", f"a sheet cannot be divided into {in_short(parts)} beams")
     start, end = (draft.node_value[position(draft, point)] for point in (p, q))
     made = []
     for i in range(1, parts):
@@ -209,13 +215,13 @@ def deformations(kind: ElementKind, given: Iterable[int]) -> tuple[int, ...]:
         numbers = tuple(given)
     except TypeError:
         raise model_error(
-            "bad-number", f"deformations are given as several numbers, not by {given!r}"
+            "bad-number", f"deformations are given as several numbers, not by {in_short(given)}"
         ) from None
     for number in numbers:
-        if not 1 <= _number(number, _BY_NUMBER) <= kind.deformations:
+        if not 1 <= whole(number, _BY_NUMBER) <= kind.deformations:
             raise model_error(
                 "component-out-of-range",
-                f"a {kind.keyword} has no deformation {number}",
+                f"a {kind.keyword} has no deformation {in_short(number)}",
                 f"it has 1 to {kind.deformations}",
             )
     return numbers
@@ -260,14 +266,14 @@ def _coordinate(draft: Draft, numbers: Sequence[int], name: str | int) -> tuple[
     for number in numbers:
         kind = draft.node_kind[number]
         known = POSITION_NAMES if is_position(kind) else ROTATION_NAMES
-        if name in known and known.index(name) in AXES[kind]:
+        if isinstance(name, str) and name in known and known.index(name) in AXES[kind]:
             return number, known.index(name)
     has = [
         coordinate_name(draft.node_kind[n], k) for n in numbers for k in AXES[draft.node_kind[n]]
     ]
     raise model_error(
         "component-out-of-range",
-        f"node {numbers[0]} has no coordinate {name!r}",
+        f"node {numbers[0]} has no coordinate {in_short(name)}",
         f"it has {', '.join(has)}",
     )
 
@@ -277,7 +283,7 @@ def element_index(draft: Draft, target: object) -> int:
     if isinstance(target, Element):
         require_own(draft, target, "element")
         return draft.index_of(target.number)
-    return draft.index_of(_number(target, "an element is given by its handle or its number"))
+    return draft.index_of(whole(target, "an element is given by its handle or its number"))
 
 
 def give_deformations(
@@ -291,6 +297,6 @@ def give_deformations(
             give_deformations(draft, element, which, value)
         return
     index = element_index(draft, target)
-    numbers = [_number(item, _BY_NUMBER) for item in which]
+    numbers = [whole(item, _BY_NUMBER) for item in which]
     every = range(1, draft.deformations_of(index) + 1)
     draft.state_deformations(index, numbers or every, value)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..base.frozen import Frozen
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import FloatArray, IntArray, floats
 from ..core.elements import NodeKind
 
 
@@ -28,7 +28,7 @@ class Configuration(Frozen):
 
     def __post_init__(self) -> None:
         """Take read-only copies and check their shape."""
-        kinds, value = np.array(self.kinds, np.int32), np.array(self.value, np.float64)
+        kinds, value = _kinds(self.kinds), floats(self.value, "value").copy()
         if value.shape != (kinds.size, 4):
             raise ValueError(f"value has shape {value.shape}, not {(kinds.size, 4)}")
         object.__setattr__(self, "kinds", kinds)
@@ -44,9 +44,10 @@ class Configuration(Frozen):
                 that it has; a planar angle takes the third.
 
         Raises:
-            ValueError: `delta` has another shape.
+            TypeError: `delta` does not hold numbers.
+            ValueError: `delta` has another shape, or a number is too large.
         """
-        move = np.asarray(delta, np.float64)
+        move = floats(delta, "delta")
         if move.shape != (self.kinds.size, 3):
             raise ValueError(f"delta has shape {move.shape}, not {(self.kinds.size, 3)}")
         value = self.value.copy()
@@ -57,6 +58,13 @@ class Configuration(Frozen):
         turned = self.kinds == NodeKind.ORIENTATION
         value[turned] = _turned(value[turned], move[turned])
         return Configuration(self.kinds, value)
+
+
+def _kinds(given: ArrayLike) -> IntArray:
+    kinds = floats(given, "kinds")
+    if not np.all(np.isin(kinds, tuple(NodeKind))):
+        raise ValueError("kinds has a number that is no kind of node")
+    return kinds.astype(np.int32)
 
 
 def _turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, coordinate_name, kind_of
 from ..core.raw import ElementKind
@@ -20,7 +21,8 @@ Vector = tuple[float, float, float]
 #: What the vector of an element is where none is given.
 NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 
-_LARGEST = 2**31 - 1
+#: Of the numbers of nodes and elements.
+LARGEST = 2**31 - 1
 _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
@@ -82,7 +84,7 @@ class Draft:
     def add_node(self, kind: int, value: tuple[float, ...]) -> int:
         """Add a node and return its number."""
         number = self.last_node + 1
-        if number > _LARGEST:
+        if number > LARGEST:
             raise model_error("number-too-large", "the model has no node number left")
         self.last_node = number
         self.node_kind[number] = kind
@@ -106,7 +108,7 @@ class Draft:
     ) -> int:
         """Add an element and return its number; `released` are part of what it is."""
         number = self.last_element + 1
-        if number > _LARGEST:
+        if number > LARGEST:
             raise model_error("number-too-large", "the model has no element number left")
         if name:
             name = one_line(name)
@@ -130,7 +132,7 @@ class Draft:
             self._index_of = {n: i for i, n in enumerate(self.numbers)}
         index = self._index_of.get(number)
         if index is None:
-            raise model_error("no-such-element", f"there is no element {number}")
+            raise model_error("no-such-element", f"there is no element {in_short(number)}")
         return index
 
     def deformations_of(self, index: int) -> int:
@@ -150,7 +152,7 @@ class Draft:
             if not 1 <= number <= self.deformations_of(index):
                 raise model_error(
                     "component-out-of-range",
-                    f"{name} has no deformation {number}",
+                    f"{name} has no deformation {in_short(number)}",
                     f"it has 1 to {self.deformations_of(index)}",
                 )
             before = self.stated.get((index, number), value)

@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..base.errors import require_kind
 from ..base.frozen import Frozen
 from ..core import calls
-from ..core.arrays import FloatArray, IntArray, ModelArrays
+from ..core.arrays import FloatArray, IntArray, ModelArrays, floats
 from ..core.elements import Class
 from ..core.raw import RawAssembly
 from .configuration import Configuration
@@ -72,8 +73,10 @@ def deformations(
     Raises:
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
-        ValueError: the configuration or `c_t` is of another shape.
+        TypeError: something is of another kind than it must be.
+        ValueError: the configuration or `c_t` is of another shape, or a number is too large.
     """
+    require_kind(model, Model, "deformations are those of a Model")
     raw = assembled(model, configuration, c_t)
     exists = model.data.arrays.deformation_class != Class.NONE
     values: FloatArray = raw.deformation.T[exists.T]
@@ -96,9 +99,12 @@ def jacobian(
     Raises:
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
-        ValueError: the configuration or `c_t` is of another shape.
+        TypeError: something is of another kind than it must be.
+        ValueError: the configuration or `c_t` is of another shape, or a number is too large.
     """
-    raw = assembled(model, configuration or model.reference(), c_t)
+    require_kind(model, Model, "the Jacobian is that of a Model")
+    placed = model.reference() if configuration is None else configuration
+    raw = assembled(model, placed, c_t)
     arrays = model.data.arrays
     row_index, row_label = _compact(arrays.deformation_class)
     column_index, column_label = _compact(arrays.coordinate_class)
@@ -126,8 +132,9 @@ def assembled(
     """What `deformations` and `jacobian` give, as the core numbers it; see there."""
     data = model.data
     data.require_sound()
+    require_kind(configuration, Configuration, "nodes are placed by a Configuration")
     elements = data.arrays.element_number.size
-    coupling = np.asarray(c_t, np.float64)
+    coupling = floats(c_t, "c_t")
     if coupling.shape not in ((), (elements,)):
         raise ValueError(f"c_t has shape {coupling.shape}, not {(elements,)}")
     return calls.assemble(

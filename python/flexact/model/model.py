@@ -5,10 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..base.errors import require_kind
+from ..base.plain_text import in_short
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import NodeKind, keywords_of
 from ..diagnostics.diagnostic import Diagnostic
 from ..diagnostics.errors import model_error
+from .arguments import whole
 from .builder import Builder
 from .configuration import Configuration
 from .data import ModelData
@@ -34,7 +37,12 @@ class Model(Builder):
 
     @classmethod
     def from_data(cls, data: ModelData) -> Model:
-        """A model that starts as these data."""
+        """A model that starts as these data, such as those of another.
+
+        Raises:
+            TypeError: they are no `ModelData`.
+        """
+        require_kind(data, ModelData, "a model starts as the data of one")
         model = cls.__new__(cls)
         model._start(data.planar, data.name)
         model._draft = None
@@ -147,9 +155,10 @@ class Model(Builder):
         Raises:
             ModelError: no element uses a node of this number.
         """
+        number = whole(number, "a node is given by its number")
         index = self.data.node_index.get(number)
         if index is None:
-            raise model_error("no-such-node", f"no element uses a node {number}")
+            raise model_error("no-such-node", f"no element uses a node {in_short(number)}")
         return index
 
     def element_index(self, number: int) -> int:
@@ -161,9 +170,10 @@ class Model(Builder):
         Raises:
             ModelError: there is no such element.
         """
+        number = whole(number, "an element is given by its number")
         index = self.data.element_index.get(number)
         if index is None:
-            raise model_error("no-such-element", f"there is no element {number}")
+            raise model_error("no-such-element", f"there is no element {in_short(number)}")
         return index
 
     def reference(self) -> Configuration:

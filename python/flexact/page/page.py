@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
+from ..base.errors import require_kind
 from ..diagnostics.errors import ProblemsError
 from ..drawing import drawing_of
 from ..result.result import Result
@@ -33,6 +34,7 @@ def page(analysis: Result, still: bytes | None = None) -> str:
         analysis: The result.
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
     """
+    require_kind(analysis, Result, "a page is that of a result")
     data = _data(analysis)
     every = warnings_of(analysis)
     name = _file_name(analysis.name)

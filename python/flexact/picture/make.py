@@ -9,25 +9,29 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
+from numbers import Real
+from operator import index
 from typing import TYPE_CHECKING, Any
 
-from ..base.errors import BatchError
-from ..base.plain_text import harmless
+from ..base.errors import BatchError, require_kind
+from ..base.plain_text import harmless, in_short
 from ..drawing import drawing_of
 from ..drawing.view import view_of
+from ..result.result import Result
 from ..text.describe import verdict_in_words
 from .animation import gif_bytes
 from .figure import compose
 from .files import png_bytes, svg_bytes
+from .loading import load_matplotlib
 from .subject import Chosen, moving_subject, subjects_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..result.result import Result
-
 #: Suffixes of the files that a picture can be.
 SUFFIXES = (".png", ".gif", ".svg")
+#: Pixels along a picture, of which matplotlib draws no more.
+_WIDEST = 2**15
 
 
 class PictureError(BatchError):
@@ -106,6 +110,8 @@ def draw(
         PictureError: A package is missing.
         SubjectError: Something chosen is not there.
         ViewError: There is no such view.
+        TypeError: What is given is of another kind than it must be.
+        ValueError: The phase or the size is out of range.
     """
     return _figure(analysis, Chosen(motion, freedom, stress, quantity), view, phase, size, plain)
 
@@ -118,11 +124,26 @@ def _figure(
     size: tuple[int, int] | None,
     plain: bool,
 ) -> Figure:
+    require_kind(analysis, Result, "what can be drawn is a result")
+    if not isinstance(phase, Real) or not -1.0 <= phase <= 1.0:
+        raise ValueError(f"a phase is a number from -1 to 1, not {in_short(phase)}")
     check_packages()
+    load_matplotlib()
     drawing = drawing_of(analysis.data)
     subjects = subjects_of(analysis, drawing, chosen)
     seen = view_of(view, drawing)
+    size = None if size is None else _checked(size)
     return compose(analysis, drawing, subjects, seen, phase=phase, size=size, plain=plain)
+
+
+def _checked(size: object) -> tuple[int, int]:
+    try:
+        width, height = (index(side) for side in size)  # type: ignore[attr-defined]
+    except (TypeError, ValueError):
+        raise TypeError(f"a size is two whole numbers, not {in_short(size)}") from None
+    if not (0 < width <= _WIDEST and 0 < height <= _WIDEST):
+        raise ValueError(f"a picture is 1 to {_WIDEST} pixels wide and high")
+    return width, height
 
 
 def picture_bytes(
@@ -153,6 +174,7 @@ def picture_bytes(
     check_packages()
     asked = Chosen(**chosen)
     with _quiet():
+        load_matplotlib()
         if kind == ".gif":
             drawing = drawing_of(analysis.data)
             subject, seen = moving_subject(analysis, drawing, asked), view_of(view, drawing)

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import index
+from typing import SupportsIndex
 
-from ..base.errors import BatchError
+from ..base.errors import BatchError, require_kind
 from ..base.plain_text import harmless
 from ..drawing import QUANTITIES, Drawing, Movement, move, resultants
 from ..drawing.selection import Selection, require_there, select_motion
@@ -32,6 +34,13 @@ class Subject:
     stress: Stress | None = None
 
 
+def _require_whole(number: SupportsIndex, name: str) -> None:
+    try:
+        index(number)
+    except TypeError:
+        raise TypeError(f"{name} is a number from 1, not {type(number).__name__}") from None
+
+
 @dataclass(frozen=True)
 class Chosen:
     """What was asked for; numbers from 1."""
@@ -43,6 +52,11 @@ class Chosen:
 
     def __post_init__(self) -> None:
         """Check what can be checked without an analysis."""
+        for name in ("motion", "freedom", "stress"):
+            if (number := getattr(self, name)) is not None:
+                _require_whole(number, name)
+        if self.quantity is not None:
+            require_kind(self.quantity, str, "a quantity is given by its name")
         if self.quantity is not None and self.quantity not in QUANTITIES:
             raise SubjectError(
                 f"there is no quantity {self.quantity!r}: it is one of {', '.join(QUANTITIES)}"

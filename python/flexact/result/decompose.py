@@ -7,6 +7,7 @@ import math
 
 from ..base import memory
 from ..base.errors import FlexactError
+from ..base.plain_text import in_short
 from ..core import calls
 from ..core.arrays import IntArray
 from ..core.progress import Progress, reported
@@ -55,13 +56,15 @@ def _checked_method(method: str) -> str:
 def _checked_tolerance(tolerance: float | None) -> float | None:
     if tolerance is None:
         return None
-    if isinstance(tolerance, (str, bytes, bytearray, bool)):
-        raise TypeError(f"the tolerance must be a number, not {type(tolerance).__name__}")
+    kind = type(tolerance).__name__
+    if isinstance(tolerance, (str, bytes, bytearray, memoryview, bool)):
+        raise TypeError(f"the tolerance must be a number, not {kind}")
     try:
         value = float(tolerance)
     except TypeError:
-        kind = type(tolerance).__name__
         raise TypeError(f"the tolerance must be a number, not {kind}") from None
+    except (ValueError, OverflowError):
+        raise ValueError(f"the tolerance must be a number, not {in_short(tolerance)}") from None
     if not (math.isfinite(value) and value >= 0.0):
         raise ValueError(f"the tolerance must be finite and not negative, not {value}")
     return value

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What OpenBLAS must be told from outside, for flexact_blas.f90; with another
+ * BLAS, where the weak symbols are null, nothing of it is done.
+ *
+ * Threads: several calls at once, each with all threads, keep each other waiting
+ * (8 of 150 columns: a hundred times as long as one after the other), and small
+ * matrices gain nothing by threads. Setting them for the calling thread alone
+ * (openblas_set_num_threads_local) sets them for all in its releases so far.
+ *
+ * Memory: OpenBLAS takes a buffer of 128 MB of address space for each thread when
+ * it is first used, and where it gets none it asks for ever. So we ask first. */
+#include <pthread.h>
+#include <string.h>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+extern void openblas_set_num_threads(int) __attribute__((weak));
+extern int openblas_get_num_threads(void) __attribute__((weak));
+extern int openblas_get_parallel(void) __attribute__((weak));
+void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *, const int *,
+            const double *, double *, const int *, size_t, size_t);
+
+extern void omp_set_max_active_levels(int) __attribute__((weak));
+extern int omp_get_max_active_levels(void) __attribute__((weak));
+
+enum { openmp = 2 };
+static const size_t buffer = (size_t)129 << 20;
+/* With so much address space left nobody needs to be careful. */
+static const size_t ample = (size_t)1 << 31;
+
+/* Whether the address space has a limit, and only one thread is wanted; what was before, of
+ * OpenBLAS with OpenMP and of OpenMP. */
+typedef struct { int limited, alone, threads, levels; } work_t;
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+/* Calls at work, those that want one thread only, and the threads before them. */
+static int active, alone, before;
+/* Calls at once for which OpenBLAS is known to have buffers. */
+static int buffered;
+
+static int has_threads(void)
+{
+    return openblas_set_num_threads && openblas_get_num_threads && openblas_get_parallel;
+}
+
+static int has_room(size_t size)
+{
+    void *room = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) return 0;
+    munmap(room, size);
+    return 1;
+}
+
+static int is_limited(void)
+{
+    struct rlimit limit;
+    return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+static int is_tight(void) { return is_limited() && !has_room(ample); }
+
+/* OpenMP, with which CHOLMOD may be built, ends the process where it gets no threads. */
+static void forbid_openmp(work_t *work)
+{
+    if (!omp_set_max_active_levels || !omp_get_max_active_levels) return;
+    work->levels = omp_get_max_active_levels();
+    omp_set_max_active_levels(0);
+}
+
+static void allow_openmp(const work_t *work)
+{
+    if (work->levels > 0) omp_set_max_active_levels(work->levels);
+}
+
+/* Let OpenBLAS take its buffers while there is room for them. All of its threads must be at
+ * work: one that starts later would take that of the others, and keep it. */
+static void take_buffers(void)
+{
+    enum { n = 64 };
+    static double a[n * n], c[n * n];
+    const int size = n;
+    const double one = 1.0, zero = 0.0;
+    dsyrk_("U", "N", &size, &size, &one, a, &size, &zero, c, &size, 1, 1);
+}
+
+static int find_buffers(void)
+{
+    if (!has_threads() || active < buffered || !is_tight()) return 1;
+    if (!has_room(buffer * (buffered == 0 ? openblas_get_num_threads() : 1))) return 0;
+    if (active == 0) take_buffers();
+    buffered = active + 1;
+    return 1;
+}
+
+/* OpenMP counts threads for each thread that calls, others count for all. */
+static void set_threads(void)
+{
+    if (active == 0 || (active == 1 && alone == 0)) {
+        if (before > 0) openblas_set_num_threads(before);
+        before = 0;
+    } else if (before == 0) {
+        before = openblas_get_num_threads();
+        openblas_set_num_threads(1);
+    }
+}
+
+static void before_fork(void) { pthread_mutex_lock(&lock); }
+static void after_fork(void) { pthread_mutex_unlock(&lock); }
+
+/* Threads that are at work stay behind in the parent. */
+static void in_child(void)
+{
+    active = alone = buffered = 0;
+    pthread_mutex_unlock(&lock);
+}
+
+/* The address space is taken when the library is loaded, before anyone asks what is left. */
+__attribute__((constructor)) static void load(void)
+{
+    pthread_atfork(before_fork, after_fork, in_child);
+    find_buffers();
+}
+
+/* 0, or -1 where OpenBLAS, or so many bytes for others, would find no room; work is what
+ * flexact_blas_end is to be given. */
+int flexact_blas_begin(int is_small, double bytes, work_t *work)
+{
+    int found;
+    memset(work, 0, sizeof *work);
+    work->limited = is_limited();
+    if (!has_threads()) return work->limited && !has_room((size_t)bytes) ? -1 : 0;
+    work->alone = is_small;
+    pthread_mutex_lock(&lock);
+    if (is_tight()) {
+        work->alone = 1;
+        forbid_openmp(work);
+    }
+    found = find_buffers() && !(work->limited && !has_room((size_t)bytes));
+    if (found) {
+        active += 1;
+        alone += work->alone;
+        if (openblas_get_parallel() != openmp) set_threads();
+    }
+    pthread_mutex_unlock(&lock);
+    if (!found) allow_openmp(work);
+    if (found && work->alone && openblas_get_parallel() == openmp) {
+        work->threads = openblas_get_num_threads();
+        openblas_set_num_threads(1);
+    }
+    return found ? 0 : -1;
+}
+
+void flexact_blas_end(work_t *work)
+{
+    if (!has_threads()) return;
+    if (work->threads > 0) openblas_set_num_threads(work->threads);
+    allow_openmp(work);
+    pthread_mutex_lock(&lock);
+    active -= 1;
+    alone -= work->alone;
+    if (openblas_get_parallel() != openmp) set_threads();
+    pthread_mutex_unlock(&lock);
+}
+
+#else
+
+typedef struct { int limited, alone, threads, levels; } work_t;
+
+int flexact_blas_begin(int is_small, double bytes, work_t *work)
+{
+    work->limited = 0;
+    work->alone = is_small && bytes > 0;
+    return 0;
+}
+
+void flexact_blas_end(work_t *work) { (void)work; }
+
+#endif

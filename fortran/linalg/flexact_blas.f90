@@ -1,0 +1,43 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Before and after a piece of work with BLAS: see flexact_blas.c.
+module flexact_blas
+   use, intrinsic :: iso_c_binding, only: c_int, c_double
+   implicit none
+   private
+   public :: blas_work_t, blas_begin, blas_end, blas_bytes, is_small
+
+   !> What OpenBLAS takes when it is first used.
+   integer, parameter :: blas_bytes = 129*2**20
+   !> Where the shorter side of a matrix is below, two threads were never quicker than one.
+   integer, parameter :: small_side = 300
+
+   !> What blas_begin leaves for blas_end: see there.
+   type, bind(c) :: blas_work_t
+      integer(c_int) :: limited, alone, threads, levels
+   end type blas_work_t
+
+   interface
+      !> 0, or -1 where there is no room for BLAS and for so many bytes.
+      function blas_begin(small, bytes, work) bind(c, name='flexact_blas_begin') result(status)
+         import :: c_int, c_double, blas_work_t
+         integer(c_int), value :: small
+         real(c_double), value :: bytes
+         type(blas_work_t), intent(out) :: work
+         integer(c_int) :: status
+      end function blas_begin
+
+      subroutine blas_end(work) bind(c, name='flexact_blas_end')
+         import :: blas_work_t
+         type(blas_work_t), intent(in) :: work
+      end subroutine blas_end
+   end interface
+
+contains
+
+   !> 1 for a matrix of such sides that gains nothing by threads, else 0.
+   pure integer(c_int) function is_small(rows, columns)
+      integer, intent(in) :: rows, columns
+
+      is_small = merge(1_c_int, 0_c_int, min(rows, columns) < small_side)
+   end function is_small
+end module flexact_blas

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names of files while they are written, and those that a killed process has left."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import time
+from functools import cache
+from hashlib import sha256
+from itertools import count
+from pathlib import Path
+from socket import gethostname
+
+_NAME = re.compile(r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9]+\.tmp")
+#: Between two looks into a folder [s]: a batch may write thousands of files into one.
+_PAUSE = 60.0
+
+_number = count()
+_looked: dict[Path, float] = {}
+
+
+def temporary_name() -> str:
+    """A name that no other file has, with what tells whether its process is alive."""
+    return f".flexact-{_system()}-{os.getpid()}-{next(_number)}.tmp"
+
+
+def remove_left(folder: Path) -> None:
+    """Remove the files of this user's processes on this system that are no longer alive."""
+    now = time.monotonic()
+    if now - _looked.get(folder, -_PAUSE) < _PAUSE:
+        return
+    _looked[folder] = now
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            found = _NAME.fullmatch(entry.name)
+            if found and found[1] == _system() and _is_left(entry, int(found[2])):
+                with contextlib.suppress(OSError):
+                    os.unlink(entry.path)
+
+
+def _is_left(entry: os.DirEntry[str], process: int) -> bool:
+    if os.name != "posix" or not entry.is_file(follow_symlinks=False):
+        return False
+    owner = entry.stat(follow_symlinks=False).st_uid
+    return owner == os.geteuid() and not _is_alive(process)
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
+@cache
+def _system() -> str:
+    """Within what process numbers have a meaning: a run of a machine, and a container in it."""
+    parts = [gethostname()]
+    with contextlib.suppress(OSError):
+        parts.append(Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii"))
+    with contextlib.suppress(OSError):
+        parts.append(os.readlink("/proc/self/ns/pid"))
+    return sha256("\n".join(parts).encode()).hexdigest()[:12]
