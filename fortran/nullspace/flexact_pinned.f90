@@ -138,7 +138,7 @@ contains
    end subroutine analyse_pattern
 
    !> Pin what depends on others of its group; where that does not do, columns at
-   !> which pivots of the shifted matrix are small.
+   !> which pivots are small even so, of the matrix shifted upwards.
    subroutine choose_pins(a, group, largest, pinned, error)
       type(operator_t), intent(in) :: a
       integer, intent(in) :: group(:)
@@ -152,7 +152,7 @@ contains
       call pin_groups(a%by_column, group, small_pivot*largest, is_pinned)
       call pin(a, is_pinned, pinned, error)
       if (.not. is_kind(error, error_not_definite)) return
-      call shift(pinned, error)
+      call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) + pinned%least**2, pinned, error)
       if (allocated(error)) return
       call cholmod_pivots(pinned%handle, pivot)
       do attempt = 0, most_attempts
