@@ -56,6 +56,7 @@ contains
       call merge_values(component, result)
       if (options%only_plain_values) return
       result%decision = decide_rank(rule, result%scaled_values)
+      result%bound = result%decision%noise
       do i = 1, size(component)
          call take_modes(problem, component(i), result)
          if (allocated(result%error)) return

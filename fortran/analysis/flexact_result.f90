@@ -42,6 +42,9 @@ module flexact_result
       integer :: method = method_svd
       !> Whether error bounds, or two independent routes, support the rank.
       logical :: confirmed = .true.
+      !> No more scaled values than the method holds lie below: by sparse what its
+      !> factorisation shows, the least of all components; else the noise.
+      real(wp) :: bound = 0.0_wp
       type(rank_t) :: decision
       !> Singular values of the scaled matrix, descending: all of them, or the smallest.
       real(wp), allocatable :: scaled_values(:)

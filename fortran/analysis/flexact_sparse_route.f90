@@ -51,6 +51,7 @@ contains
 
       request = request_t(rule, options%memory, options%progress, options%only_plain_values)
       allocate (zeros(0))
+      result%bound = huge(result%bound)
       allocate (new_row(max(problem%matrix%by_column%rows, problem%matrix%by_column%columns)), source=0)
       ! Of many small components only those with the smallest values are worth a second
       ! look, with more values and more care.
@@ -68,6 +69,8 @@ contains
          call take_component(problem, request, lowest(i), .false., new_row, result, zeros, estimate(lowest(i)))
          if (allocated(result%error)) return
       end do
+      ! Where there is nothing to factorise, nothing is in doubt.
+      if (.not. result%bound < huge(result%bound)) result%bound = 0.0_wp
       ! Zeros of a matrix whose components are not all of full shape.
       missing = min(problem%matrix%by_column%rows, problem%matrix%by_column%columns)
       do i = 1, size(estimate)
@@ -106,6 +109,7 @@ contains
             call add_null_spaces(problem, request, component, pinned, low, result)
       end if
       result%confirmed = result%confirmed .and. low%confirmed
+      result%bound = min(result%bound, low%bound)
       result%bytes = pinned%bytes
       call release(pinned)
       if (is_kind(result%error, error_not_found) .or. is_kind(result%error, error_not_definite)) &

@@ -21,7 +21,7 @@ module flexact_result_exchange
                                                     'confirmed', 'tolerance', 'characteristic length', 'noise', &
                                                     'reach of digits', 'components', 'rows of largest', &
                                                     'columns of largest', 'scaled values', 'pairs', 'motions', &
-                                                    'self-stresses']
+                                                    'self-stresses', 'bound']
 
 contains
 
@@ -68,6 +68,7 @@ contains
       call give_basis(answer%motions, problem%partition%count%rows, index(3, :), place, value, vectors, moving)
       call give_basis(answer%stresses, 0, index(3, :), place, value, vectors, stressed)
       facts(25:26) = [moving, stressed]
+      facts(27) = answer%bound
    end subroutine run
 
    pure subroutine give_labels(problem, index)

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #ifdef FLEXACT_WITH_CHOLMOD
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cholmod.h>
@@ -81,8 +82,9 @@ void flexact_cholmod_free(void *handle)
     free(c);
 }
 
-/* Symbolic analysis in a given order; entries: of the factor that will come. */
-void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries)
+/* Symbolic analysis in a given order; entries: of the factor that will come, widest: of
+ * its longest column. */
+void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries, int *widest)
 {
     chol *c = calloc(1, sizeof *c);
     cholmod_sparse a = lower(n, start, place, NULL);
@@ -95,6 +97,11 @@ void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double 
     if (!c->factor) {
         flexact_cholmod_free(c);
         return NULL;
+    }
+    *widest = 0;
+    for (int j = 0; j < n; j++) {
+        int count = ((int *)c->factor->ColCount)[j];
+        *widest = count > *widest ? count : *widest;
     }
     return c;
 }
@@ -142,6 +149,97 @@ void flexact_cholmod_pivots(void *handle, double *pivot)
     }
 }
 
+typedef struct {
+    size_t count;
+    int *row;
+    double *value;
+} column;
+
+/* The entries of column j of L from the diagonal down; *super: the supernode that
+ * column j - 1 was in, 0 at first. */
+static column column_of(cholmod_factor *f, size_t j, size_t *super)
+{
+    column made;
+    if (f->is_super) {
+        int *first = f->super, *pi = f->pi, *px = f->px, *row = f->s;
+        size_t rows, within;
+        while (j >= (size_t)first[*super + 1])
+            (*super)++;
+        rows = (size_t)(pi[*super + 1] - pi[*super]);
+        within = j - (size_t)first[*super];
+        made.count = rows - within;
+        made.row = row + pi[*super] + within;
+        made.value = (double *)f->x + (size_t)px[*super] + within * rows + within;
+    } else {
+        int *p = f->p, *nz = f->nz, *row = f->i;
+        made.count = (size_t)nz[j];
+        made.row = row + p[j];
+        made.value = (double *)f->x + p[j];
+    }
+    return made;
+}
+
+/* z = |L| |L'| x. */
+static void multiply_twice(cholmod_factor *f, const double *x, double *z)
+{
+    size_t j, k, super = 0;
+    memset(z, 0, sizeof(double) * f->n);
+    for (j = 0; j < f->n; j++) {
+        column c = column_of(f, j, &super);
+        double sum = 0;
+        for (k = 0; k < c.count; k++)
+            sum += fabs(c.value[k]) * x[c.row[k]];
+        for (k = 0; k < c.count; k++)
+            z[c.row[k]] += fabs(c.value[k]) * sum;
+    }
+}
+
+/* Entries of L that are not zero, in each of its rows. */
+static void count_in_rows(cholmod_factor *f, double *count)
+{
+    size_t j, k, super = 0;
+    memset(count, 0, sizeof(double) * f->n);
+    for (j = 0; j < f->n; j++) {
+        column c = column_of(f, j, &super);
+        for (k = 0; k < c.count; k++)
+            count[c.row[k]] += c.value[k] != 0;
+    }
+}
+
+/* By how much, in the 2-norm, L L' may differ from what was factorised: see
+ * flexact_backward_error.f90. Infinite where memory does not suffice. */
+double flexact_cholmod_error(void *handle, double unit, int extra)
+{
+    chol *c = handle;
+    cholmod_factor *f = c->factor;
+    size_t n = f->n, i;
+    int round;
+    double *w = malloc(3 * n * sizeof *w), *x, *z, bound = HUGE_VAL;
+    if (!w)
+        return HUGE_VAL;
+    x = w + n;
+    z = x + n;
+    count_in_rows(f, w);
+    for (i = 0; i < n; i++) {
+        double k = (w[i] + extra) * unit;
+        w[i] = sqrt(k / (1 - k));
+        x[i] = w[i];
+    }
+    for (round = 0; round < 2; round++) {
+        double largest = 0;
+        multiply_twice(f, x, z);
+        for (i = 0; i < n; i++) {
+            double ratio = z[i] * w[i] * w[i] / x[i];
+            largest = ratio <= largest ? largest : ratio;
+        }
+        bound = largest < bound ? largest : bound;
+        for (i = 0; i < n; i++)
+            x[i] = z[i] * w[i] * w[i];
+    }
+    free(w);
+    return bound;
+}
+
 /* Solve for k right-hand sides, side by side. */
 int flexact_cholmod_solve(void *handle, int n, int k, double *b, double *x)
 {
@@ -172,9 +270,9 @@ int flexact_cholmod_order(int n, int *start, int *place, int *order)
 
 void flexact_cholmod_free(void *handle) { (void)handle; }
 
-void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries)
+void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries, int *widest)
 {
-    (void)n, (void)start, (void)place, (void)order, (void)entries;
+    (void)n, (void)start, (void)place, (void)order, (void)entries, (void)widest;
     return NULL;
 }
 
@@ -185,6 +283,12 @@ int flexact_cholmod_factor(void *handle, int n, int *start, int *place, double *
 }
 
 void flexact_cholmod_pivots(void *handle, double *pivot) { (void)handle, (void)pivot; }
+
+double flexact_cholmod_error(void *handle, double unit, int extra)
+{
+    (void)handle, (void)unit, (void)extra;
+    return 0;
+}
 
 int flexact_cholmod_solve(void *handle, int n, int k, double *b, double *x)
 {
