@@ -194,15 +194,17 @@ static void multiply_twice(cholmod_factor *f, const double *x, double *z)
     }
 }
 
-/* Entries of L that are not zero, in each of its rows. */
+/* Entries of L in each of its rows, zeros that pad a supernode with them. */
 static void count_in_rows(cholmod_factor *f, double *count)
 {
-    size_t j, k, super = 0;
+    size_t n = f->is_super ? f->nsuper : f->n, j, k, super = 0;
     memset(count, 0, sizeof(double) * f->n);
-    for (j = 0; j < f->n; j++) {
-        column c = column_of(f, j, &super);
+    for (j = 0; j < n; j++) {
+        size_t first = f->is_super ? (size_t)((int *)f->super)[j] : j;
+        size_t columns = f->is_super ? (size_t)((int *)f->super)[j + 1] - first : 1;
+        column c = column_of(f, first, &super);
         for (k = 0; k < c.count; k++)
-            count[c.row[k]] += c.value[k] != 0;
+            count[c.row[k]] += (double)(k < columns ? k + 1 : columns);
     }
 }
 
