@@ -149,62 +149,83 @@ void flexact_cholmod_pivots(void *handle, double *pivot)
     }
 }
 
+/* Columns of L that share their rows, side by side: a supernode, or one column. Entry
+ * (i, j) is value[i + j * rows], i >= j; the first rows are the columns themselves. */
 typedef struct {
-    size_t count;
+    size_t rows, columns;
     int *row;
     double *value;
-} column;
+} panel;
 
-/* The entries of column j of L from the diagonal down; *super: the supernode that
- * column j - 1 was in, 0 at first. */
-static column column_of(cholmod_factor *f, size_t j, size_t *super)
+static size_t panels_of(cholmod_factor *f) { return f->is_super ? f->nsuper : f->n; }
+
+static panel panel_of(cholmod_factor *f, size_t k)
 {
-    column made;
+    panel made;
     if (f->is_super) {
         int *first = f->super, *pi = f->pi, *px = f->px, *row = f->s;
-        size_t rows, within;
-        while (j >= (size_t)first[*super + 1])
-            (*super)++;
-        rows = (size_t)(pi[*super + 1] - pi[*super]);
-        within = j - (size_t)first[*super];
-        made.count = rows - within;
-        made.row = row + pi[*super] + within;
-        made.value = (double *)f->x + (size_t)px[*super] + within * rows + within;
+        made.rows = (size_t)(pi[k + 1] - pi[k]);
+        made.columns = (size_t)(first[k + 1] - first[k]);
+        made.row = row + pi[k];
+        made.value = (double *)f->x + px[k];
     } else {
         int *p = f->p, *nz = f->nz, *row = f->i;
-        made.count = (size_t)nz[j];
-        made.row = row + p[j];
-        made.value = (double *)f->x + p[j];
+        made.rows = (size_t)nz[k];
+        made.columns = 1;
+        made.row = row + p[k];
+        made.value = (double *)f->x + p[k];
     }
     return made;
 }
 
-/* z = |L| |L'| x. */
-static void multiply_twice(cholmod_factor *f, const double *x, double *z)
+/* Four sums side by side, which the processor adds at once. */
+static double sum_of_products(size_t n, const double *a, const double *x)
 {
-    size_t j, k, super = 0;
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    size_t i;
+    for (i = 0; i + 4 <= n; i += 4) {
+        s0 += fabs(a[i]) * x[i];
+        s1 += fabs(a[i + 1]) * x[i + 1];
+        s2 += fabs(a[i + 2]) * x[i + 2];
+        s3 += fabs(a[i + 3]) * x[i + 3];
+    }
+    for (; i < n; i++)
+        s0 += fabs(a[i]) * x[i];
+    return (s0 + s1) + (s2 + s3);
+}
+
+/* z = |L| |L'| x, with room for two more vectors. */
+static void multiply_twice(cholmod_factor *f, const double *x, double *z, double *room)
+{
+    size_t i, j, k;
+    double *from = room, *to = room + f->n;
     memset(z, 0, sizeof(double) * f->n);
-    for (j = 0; j < f->n; j++) {
-        column c = column_of(f, j, &super);
-        double sum = 0;
-        for (k = 0; k < c.count; k++)
-            sum += fabs(c.value[k]) * x[c.row[k]];
-        for (k = 0; k < c.count; k++)
-            z[c.row[k]] += fabs(c.value[k]) * sum;
+    for (k = 0; k < panels_of(f); k++) {
+        panel p = panel_of(f, k);
+        for (i = 0; i < p.rows; i++) {
+            from[i] = x[p.row[i]];
+            to[i] = 0;
+        }
+        for (j = 0; j < p.columns; j++) {
+            double *column = p.value + j * p.rows;
+            double sum = sum_of_products(p.rows - j, column + j, from + j);
+            for (i = j; i < p.rows; i++)
+                to[i] += fabs(column[i]) * sum;
+        }
+        for (i = 0; i < p.rows; i++)
+            z[p.row[i]] += to[i];
     }
 }
 
 /* Entries of L in each of its rows, zeros that pad a supernode with them. */
 static void count_in_rows(cholmod_factor *f, double *count)
 {
-    size_t n = f->is_super ? f->nsuper : f->n, j, k, super = 0;
+    size_t i, k;
     memset(count, 0, sizeof(double) * f->n);
-    for (j = 0; j < n; j++) {
-        size_t first = f->is_super ? (size_t)((int *)f->super)[j] : j;
-        size_t columns = f->is_super ? (size_t)((int *)f->super)[j + 1] - first : 1;
-        column c = column_of(f, first, &super);
-        for (k = 0; k < c.count; k++)
-            count[c.row[k]] += (double)(k < columns ? k + 1 : columns);
+    for (k = 0; k < panels_of(f); k++) {
+        panel p = panel_of(f, k);
+        for (i = 0; i < p.rows; i++)
+            count[p.row[i]] += (double)(i < p.columns ? i + 1 : p.columns);
     }
 }
 
@@ -215,8 +236,8 @@ double flexact_cholmod_error(void *handle, double unit, int extra)
     chol *c = handle;
     cholmod_factor *f = c->factor;
     size_t n = f->n, i;
-    int round;
-    double *w = malloc(3 * n * sizeof *w), *x, *z, bound = HUGE_VAL;
+    int round, sound = 1;
+    double *w = malloc(5 * n * sizeof *w), *x, *z, bound = HUGE_VAL;
     if (!w)
         return HUGE_VAL;
     x = w + n;
@@ -224,22 +245,23 @@ double flexact_cholmod_error(void *handle, double unit, int extra)
     count_in_rows(f, w);
     for (i = 0; i < n; i++) {
         double k = (w[i] + extra) * unit;
-        w[i] = sqrt(k / (1 - k));
-        x[i] = w[i];
+        w[i] = k / (1 - k);
+        x[i] = sqrt(w[i]);
     }
     for (round = 0; round < 2; round++) {
         double largest = 0;
-        multiply_twice(f, x, z);
+        multiply_twice(f, x, z, z + n);
         for (i = 0; i < n; i++) {
-            double ratio = z[i] * w[i] * w[i] / x[i];
-            largest = ratio <= largest ? largest : ratio;
+            double next = w[i] * z[i];
+            double ratio = next / x[i];
+            sound = sound && ratio < HUGE_VAL;
+            largest = ratio > largest ? ratio : largest;
+            x[i] = next;
         }
         bound = largest < bound ? largest : bound;
-        for (i = 0; i < n; i++)
-            x[i] = z[i] * w[i] * w[i];
     }
     free(w);
-    return bound;
+    return sound ? bound : HUGE_VAL;
 }
 
 /* Solve for k right-hand sides, side by side. */
