@@ -72,10 +72,8 @@ contains
       ! Where there is nothing to factorise, nothing is in doubt.
       if (.not. result%bound < huge(result%bound)) result%bound = 0.0_wp
       ! Zeros of a matrix whose components are not all of full shape.
-      missing = min(problem%matrix%by_column%rows, problem%matrix%by_column%columns)
-      do i = 1, size(estimate)
-         missing = missing - minval(shape_of(problem%components, i))
-      end do
+      missing = min(problem%matrix%by_column%rows, problem%matrix%by_column%columns) &
+                - sum([(minval(shape_of(problem%components, i)), i=1, size(estimate))])
       result%scaled_values = [result%pair_value(size(result%pair_value):1:-1), zeros(ascending(-zeros)), &
                               [(0.0_wp, i=1, missing)]]
    end subroutine analyse_sparse
