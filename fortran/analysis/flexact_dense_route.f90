@@ -1,6 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Rank and null spaces component by component from complete decompositions.
+!>
+!> Of a component that is many times as long as wide no square of its longer side is
+!> made: time and memory stay in proportion to its entries.
 module flexact_dense_route
+   use flexact_complement, only: add_complement
    use flexact_components, only: shape_of
    use flexact_decomposition, only: is_feasible, decompose_by, singular_values_by
    use flexact_error, only: error_t, fail, error_memory
@@ -10,18 +14,25 @@ module flexact_dense_route
    use flexact_proof, only: proof_t, unknown
    use flexact_rank, only: rank_rule_t, decide_rank
    use flexact_result, only: options_t, result_t, most_pairs
-   use flexact_scaled_basis, only: add_scaled
+   use flexact_scaled_basis, only: add_scaled, add_scaled_sparse
    use flexact_smallest_values, only: offer_pair
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
+   use flexact_sparse_basis, only: sparse_basis_t, new_sparse_basis
    use flexact_tiny_values, only: judgement_t, judge_zeros
    implicit none
    private
-   public :: analyse_dense
+   public :: analyse_dense, operations, entries_of_bases
 
-   !> Singular values of a component, descending, and all its singular vectors; those
+   !> From this length on, and this many times its width, a component is long. What is
+   !> shorter takes less than half a second, whatever its width.
+   integer, parameter :: least_long = 1000, many = 4
+
+   !> Singular values of a component, descending, and all its singular vectors; of a
+   !> long one, which stands upright, only as many left ones as there are columns. Values
    !> from rank + 1 on count as zero.
    type :: component_t
+      logical :: is_transposed = .false.
       integer, allocatable :: row(:), column(:)
       real(wp), allocatable :: values(:), u(:, :), vt(:, :)
       integer :: rank = 0
@@ -53,6 +64,7 @@ contains
       if (options%only_plain_values) return
       result%decision = decide_rank(rule, result%scaled_values)
       call settle(model, problem, proof, component, result)
+      result%bound = result%decision%noise
       do i = 1, size(component)
          call take_modes(problem, component(i), result)
          if (allocated(result%error)) return
@@ -105,7 +117,9 @@ contains
       integer :: excess
 
       excess = merge(unknown, proven - item%rank, proven == unknown)
-      call judge_zeros(model, problem, item%row, item%column, item%u, item%values, item%vt, item%rank, excess, as_typed, judgement)
+      ! Of a long component some of the left vectors are not there.
+      if (size(item%u, 2) == size(item%u, 1)) call judge_zeros(model, problem, item%row, item%column, item%u, &
+                                                               item%values, item%vt, item%rank, excess, as_typed, judgement)
       if (.not. judgement%is_made) then
          result%undecided = result%undecided + max(0, excess)
          if (proven == unknown) result%unjudged = .true.
@@ -130,19 +144,60 @@ contains
    pure real(wp) function bytes_needed(problem) result(bytes)
       type(problem_t), intent(in) :: problem
       real(wp) :: m, n, work
-      integer :: sides(2), i
+      integer :: i
 
       bytes = 0.0_wp
       work = 0.0_wp
       do i = 1, problem%components%count
-         sides = shape_of(problem%components, i)
-         m = sides(1)
-         n = sides(2)
-         bytes = bytes + 8*(m*m + n*n)
+         associate (sides => shape_of(problem%components, i))
+            m = maxval(sides)
+            n = minval(sides)
+            ! Of a long component the sparse vectors stand twice for a while.
+            bytes = bytes + merge(8*m*n + 24*m*(n + 1), 8*m*m, is_long(sides)) + 8*n*n
+         end associate
          work = max(work, 8*(2*m*n + 4*min(m, n)**2 + 7*min(m, n) + 64*max(m, n)))
       end do
       bytes = bytes + work
    end function bytes_needed
+
+   pure logical function is_long(sides)
+      integer, intent(in) :: sides(2)
+      is_long = maxval(sides) > least_long .and. maxval(sides)/many > minval(sides)
+   end function is_long
+
+   !> Operations for all components, but for a factor: their values, and bases of
+   !> their null spaces.
+   pure real(wp) function operations(problem)
+      type(problem_t), intent(in) :: problem
+      real(wp) :: m, n
+      integer :: i
+
+      operations = 0.0_wp
+      do i = 1, problem%components%count
+         associate (sides => shape_of(problem%components, i))
+            m = maxval(sides)
+            n = minval(sides)
+            operations = operations + m*n*merge(n, m, is_long(sides))
+            if (.not. is_long(sides)) operations = operations + m*(m - n)**2
+         end associate
+      end do
+   end function operations
+
+   !> How many entries the bases of both null spaces may have.
+   pure real(wp) function entries_of_bases(problem) result(entries)
+      type(problem_t), intent(in) :: problem
+      real(wp) :: m, n
+      integer :: i
+
+      entries = 0.0_wp
+      do i = 1, problem%components%count
+         associate (sides => shape_of(problem%components, i))
+            m = maxval(sides)
+            n = minval(sides)
+            entries = entries + merge(m*(n + 1), m*m, is_long(sides)) + n*n
+         end associate
+      end do
+   end function entries_of_bases
 
    subroutine decompose_component(problem, i, options, method, component, error)
       type(problem_t), intent(in) :: problem
@@ -151,7 +206,7 @@ contains
       type(component_t), intent(out) :: component
       type(error_t), allocatable, intent(out) :: error
       real(wp), allocatable :: dense(:, :)
-      integer :: m, n
+      integer :: m, n, left
 
       associate (c => problem%components)
          component%row = c%row(c%row_start(i):c%row_start(i + 1) - 1)
@@ -159,32 +214,43 @@ contains
       end associate
       m = size(component%row)
       n = size(component%column)
-      if (.not. is_feasible(m, n)) then
+      left = m
+      if (is_long([m, n])) then
+         component%is_transposed = n > m
+         m = max(size(component%row), size(component%column))
+         n = min(size(component%row), size(component%column))
+         left = n
+      end if
+      if (.not. is_feasible(m, n, left < m)) then
          call fail(error_memory, error)
          return
       end if
       allocate (dense(m, n), component%values(min(m, n)))
-      call fill(problem%matrix%by_column, component, dense)
+      if (component%is_transposed) then
+         call fill(problem%matrix%by_row, component%column, component%row, dense)
+      else
+         call fill(problem%matrix%by_column, component%row, component%column, dense)
+      end if
       if (options%only_plain_values) then
          call singular_values_by(method, dense, component%values, error)
       else
-         allocate (component%u(m, m), component%vt(n, n))
+         allocate (component%u(m, left), component%vt(n, n))
          call decompose_by(method, dense, component%values, component%u, component%vt, error)
       end if
    end subroutine decompose_component
 
    !> The rows and columns of a component with their zeros. Rows ascend.
-   pure subroutine fill(matrix, component, dense)
+   pure subroutine fill(matrix, row, column, dense)
       type(sparse_t), intent(in) :: matrix
-      type(component_t), intent(in) :: component
+      integer, intent(in) :: row(:), column(:)
       real(wp), intent(out) :: dense(:, :)
       integer :: j, entry, i
 
       dense = 0.0_wp
-      do j = 1, size(component%column)
+      do j = 1, size(column)
          i = 1
-         do entry = matrix%start(component%column(j)), matrix%start(component%column(j) + 1) - 1
-            do while (component%row(i) < matrix%place(entry))
+         do entry = matrix%start(column(j)), matrix%start(column(j) + 1) - 1
+            do while (row(i) < matrix%place(entry))
                i = i + 1
             end do
             dense(i, j) = matrix%value(entry)
@@ -215,13 +281,42 @@ contains
       type(result_t), intent(inout) :: result
       integer :: k
 
-      associate (rank => component%rank, row => component%row, column => component%column, scaling => problem%scaling)
-         call add_scaled(transpose(component%vt(rank + 1:, :)), column, scaling%column(column), result%motions, result%error)
-         if (allocated(result%error)) return
-         call add_scaled(component%u(:, rank + 1:), row, scaling%row(row), result%stresses, result%error)
+      associate (rank => component%rank, row => component%row, column => component%column, scaling => problem%scaling, &
+                 u => component%u, vt => component%vt)
+         if (component%is_transposed) then
+            call add_left(u, rank, column, scaling%column(column), result%motions, result%error)
+            if (allocated(result%error)) return
+            call add_scaled(transpose(vt(rank + 1:, :)), row, scaling%row(row), result%stresses, result%error)
+         else
+            call add_scaled(transpose(vt(rank + 1:, :)), column, scaling%column(column), result%motions, result%error)
+            if (allocated(result%error)) return
+            call add_left(u, rank, row, scaling%row(row), result%stresses, result%error)
+         end if
          do k = rank, max(1, rank - most_pairs + 1), -1
-            call offer_pair(result, component%values(k), column, component%vt(k, :), row, component%u(:, k))
+            if (component%is_transposed) then
+               call offer_pair(result, component%values(k), column, u(:, k), row, vt(k, :))
+            else
+               call offer_pair(result, component%values(k), column, vt(k, :), row, u(:, k))
+            end if
          end do
       end associate
    end subroutine take_modes
+
+   !> Add what the columns of U beyond the rank span, whether they are there or not.
+   subroutine add_left(u, rank, place, scale, basis, error)
+      real(wp), intent(in) :: u(:, :)
+      integer, intent(in) :: rank, place(:)
+      real(wp), intent(in) :: scale(:)
+      type(sparse_basis_t), intent(inout) :: basis
+      type(error_t), allocatable, intent(out) :: error
+      type(sparse_basis_t) :: complement
+
+      if (size(u, 2) == size(u, 1)) then
+         call add_scaled(u(:, rank + 1:), place, scale, basis, error)
+         return
+      end if
+      call new_sparse_basis(complement)
+      call add_complement(u(:, :rank), complement, error)
+      if (.not. allocated(error)) call add_scaled_sparse(complement, place, scale, basis, error)
+   end subroutine add_left
 end module flexact_dense_route

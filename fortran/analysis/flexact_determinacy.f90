@@ -3,8 +3,8 @@
 !> the motions that it leaves free and the self-stresses that it admits.
 module flexact_determinacy
    use flexact_cholmod, only: cholmod_is_there
-   use flexact_components, only: shape_of, largest_component
-   use flexact_dense_route, only: analyse_dense
+   use flexact_components, only: largest_component, shape_of
+   use flexact_dense_route, only: analyse_dense, operations, entries_of_bases
    use flexact_error, only: fail, is_kind, error_convergence, error_library
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
@@ -25,6 +25,9 @@ module flexact_determinacy
    !> sparse route is as quick from a hundred columns on.
    integer, parameter :: small_component = 200
    integer, parameter :: small_whole = 600
+   !> And if bases of their null spaces do not have more entries than these: a
+   !> fraction of a second, but a hundred megabytes as text.
+   real(wp), parameter :: most_entries = 2.0e6_wp
    !> Up to this cost, some half a minute, components are decomposed completely where
    !> the sparse route leaves doubt.
    real(wp), parameter :: feasible = 3.0e10_wp
@@ -56,7 +59,7 @@ contains
       else if (result%method == method_sparse) then
          call analyse_sparse(problem, options, rule, result)
          result%unjudged = .not. result%proof%is_complete()
-         if (options%only_plain_values .or. cost(problem) > feasible) return
+         if (options%only_plain_values .or. operations(problem) > feasible) return
          if (.not. (is_in_doubt(result) .or. disagrees(problem, result))) return
          complete%method = method_svd
          call prepare(problem, complete)
@@ -94,19 +97,6 @@ contains
       end do
    end function disagrees
 
-   !> Operations of a complete decomposition, but for a factor.
-   pure real(wp) function cost(problem)
-      type(problem_t), intent(in) :: problem
-      integer :: i
-
-      cost = 0.0_wp
-      do i = 1, problem%components%count
-         associate (sides => real(shape_of(problem%components, i), wp))
-            cost = cost + product(sides)*maxval(sides)
-         end associate
-      end do
-   end function cost
-
    !> Whether the sparse route gave no count, or one that is not confirmed.
    pure logical function is_in_doubt(result)
       type(result_t), intent(in) :: result
@@ -135,7 +125,7 @@ contains
 
       choice = method_sparse
       if (cholmod_is_there() == 0 .or. (minval(largest_component(problem%components)) <= small_component .and. &
-                                        min(problem%matrix%by_column%rows, problem%matrix%by_column%columns) <= small_whole)) &
-         choice = method_svd
+                                        min(problem%matrix%by_column%rows, problem%matrix%by_column%columns) <= small_whole &
+                                        .and. entries_of_bases(problem) <= most_entries)) choice = method_svd
    end function choice
 end module flexact_determinacy

@@ -45,6 +45,9 @@ module flexact_result
       integer :: method = method_svd
       !> Whether error bounds, or two independent routes, support the rank.
       logical :: confirmed = .true.
+      !> No more scaled values than the method holds lie below: by sparse what its
+      !> factorisation shows, the least of all components; else the noise.
+      real(wp) :: bound = 0.0_wp
       type(proof_t) :: proof
       !> So many values that count as zero may not be, by exact arithmetic or more digits; and
       !> so many do not count as zero by exact arithmetic alone.

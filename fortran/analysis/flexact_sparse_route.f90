@@ -22,7 +22,8 @@ module flexact_sparse_route
    public :: analyse_sparse
 
    !> A component, or its transpose, so that there are no fewer rows than columns, or
-   !> only a few in a large one.
+   !> only a few in a large one; but the other way round where one column meets so many
+   !> rows, as at the hub of a star, that A'A would be full.
    type :: component_t
       logical :: is_transposed = .false.
       type(operator_t) :: matrix
@@ -30,6 +31,9 @@ module flexact_sparse_route
       !> columns belong to one node (or element).
       integer, allocatable :: row(:), column(:), group(:)
    end type component_t
+
+   !> A'A may have this many times the entries of AA'.
+   real(wp), parameter :: much_fuller = 100.0_wp
 
 contains
 
@@ -47,6 +51,7 @@ contains
 
       request = request_t(rule, options%memory, options%progress, options%only_plain_values)
       allocate (zeros(0))
+      result%bound = huge(result%bound)
       allocate (new_row(max(problem%matrix%by_column%rows, problem%matrix%by_column%columns)), source=0)
       ! Of many small components only those with the smallest values are worth a second
       ! look, with more values and more care.
@@ -64,11 +69,11 @@ contains
          call take_component(problem, request, lowest(i), .false., new_row, result, zeros, estimate(lowest(i)))
          if (allocated(result%error)) return
       end do
+      ! Where there is nothing to factorise, nothing is in doubt.
+      if (.not. result%bound < huge(result%bound)) result%bound = 0.0_wp
       ! Zeros of a matrix whose components are not all of full shape.
-      missing = min(problem%matrix%by_column%rows, problem%matrix%by_column%columns)
-      do i = 1, size(estimate)
-         missing = missing - minval(shape_of(problem%components, i))
-      end do
+      missing = min(problem%matrix%by_column%rows, problem%matrix%by_column%columns) &
+                - sum([(minval(shape_of(problem%components, i)), i=1, size(estimate))])
       result%scaled_values = [result%pair_value(size(result%pair_value):1:-1), zeros(ascending(-zeros)), &
                               [(0.0_wp, i=1, missing)]]
    end subroutine analyse_sparse
@@ -102,6 +107,7 @@ contains
             call add_null_spaces(problem, request, component, pinned, low, result)
       end if
       result%confirmed = result%confirmed .and. low%confirmed
+      result%bound = min(result%bound, low%bound)
       result%bytes = pinned%bytes
       call release(pinned)
       if (is_kind(result%error, error_not_found) .or. is_kind(result%error, error_not_definite)) &
@@ -146,12 +152,24 @@ contains
       end associate
       component%is_transposed = size(row) < size(column)
       if (size(row) >= large .and. size(column) - size(row) <= few) component%is_transposed = .false.
+      associate (by_row => terms(problem%matrix%by_row, row), by_column => terms(problem%matrix%by_column, column))
+         if (size(row) >= large .and. component%is_transposed) component%is_transposed = by_column <= much_fuller*by_row
+      end associate
       if (component%is_transposed) then
          call cut(problem%matrix%by_row, problem%partition%row_label(1, row), column, row, new_row, component)
       else
          call cut(problem%matrix%by_column, problem%partition%column_label(1, column), row, column, new_row, component)
       end if
    end subroutine make_component
+
+   !> Terms of the products of some columns with themselves, side by side: A'A for the
+   !> rows of A, AA' for its columns.
+   pure real(wp) function terms(matrix, column)
+      type(sparse_t), intent(in) :: matrix
+      integer, intent(in) :: column(:)
+
+      terms = sum(real(matrix%start(column + 1) - matrix%start(column), wp)**2)
+   end function terms
 
    !> label (columns): node (or element) of each column.
    pure subroutine cut(matrix, label, row, column, new_row, component)

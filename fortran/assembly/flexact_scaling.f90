@@ -6,7 +6,7 @@ module flexact_scaling
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t
-   use flexact_slots, only: axes, is_position
+   use flexact_slots, only: axes, slots, is_position
    use flexact_jacobian, only: jacobian_t
    use flexact_rank, only: rank_rule_t
    use flexact_rounding, only: decimal, difference, last_bits, last_digit, coarsest_digit
@@ -143,27 +143,35 @@ contains
       extent = 2*min(max(0.0_wp, maxval(highest/2 - lowest/2)), huge(extent)/2)
    end function extent_of
 
-   !> A matrix whose row i has a norm of at most e_i has a 2-norm of at most the
-   !> root of the largest sum of e_i**2 over the rows that meet in one column.
+   !> Errors E whose row i has a norm of at most e_i, and entries in columns P(i) alone, have
+   !> a 2-norm of at most the root of the largest sum of e_i**2 over the rows that meet in
+   !> one column: |E x|**2 <= sum over i of e_i**2 sum over P(i) of x_j**2, which is the sum
+   !> over j of x_j**2 times the sum of e_i**2 over the rows i with j in P(i).
+   !> P(i) is all that the element joins: an entry may be zero and its error not.
    pure subroutine bound_errors(model, partition, jacobian, scaling)
       type(model_t), intent(in) :: model
       type(partition_t), intent(in) :: partition
       type(jacobian_t), intent(in) :: jacobian
       type(scaling_t), intent(inout) :: scaling
-      real(wp), allocatable :: error(:, :), squares(:, :)
-      real(wp) :: extent
-      integer :: k, entry, row, column
+      real(wp), allocatable :: squares(:, :)
+      real(wp) :: extent, error(3)
+      integer :: k, slot, axis
 
-      allocate (error(3, model%elements))
       extent = extent_of(model)
-      do k = 1, model%elements
-         error(:, k) = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length, extent)
-      end do
       allocate (squares(3, partition%count%columns), source=0.0_wp)
-      do entry = 1, jacobian%entries
-         row = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
-         column = partition%column_of(jacobian%column(2, entry), jacobian%column(1, entry))
-         if (row > 0 .and. column > 0) squares(:, column) = squares(:, column) + error(:, jacobian%row(1, entry))**2
+      do k = 1, model%elements
+         associate (rows => count(partition%row_of(:, k) > 0), node => model%element_node(:, k))
+            if (rows == 0) cycle
+            error = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length, extent)
+            do slot = 1, slots
+               if (node(slot) == 0 .or. any(node(:slot - 1) == node(slot))) cycle
+               do axis = 1, axes
+                  associate (column => partition%column_of(axis, node(slot)))
+                     if (column > 0) squares(:, column) = squares(:, column) + rows*error**2
+                  end associate
+               end do
+            end do
+         end associate
       end do
       if (size(squares) == 0) return
       scaling%error_of_bits = sqrt(maxval(squares(1, :)))

@@ -26,7 +26,7 @@ module flexact_result_exchange
                                                     'columns of largest', 'scaled values', 'pairs', 'motions', &
                                                     'self-stresses', 'proven rank', 'as typed', 'primes', &
                                                     'failure', 'undecided', 'unjudged', 'left', 'explained', &
-                                                    'unseen']
+                                                    'unseen', 'bound']
 
    !> Bytes that an analysis takes besides the factors of D(c): for each row and each column (to
    !> 900 were measured, of chains, lattices and loose bars), and on every occasion. Where the
@@ -112,6 +112,7 @@ contains
       end associate
       facts(31:32) = [answer%undecided, merge(1, 0, answer%unjudged)]
       facts(33:35) = [answer%left, answer%explained, real(answer%unseen, wp)]
+      facts(36) = answer%bound
    end subroutine run_with_blas
 
    pure subroutine give_labels(problem, index)

@@ -50,6 +50,9 @@ contains
          g(5) = dot_product(el, eyp)
          g(6) = -dot_product(el, eyq)
 
+         ! Angles below rounding are none: their products would fill zeros of D(c).
+         where (abs(g(2:)) < epsilon(1.0_wp)) g(2:) = 0.0_wp
+
          derivative(1, 7:9) = el
          derivative(2, 10:12) = 0.5_wp*l0*(cross(eyq, ezp) - cross(ezq, eyp))
          derivative(2, 4:6) = -derivative(2, 10:12)

@@ -33,6 +33,9 @@ contains
          ! In units of l0.
          g2 = -dot_product(el, eyp)
          g3 = dot_product(el, eyq)
+         ! As in space: angles below rounding are none.
+         if (abs(g2) < epsilon(1.0_wp)) g2 = 0.0_wp
+         if (abs(g3) < epsilon(1.0_wp)) g3 = 0.0_wp
          e(1) = chord%elongation + l0*(2*g2**2 + g2*g3 + 2*g3**2)/30
          e(2) = l0*g2
          e(3) = l0*g3

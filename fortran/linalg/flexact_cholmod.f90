@@ -6,7 +6,8 @@ module flexact_cholmod
    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr
    implicit none
    private
-   public :: cholmod_is_there, cholmod_order, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_solve, cholmod_free
+   public :: cholmod_is_there, cholmod_order, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_error, &
+             cholmod_solve, cholmod_free
 
    interface
       function cholmod_is_there() bind(c, name='flexact_cholmod_is_there') result(is_there)
@@ -23,12 +24,15 @@ module flexact_cholmod
          integer(c_int) :: status
       end function cholmod_order
 
-      !> Symbolic analysis; null where memory does not suffice.
-      function cholmod_analyse(n, start, place, order, entries) bind(c, name='flexact_cholmod_analyse') result(handle)
+      !> Symbolic analysis: entries of the factor and of its longest column; null where
+      !> memory does not suffice.
+      function cholmod_analyse(n, start, place, order, entries, widest) bind(c, name='flexact_cholmod_analyse') &
+         result(handle)
          import :: c_int, c_double, c_ptr
          integer(c_int), value :: n
          integer(c_int), intent(in) :: start(*), place(*), order(*)
          real(c_double), intent(out) :: entries
+         integer(c_int), intent(out) :: widest
          type(c_ptr) :: handle
       end function cholmod_analyse
 
@@ -48,6 +52,16 @@ module flexact_cholmod
          type(c_ptr), value :: handle
          real(c_double), intent(out) :: pivot(*)
       end subroutine cholmod_pivots
+
+      !> By how much L L' may differ from what was factorised, in the 2-norm. unit: of
+      !> rounding; extra: roundings of an entry beside those of its products.
+      function cholmod_error(handle, unit, extra) bind(c, name='flexact_cholmod_error') result(bound)
+         import :: c_int, c_double, c_ptr
+         type(c_ptr), value :: handle
+         real(c_double), value :: unit
+         integer(c_int), value :: extra
+         real(c_double) :: bound
+      end function cholmod_error
 
       function cholmod_solve(handle, n, k, b, x) bind(c, name='flexact_cholmod_solve') result(status)
          import :: c_int, c_double, c_ptr

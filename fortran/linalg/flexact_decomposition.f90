@@ -18,12 +18,13 @@ module flexact_decomposition
 
 contains
 
-   !> Whether any full decomposition of an m x n matrix, everything included, is
-   !> within LAPACK's integers and what the system grants in one piece. To be
-   !> asked before the matrix is filled: some systems grant single arrays of
-   !> which they cannot hold all.
-   logical function is_feasible(m, n)
+   !> Whether any decomposition of an m x n matrix, everything included, is within
+   !> LAPACK's integers and what the system grants in one piece; is_thin: with no more
+   !> left vectors than columns. To be asked before the matrix is filled: some systems
+   !> grant single arrays of which they cannot hold all.
+   logical function is_feasible(m, n, is_thin)
       integer, intent(in) :: m, n
+      logical, intent(in) :: is_thin
       ! Volatile, lest the compiler leave out what is never used.
       real(wp), allocatable, volatile :: probe(:)
       integer(int64) :: rows, columns
@@ -33,12 +34,13 @@ contains
       if (.not. is_feasible) return
       rows = m
       columns = n
-      allocate (probe(rows*rows + columns*columns + 2*rows*columns + 4*min(rows, columns)**2), stat=info)
+      allocate (probe(rows*merge(columns, rows, is_thin) + columns*columns + 2*rows*columns + 4*min(rows, columns)**2), stat=info)
       is_feasible = info == 0
    end function is_feasible
 
    !> A = U diag(values) V', eq. (16), with all columns of U (m, m) and all
-   !> rows of V' (n, n); values (min(m, n)) descend. A (m, n) is destroyed.
+   !> rows of V' (n, n); values (min(m, n)) descend. A (m, n) is destroyed. Of a tall
+   !> matrix only the first n columns of U may be asked for, by its shape.
    pure subroutine decompose(a, values, u, vt, error)
       real(wp), intent(inout), contiguous :: a(:, :)
       real(wp), intent(out), contiguous :: values(:)
@@ -49,7 +51,7 @@ contains
          call set_identity(u)
          call set_identity(vt)
       else
-         call run_dgesdd('A', a, values, u, vt, error)
+         call run_dgesdd(merge('S', 'A', size(u, 2) < size(u, 1)), a, values, u, vt, error)
       end if
    end subroutine decompose
 

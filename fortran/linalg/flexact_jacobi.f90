@@ -23,7 +23,8 @@ module flexact_jacobi
 contains
 
    !> A = U diag(values) V', with all columns of U (m, m) and all rows of V'
-   !> (n, n); values (min(m, n)) descend. A (m, n) is destroyed.
+   !> (n, n); values (min(m, n)) descend. A (m, n) is destroyed. U may be (m, n)
+   !> for m > n.
    pure subroutine decompose_by_jacobi(a, values, u, vt, error)
       real(wp), intent(inout), contiguous :: a(:, :)
       real(wp), intent(out), contiguous :: values(:)
@@ -35,7 +36,7 @@ contains
          call set_identity(u)
          call set_identity(vt)
       else if (size(a, 1) >= size(a, 2)) then
-         call decompose_tall('F', a, values, u, vt, error)
+         call decompose_tall(merge('U', 'F', size(u, 2) < size(u, 1)), a, values, u, vt, error)
       else
          call transpose_to(a, tall, error)
          if (.not. allocated(error)) call decompose_tall('F', tall, values, vt, u, error)

@@ -4,7 +4,7 @@ module flexact_lapack
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels
+   public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -89,5 +89,15 @@ module flexact_lapack
          real(wp), intent(inout) :: a(lda, *), b(ldb, *), work(*)
          integer, intent(out) :: info
       end subroutine dgels
+
+      !> Solve with a triangle a, in place.
+      pure subroutine dtrtrs(uplo, trans, diag, n, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         character, intent(in) :: uplo, trans, diag
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(in) :: a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dtrtrs
    end interface
 end module flexact_lapack

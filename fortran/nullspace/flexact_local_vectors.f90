@@ -147,7 +147,8 @@ contains
       end if
       where (abs(vector) <= rounding*maxval(abs(vector))) vector = 0.0_wp
       call image(a, near, vector, left)
-      is_found = maxval(abs(left)) <= residue*maxval(abs(vector))
+      ! Its one at the pin sets it apart from all others.
+      is_found = abs(vector(1)) > 0 .and. maxval(abs(left)) <= residue*maxval(abs(vector))
       if (is_found) call keep(near, vector, found)
    end subroutine solve_nearby
 

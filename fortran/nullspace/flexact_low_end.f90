@@ -13,8 +13,8 @@ module flexact_low_end
    use flexact_lanczos, only: next_space
    use flexact_local_vectors, only: find_local_vectors
    use flexact_pin_search, only: seek_pins, repin, low_end
-   use flexact_pinned, only: pinned_t, make_pinned, shift_and_mark
-   use flexact_pinned_space, only: pinned_space, prove_values
+   use flexact_pinned, only: pinned_t, make_pinned, assure, shift_and_mark
+   use flexact_pinned_space, only: pinned_space, show_values
    use flexact_progress, only: progress_t, stage_motions, stage_values
    use flexact_rank, only: rank_rule_t, rank_t, decide_rank
    use flexact_scaled_basis, only: add_scaled_sparse
@@ -42,6 +42,8 @@ module flexact_low_end
    type :: low_end_t
       !> Whether both routes lead to this count of zeros.
       logical :: confirmed = .true.
+      !> No more values than were pinned lie below.
+      real(wp) :: bound = 0.0_wp
       integer :: pins = 0
       !> Vectors with the value zero that live on few columns, beside those, and the
       !> same made orthonormal, from which all others are deflated.
@@ -83,7 +85,10 @@ contains
          return
       end if
       call make_pinned(a, group, request%memory, request%progress, pinned, error)
-      if (is_kind(error, error_not_definite)) call seek_pins(a, pinned, error)
+      if (is_kind(error, error_not_definite)) then
+         call seek_pins(a, pinned, error)
+         if (.not. allocated(error)) call assure(a, pinned, error)
+      end if
       if (.not. (is_kind(error, error_not_definite) .or. is_kind(error, error_not_found))) return
       ! What the low end is then is not shown by two routes.
       low%confirmed = .false.
@@ -123,7 +128,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       real(wp), allocatable :: spanned(:, :), next(:, :), in_pins(:), beyond(:)
       integer, allocatable :: pin(:)
-      logical :: is_proven
+      logical :: is_shown
 
       if (pinned%n >= large) call request%progress%report(stage_motions)
       call split_pins(a, pinned, low, pin, error)
@@ -140,13 +145,14 @@ contains
       if (allocated(error)) return
       if (.not. request%values_only .and. &
           any(in_pins > low%decision%tolerance .and. in_pins <= low_end*pinned%least)) then
-         call prove_values(a, pinned, in_pins, spanned, low%decision%tolerance, is_proven, error)
-         if (.not. is_proven) low%confirmed = .false.
+         call show_values(a, pinned, in_pins, spanned, low%decision%tolerance, is_shown, error)
+         if (.not. is_shown) low%confirmed = .false.
       end if
       low%pins = size(pin)
       call gather(a, [in_pins, beyond], spanned, next, low)
-      ! Above t the count is not proven from both sides.
-      if (low%decision%tolerance > pinned%least) low%confirmed = .false.
+      low%bound = pinned%bound
+      ! Above that the count is not shown from both sides.
+      if (low%decision%tolerance > pinned%bound) low%confirmed = .false.
    end subroutine find_low_end
 
    !> Values beyond the pins until one is above the tolerance.

@@ -10,7 +10,12 @@ module flexact_neighbourhood
    private
    public :: neighbourhood_t, prepare, clear, spread_out, fill, image, keep
 
-   !> A column and the columns around it, breadth first, pinned ones left out.
+   !> A column that meets more rows than these is far from local, and would have all of
+   !> them looked at from each place around it.
+   integer, parameter :: most_rows = 1000
+
+   !> A column and the columns around it, breadth first, pinned ones and those of very
+   !> many rows left out.
    type :: neighbourhood_t
       integer :: columns = 0
       integer :: rows = 0
@@ -65,6 +70,7 @@ contains
             do other = a%by_row%start(i), a%by_row%start(i + 1) - 1
                associate (k => a%by_row%place(other))
                   if (near%columns >= most .or. near%has_column(k) .or. is_pinned(k)) cycle
+                  if (a%by_column%start(k + 1) - a%by_column%start(k) > most_rows) cycle
                   near%has_column(k) = .true.
                   near%columns = near%columns + 1
                   near%column(near%columns) = k

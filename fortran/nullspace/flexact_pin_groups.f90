@@ -31,27 +31,34 @@ contains
       end do
    end subroutine pin_groups
 
-   !> The pivots of the block of A'A of columns first to last, of which there are
-   !> few, decide.
+   !> The block of A'A of columns first to last, of which there are few, is eliminated,
+   !> the largest pivot first: what is not pinned holds the others by as much as can be.
    pure subroutine pin_group(by_column, first, last, least, is_pinned)
       type(sparse_t), intent(in) :: by_column
       integer, intent(in) :: first, last
       real(wp), intent(in) :: least
       logical, intent(inout) :: is_pinned(:)
-      real(wp) :: l(last - first + 1, last - first + 1), pivot
-      integer :: i, j
+      real(wp) :: block(first:last, first:last), column(first:last)
+      logical :: is_left(first:last)
+      integer :: i, j, step
 
-      do i = 1, size(l, 1)
-         do j = 1, i - 1
-            l(i, j) = (product_of(by_column, first + i - 1, first + j - 1) - dot_product(l(i, :j - 1), l(j, :j - 1)))/l(j, j)
+      do j = first, last
+         do i = j, last
+            block(i, j) = product_of(by_column, i, j)
+            block(j, i) = block(i, j)
          end do
-         pivot = product_of(by_column, first + i - 1, first + i - 1) - sum(l(i, :i - 1)**2)
-         if (pivot < least) then
-            is_pinned(first + i - 1) = .true.
-            pivot = pivot + 1.0_wp
-         end if
-         l(i, i) = sqrt(pivot)
       end do
+      is_left = .true.
+      do step = first, last
+         j = first - 1 + maxloc([(block(i, i), i=first, last)], 1, is_left)
+         if (block(j, j) < least) exit
+         is_left(j) = .false.
+         column = block(:, j)
+         do i = first, last
+            block(:, i) = block(:, i) - column*(column(i)/column(j))
+         end do
+      end do
+      is_pinned(first:last) = is_left
    end subroutine pin_group
 
    !> The product of two columns.

@@ -5,10 +5,13 @@
 !> Some columns P are pinned, so that F = A'A + E_P E_P' - t**2 I is positive
 !> definite. Then at most as many singular values of A as there are pins lie
 !> below t: of one more vector x with |A x| < t |x| some combination would have
-!> x_P = 0, and x'F x < 0. Cholesky's factorisation that runs to its end proves
-!> this up to its rounding, which t is chosen to exceed (Rump, BIT 46, 2006).
+!> x_P = 0, and x'F x < 0. Cholesky's factorisation that runs to its end shows this up
+!> to its rounding, which is bounded by d from the factor that has come out (Rump,
+!> BIT 46, 2006; `flexact_backward_error`): what is shown holds up to the root of
+!> t**2 - d. Where d is large, t is raised.
 module flexact_pinned
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
+   use flexact_backward_error, only: error_of_gram, error_of_skyline, error_of_cholmod
    use flexact_cholmod, only: cholmod_is_there, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_solve, &
                               cholmod_free
    use flexact_components, only: breadth_first_order
@@ -22,16 +25,18 @@ module flexact_pinned
    use flexact_sparse, only: sparse_t, operator_t
    implicit none
    private
-   public :: pinned_t, make_pinned, shift, shift_and_mark, pin, apply_inverse, release
+   public :: pinned_t, make_pinned, assure, shift, shift_and_mark, pin, apply_inverse, release
 
-   !> t**2 over the largest diagonal entry of A'A: above Rump's bound of the rounding,
-   !> (k + 1) epsilon, where rows of the factor have up to k = 450 entries; in longer
-   !> ones errors grow with the root of k as a rule.
+   !> t**2 over the largest diagonal entry of A'A, at least; and over the bound of the
+   !> rounding, below which t is raised, and to which.
    real(wp), parameter :: least_square = 1.0e-13_wp
-   !> Pivots below this part of the largest diagonal entry are pinned, ten times t**2,
-   !> which the shift adds to them. To pin one too many does no harm: so a thousand
-   !> times that where nothing is proven anyway.
-   real(wp), parameter :: small_pivot = 10*least_square
+   real(wp), parameter :: safe = 1.25_wp, raised = 1.5_wp
+   !> t**2 over the largest diagonal entry for each entry of the longest column of the
+   !> factor: above what bounds come out at, so that t need not be raised later.
+   real(wp), parameter :: expected = 3.0e-15_wp
+   !> Pivots below this many times t**2, which the shift adds to them, are pinned. To pin
+   !> one too many does no harm: so a thousand times that where nothing is shown anyway.
+   real(wp), parameter :: small_pivot = 10.0_wp
    real(wp), parameter :: doubtful_pivot = 1000*small_pivot
    !> Entries a column up to which the skyline is taken: on banded matrices it takes
    !> half the time of CHOLMOD, tried from 5 to 120 entries, and no order is sought.
@@ -43,8 +48,12 @@ module flexact_pinned
       integer :: n = 0
       integer :: pins = 0
       integer, allocatable :: pin(:)
-      !> t: no more singular values than pins are below it.
+      !> t: what is below is taken for low.
       real(wp) :: least = 0.0_wp
+      !> No more singular values than pins are below: that much is shown.
+      real(wp) :: bound = 0.0_wp
+      !> What A'A may be off by, and the product of its factor too.
+      real(wp) :: error_of_gram = 0.0_wp, rounding = 0.0_wp
       !> Bytes that the factor needs, where it was too large.
       real(wp) :: bytes = 0.0_wp
       !> The column at which the last factorisation failed.
@@ -77,7 +86,8 @@ contains
 
       pinned%n = a%by_column%columns
       largest = largest_diagonal(a%by_column)
-      pinned%least = sqrt(least_square*largest)
+      pinned%error_of_gram = error_of_gram(a, largest)
+      pinned%least = sqrt(max(least_square*largest, raised*pinned%error_of_gram))
       call breadth_first_order(a, order)
       allocate (pinned%place_of(pinned%n))
       do i = 1, pinned%n
@@ -88,17 +98,48 @@ contains
       if (pinned%is_narrow) then
          call fill_skyline(a%by_row, pinned%place_of, first, pinned%least**2, pinned%skyline)
          allocate (pinned%pin(pinned%n))
-         call factorise(pinned%skyline, small_pivot*largest, pinned%pin, pinned%pins)
+         call factorise(pinned%skyline, small_pivot*pinned%least**2, pinned%pin, pinned%pins)
          pinned%pin = order(pinned%pin(:pinned%pins))
+         call set_bound(pinned)
       else if (cholmod_is_there() == 0) then
          call fail(error_library, error)
       else
          call analyse_pattern(a, group, memory, progress, pinned, error)
          if (allocated(error)) return
          call progress%report(stage_factorising)
-         call choose_pins(a, group, largest, pinned, error)
+         call choose_pins(a, group, pinned, error)
       end if
+      if (.not. allocated(error)) call assure(a, pinned, error)
    end subroutine make_pinned
+
+   !> Raise t where the rounding is not well below.
+   subroutine assure(a, pinned, error)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      logical :: is_pinned(pinned%n)
+      real(wp) :: rounding
+
+      rounding = pinned%rounding
+      if (safe*rounding <= pinned%least**2 .or. .not. rounding < huge(rounding)) return
+      pinned%least = sqrt(raised*rounding)
+      is_pinned = .false.
+      is_pinned(pinned%pin) = .true.
+      call pin(a, is_pinned, pinned, error)
+   end subroutine assure
+
+   !> What the factorisation, which ran to its end, shows.
+   subroutine set_bound(pinned)
+      type(pinned_t), intent(inout) :: pinned
+
+      if (pinned%is_narrow) then
+         pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline)
+      else
+         pinned%rounding = pinned%error_of_gram + error_of_cholmod(pinned%handle)
+      end if
+      pinned%bound = 0.0_wp
+      if (pinned%rounding < pinned%least**2) pinned%bound = sqrt(pinned%least**2 - pinned%rounding)
+   end subroutine set_bound
 
    !> The largest diagonal entry of A'A, one where all are zero.
    pure real(wp) function largest_diagonal(by_column) result(largest)
@@ -122,14 +163,16 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer, allocatable :: order(:)
       real(wp) :: entries
+      integer :: widest
 
       call progress%report(stage_ordering)
       call make_gram(a, memory, pinned%gram, pinned%bytes)
       if (allocated(pinned%gram%value)) then
          call nested_order(a, group, order, error)
          if (allocated(error)) return
-         pinned%handle = cholmod_analyse(pinned%n, pinned%gram%start, pinned%gram%place, order, entries)
+         pinned%handle = cholmod_analyse(pinned%n, pinned%gram%start, pinned%gram%place, order, entries, widest)
          if (c_associated(pinned%handle)) then
+            pinned%least = max(pinned%least, sqrt(expected*widest*largest_diagonal(a%by_column)))
             pinned%bytes = 8*entries
             if (pinned%bytes <= memory) return
          end if
@@ -138,25 +181,24 @@ contains
    end subroutine analyse_pattern
 
    !> Pin what depends on others of its group; where that does not do, columns at
-   !> which pivots of the shifted matrix are small.
-   subroutine choose_pins(a, group, largest, pinned, error)
+   !> which pivots are small even so, of the matrix shifted upwards.
+   subroutine choose_pins(a, group, pinned, error)
       type(operator_t), intent(in) :: a
       integer, intent(in) :: group(:)
-      real(wp), intent(in) :: largest
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       logical :: is_pinned(pinned%n)
       real(wp) :: pivot(pinned%n)
       integer :: attempt
 
-      call pin_groups(a%by_column, group, small_pivot*largest, is_pinned)
+      call pin_groups(a%by_column, group, small_pivot*pinned%least**2, is_pinned)
       call pin(a, is_pinned, pinned, error)
       if (.not. is_kind(error, error_not_definite)) return
-      call shift(pinned, error)
+      call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) + pinned%least**2, pinned, error)
       if (allocated(error)) return
       call cholmod_pivots(pinned%handle, pivot)
       do attempt = 0, most_attempts
-         call pin(a, is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*largest, pinned, error)
+         call pin(a, is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*pinned%least**2, pinned, error)
          if (.not. is_kind(error, error_not_definite)) return
          is_pinned(pinned%failed) = .true.
       end do
@@ -172,6 +214,7 @@ contains
       call factorise_with(spread(pinned%least**2, 1, pinned%n), pinned, error)
       pinned%pin = [integer ::]
       pinned%pins = 0
+      pinned%bound = 0.0_wp
       pinned%is_shifted = .true.
    end subroutine shift
 
@@ -185,7 +228,7 @@ contains
       call shift(pinned, error)
       if (allocated(error)) return
       call cholmod_pivots(pinned%handle, pivot)
-      pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot*pinned%least**2/least_square)
+      pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot*pinned%least**2)
       pinned%pins = size(pinned%pin)
    end subroutine shift_and_mark
 
@@ -205,6 +248,7 @@ contains
       end if
       pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
       pinned%pins = size(pinned%pin)
+      if (.not. allocated(error)) call set_bound(pinned)
    end subroutine pin
 
    subroutine pin_narrow(by_row, is_pinned, pinned, error)

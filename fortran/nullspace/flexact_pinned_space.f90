@@ -11,13 +11,15 @@ module flexact_pinned_space
    use flexact_sparse_basis, only: sparse_basis_t
    implicit none
    private
-   public :: pinned_space, prove_values
+   public :: pinned_space, show_values
 
    !> A value below this part of the norm is as good as zero.
    real(wp), parameter :: practically_zero = 2*epsilon(1.0_wp)
    !> Relative change of the values that ends the improvement, and a guard.
    real(wp), parameter :: converged = 1.0e-8_wp
    integer, parameter :: most_rounds = 8
+   !> Rounds in which rounding is taken from the image of a vector.
+   integer, parameter :: most_corrections = 4
 
 contains
 
@@ -84,30 +86,30 @@ contains
       call take_lowest(a, space(:, :used), vectors, values, error)
    end subroutine improve
 
-   !> Whether the values (k) of what pins hold are proven, those above the tolerance:
+   !> Whether the values (k) of what pins hold are shown, those above the tolerance:
    !> the count of zeros there depends on them, and the residual of each must be well
    !> below it.
-   subroutine prove_values(a, pinned, values, vectors, tolerance, is_proven, error)
+   subroutine show_values(a, pinned, values, vectors, tolerance, is_shown, error)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(in) :: values(:), tolerance
       real(wp), intent(in), contiguous :: vectors(:, :)
-      logical, intent(out) :: is_proven
+      logical, intent(out) :: is_shown
       type(error_t), allocatable, intent(out) :: error
       real(wp), dimension(a%by_column%rows, 1) :: image, step
       real(wp) :: residual(size(vectors, 1), 1)
       integer :: k, round
 
-      is_proven = .false.
+      is_shown = .false.
       do k = 1, size(values)
          if (values(k) <= tolerance) cycle
          call times_transposed(a%by_row, vectors(:, k:k), image)
-         do round = 1, 2
+         do round = 1, most_corrections
             image = image/length_of(image(:, 1))
             call times_transposed(a%by_column, image, residual)
             residual = residual - values(k)*vectors(:, k:k)
             if (length_of(residual(:, 1)) <= values(k)/2) exit
-            if (round == 2) return
+            if (round == most_corrections) return
             ! A tiny image is rounding in good part, which is taken from it.
             call apply_inverse(pinned, residual, error)
             if (allocated(error)) return
@@ -115,6 +117,6 @@ contains
             image = image - step
          end do
       end do
-      is_proven = .true.
-   end subroutine prove_values
+      is_shown = .true.
+   end subroutine show_values
 end module flexact_pinned_space

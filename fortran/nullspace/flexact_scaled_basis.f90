@@ -103,7 +103,7 @@ contains
          associate (used => groups%row(groups%row_start(i):groups%row_start(i + 1) - 1), &
                     members => groups%column(groups%column_start(i):groups%column_start(i + 1) - 1))
             if (size(members) == 0) exit
-            if (size(members) > 1 .and. real(size(used), wp)*size(members)**2 <= most_orthonormal) then
+            if (size(members) > 1 .and. size(used)*real(size(members), wp)**2 <= most_orthonormal) then
                new_place(used) = [(j, j=1, size(used))]
                allocate (dense(size(used), size(members)), source=0.0_wp)
                do j = 1, size(members)

@@ -30,6 +30,8 @@ program test_determinacy
    call test_folded_sheet()
    call test_parallel_guide()
    call test_empty_shapes()
+   call test_long_joint()
+   call test_noise_of_zeros()
    call tally%finish()
 
 contains
@@ -105,6 +107,66 @@ contains
       end do
       call tally%check(all(abs(gram) < 1.0e-14_wp), name//': orthonormal')
    end subroutine check_orthonormal
+
+   !> A joint on bars to fixed places (3, bars).
+   function joint_on(place) result(model)
+      real(wp), intent(in) :: place(:, :)
+      type(model_t) :: model
+      integer :: k
+
+      model = new_model(size(place, 2) + 1, size(place, 2))
+      call set_node(model, 1, node_position, [0.0_wp, 0.0_wp, 0.0_wp])
+      do k = 1, size(place, 2)
+         call set_node(model, k + 1, node_position, place(:, k))
+         call fix(model, [k + 1])
+         call set_element(model, k, find_element_kind('TRUSS'), [1, 0, k + 1, 0])
+      end do
+   end function joint_on
+
+   !> Each bar after the third is one too many. No square of their number is made:
+   !> memory that would not hold one suffices.
+   subroutine test_long_joint()
+      integer, parameter :: bars = 5000
+      real(wp) :: place(3, bars), left(3)
+      type(options_t) :: options
+      integer :: i, k, entry
+
+      call random_number(place)
+      options%memory = 5.0e6_wp
+      do i = 1, 2
+         options%method = methods(i)
+         call analyse(joint_on(place), options, problem, answer)
+         call tally%check(.not. allocated(answer%error), 'long joint: status')
+         if (allocated(answer%error)) cycle
+         call tally%check(answer%decision%rank == 3 .and. answer%motions%vectors == 0, 'long joint: rank')
+         call tally%check(answer%stresses%vectors == bars - 3, 'long joint: all self-stresses')
+         call tally%check(answer%stresses%entries() <= 4*bars, 'long joint: of four bars each')
+         do k = 1, answer%stresses%vectors
+            left = 0.0_wp
+            do entry = answer%stresses%start(k), answer%stresses%start(k + 1) - 1
+               associate (p => place(:, answer%stresses%place(entry)))
+                  left = left + answer%stresses%value(entry)*p/norm2(p)
+               end associate
+            end do
+            if (any(abs(left) > 1.0e-13_wp)) exit
+         end do
+         call tally%check(k > answer%stresses%vectors, 'long joint: in equilibrium')
+      end do
+   end subroutine test_long_joint
+
+   !> Bars along x, y and z: D(c) is diagonal, its errors are not. They are as
+   !> large as those of bars at right angles that are turned.
+   subroutine test_noise_of_zeros()
+      real(wp), parameter :: straight(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
+      real(wp), parameter :: turned(3, 3) = reshape([2, 2, 1, -2, 1, 2, 1, -2, 2], [3, 3])/3.0_wp
+      type(problem_t) :: other
+
+      call analyse(joint_on(straight), options_t(), problem, answer)
+      call analyse(joint_on(turned), options_t(), other, answer)
+      associate (bits => problem%scaling%error_of_bits, less => other%scaling%error_of_bits)
+         call tally%check(bits >= less .and. bits < 2*less, 'noise of zeros')
+      end associate
+   end subroutine test_noise_of_zeros
 
    !> Table 2 and the text of the paper; singular values of D(c) recomputed
    !> by hand from the symmetry of the ring.

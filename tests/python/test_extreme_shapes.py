@@ -166,3 +166,50 @@ def test_equal_values_within_one_part(method: str) -> None:
     expected = 2 * np.sin((2 * k - 1) * np.pi / (4 * number + 2))
     given = analysis.singular_values
     np.testing.assert_allclose(given[::-1], expected[: given.size], rtol=1e-8)
+
+
+# Many times as long as wide, where a square of the longer side would not fit
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_joint_on_thousands_of_bars(method: str) -> None:
+    """Three of them hold it."""
+    bars = 20_000
+    model = Model()
+    joint = model.node(0, 0, 0)
+    for direction in np.random.default_rng(1).standard_normal((bars, 3)):
+        end = model.node(*direction)
+        model.truss(joint, end)
+        model.fix(end)
+    analysis = analyse(model, method=method)
+    assert_right(analysis, (0, bars - 3))
+    assert analysis.raw.stresses.value.size <= 4 * bars
+    assert analysis.describe() and len(analysis.to_json()) < 1000 * bars
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_thousands_of_bars_between_two_nodes(method: str) -> None:
+    """All but one are too many, and each can be pulled against the first."""
+    bars = 20_000
+    model = Model()
+    ends = model.node(0, 0, 0), model.node(1, 2, 2)
+    for _ in range(bars):
+        model.truss(*ends)
+    analysis = analyse(model, method=method)
+    assert_right(analysis, (5, bars - 1))
+    assert analysis.raw.stresses.value.size <= 2 * bars
+    assert analysis.describe() and len(analysis.to_json()) < 1000 * bars
+
+
+@pytest.mark.parametrize("method", ["auto", "sparse"])
+def test_thousands_of_free_joints_on_one(method: str) -> None:
+    """Each bar takes one of the coordinates: neither D'D nor DD' may fill."""
+    bars = 20_000
+    model = Model()
+    hub = model.node(0, 0, 0)
+    for direction in np.random.default_rng(1).standard_normal((bars, 3)):
+        model.truss(hub, model.node(*direction))
+    analysis = analyse(model, method=method)
+    assert_right(analysis, (2 * bars + 3, 0))
+    assert len(analysis.motions) == 2 * bars + 3
+    assert analysis.describe() and len(analysis.to_json()) < 2000 * bars

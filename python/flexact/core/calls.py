@@ -254,6 +254,7 @@ def analyse_model(
         rank=int(named["rank"]),
         method=METHODS[int(named["method"])],
         confirmed=named["confirmed"] == 1,
+        bound=named["bound"],
         components=int(named["components"]),
         largest_component=(int(named["rows of largest"]), int(named["columns of largest"])),
         error=ERRORS[int(named["error"])],

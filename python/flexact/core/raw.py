@@ -128,6 +128,9 @@ class RawAnalysis(NamedTuple):
     """What was used: svd, jacobi or sparse."""
     confirmed: bool
     """Whether the rank follows from a decomposition with error bounds, or from two routes."""
+    bound: float
+    """No more scaled values than are held for zero, or shown to be none, lie below: by sparse
+    what the factorisation shows of each part, the least of them; else the noise."""
     components: int
     """Connected components of D(c), which are decomposed one by one."""
     largest_component: tuple[int, int]

@@ -58,6 +58,8 @@ def _sections(analysis: Result) -> Iterator[str]:
         zero = "  counts as zero" if number > analysis.rank else ""
         yield f"  {number:5d}  {value:>23}  {scaled:>23}{zero}"
     yield f"  tolerance on the scaled values: {analysis.tolerance:.16e}"
+    if analysis.method == "sparse":
+        yield f"  the factorisation shows the count of those below {analysis.raw.bound:.16e}"
     yield from ("", "Rows of D(c)")
     for number, (element, deformation) in enumerate(analysis.row_labels, start=1):
         yield f"  {number:5d}  element {element}, deformation {deformation}"

@@ -1,0 +1,151 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Bounds of the rounding of A'A and of its factorisations, against the errors
+!> themselves in quadruple precision.
+program test_backward_error
+   use flexact_backward_error, only: error_of_gram, error_of_skyline, error_of_cholmod
+   use flexact_cholmod, only: cholmod_is_there
+   use flexact_error, only: error_t
+   use flexact_gram, only: gram_t, make_gram
+   use flexact_kinds, only: wp
+   use flexact_pinned, only: pinned_t, make_pinned, release
+   use flexact_progress, only: progress_t
+   use flexact_skyline, only: skyline_t, skyline_size, fill_skyline, factorise
+   use flexact_sparse, only: operator_t, operator_of
+   use flexact_test_matrices, only: sparse_of, grid, path
+   use flexact_testing, only: tally_t, set_random
+   implicit none
+   integer, parameter :: qp = selected_real_kind(30)
+   type(tally_t) :: tally
+
+   call set_random()
+   call a_gram_matrix(40, 30)
+   call a_gram_matrix(3000, 3)
+   call a_gram_matrix(3, 50)
+   call a_skyline(60, 40)
+   call a_skyline(400, 150)
+   call a_path()
+   call of_nothing()
+   if (cholmod_is_there() /= 0) then
+      call a_grid(15)
+      call a_grid(120)
+   end if
+   call tally%finish()
+
+contains
+
+   function random_matrix(m, n) result(dense)
+      integer, intent(in) :: m, n
+      real(wp) :: dense(m, n), chance(m, n)
+
+      call random_number(dense)
+      call random_number(chance)
+      dense = merge(dense - 0.3_wp, 0.0_wp, chance < 0.5_wp)
+   end function random_matrix
+
+   !> The error is below its bound, which is no more than n times as large as the
+   !> largest sums of magnitudes are off by.
+   subroutine a_gram_matrix(m, n)
+      integer, intent(in) :: m, n
+      real(wp) :: dense(m, n), bound, made(n, n)
+      type(operator_t) :: a
+      type(gram_t) :: gram
+      real(wp) :: bytes
+      integer :: j, entry
+
+      dense = random_matrix(m, n)
+      a = operator_of(sparse_of(dense))
+      call make_gram(a, huge(bytes), gram, bytes)
+      made = 0.0_wp
+      do j = 1, n
+         do entry = gram%start(j) + 1, gram%start(j + 1)
+            made(gram%place(entry) + 1, j) = gram%value(entry)
+            made(j, gram%place(entry) + 1) = gram%value(entry)
+         end do
+      end do
+      bound = error_of_gram(a, maxval(sum(dense**2, 1)))
+      call tally%check(off_by(made, matmul(transpose(real(dense, qp)), real(dense, qp))) <= bound, 'A''A: within the bound')
+      call tally%check(bound <= epsilon(bound)*(m + 4)*sum(dense**2) + 5*epsilon(bound), 'A''A: which is no larger than need be')
+   end subroutine a_gram_matrix
+
+   !> The 2-norm is no more than this.
+   real(wp) function off_by(made, exact)
+      real(wp), intent(in) :: made(:, :)
+      real(qp), intent(in) :: exact(:, :)
+      off_by = sqrt(real(sum((made - exact)**2), wp))
+   end function off_by
+
+   subroutine a_skyline(m, n)
+      integer, intent(in) :: m, n
+      real(wp) :: dense(m, n), l(n, n), bound, entries
+      type(operator_t) :: a
+      type(skyline_t) :: matrix
+      integer :: first(n), pinned(n), pins, i
+      real(qp) :: exact(n, n)
+
+      dense = random_matrix(m, n)
+      a = operator_of(sparse_of(dense))
+      call skyline_size(a%by_row, [(i, i=1, n)], first, entries)
+      call fill_skyline(a%by_row, [(i, i=1, n)], first, 1.0e-3_wp, matrix)
+      call factorise(matrix, tiny(1.0_wp), pinned, pins)
+      call tally%check(pins == 0, 'skyline: definite')
+      l = 0.0_wp
+      do i = 1, n
+         l(i, first(i):i) = matrix%value(matrix%base(i) + first(i):matrix%base(i) + i)
+      end do
+      exact = matmul(transpose(real(dense, qp)), real(dense, qp))
+      do i = 1, n
+         exact(i, i) = exact(i, i) - 1.0e-3_wp
+      end do
+      bound = error_of_skyline(matrix) + error_of_gram(a, maxval(sum(dense**2, 1)))
+      call tally%check(sqrt(real(sum((matmul(real(l, qp), real(transpose(l), qp)) - exact)**2), wp)) <= bound, &
+                       'skyline: within the bound')
+      call tally%check(error_of_skyline(matrix) <= epsilon(bound)*(n + 4)*sum(l**2), 'skyline: no larger than need be')
+   end subroutine a_skyline
+
+   !> Rows of the factor have two entries each: the bound does not grow with the size.
+   subroutine a_path()
+      type(pinned_t) :: pinned
+      type(error_t), allocatable :: error
+      integer, parameter :: n = 20000
+      integer :: j
+
+      call make_pinned(operator_of(path(n, .false.)), [(j, j=1, n)], huge(1.0_wp), progress_t(), pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%is_narrow, 'path: narrow')
+      call tally%check(pinned%rounding > 0 .and. pinned%rounding < 60*epsilon(1.0_wp), 'path: a few roundings')
+      call tally%check(pinned%bound > 0.9_wp*pinned%least .and. pinned%bound < pinned%least, 'path: nearly t')
+   end subroutine a_path
+
+   !> A matrix without entries has no error but that of what is added.
+   subroutine of_nothing()
+      real(wp) :: zero(2, 3)
+
+      zero = 0.0_wp
+      call tally%check(error_of_gram(operator_of(sparse_of(zero)), 1.0_wp) <= 10*epsilon(1.0_wp), 'nothing')
+   end subroutine of_nothing
+
+   !> What CHOLMOD's factor tells agrees with the skyline of the same matrix as far as
+   !> the order of elimination lets it; t stands above it.
+   subroutine a_grid(n)
+      integer, intent(in) :: n
+      type(operator_t) :: a
+      type(pinned_t) :: pinned
+      type(error_t), allocatable :: error
+      type(skyline_t) :: matrix
+      real(wp) :: entries, other
+      integer :: first(n**2), pins(n**2), found, j
+
+      a = operator_of(grid(n, .false.))
+      call make_pinned(a, [(j, j=1, n**2)], huge(1.0_wp), progress_t(), pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%pins == 0, 'grid: definite')
+      call tally%check(pinned%bound > 0.3_wp*pinned%least .and. pinned%bound < pinned%least, 'grid: shown up to nearly t')
+      if (.not. pinned%is_narrow) then
+         call skyline_size(a%by_row, [(j, j=1, n**2)], first, entries)
+         call fill_skyline(a%by_row, [(j, j=1, n**2)], first, 0.0_wp, matrix)
+         call factorise(matrix, tiny(1.0_wp), pins, found)
+         other = error_of_skyline(matrix)
+         call tally%check(error_of_cholmod(pinned%handle) < 5*other, 'grid: as by the skyline')
+         call tally%check(error_of_cholmod(pinned%handle) > 0.02_wp*other, 'grid: and not far below')
+      end if
+      call release(pinned)
+   end subroutine a_grid
+end program test_backward_error
