@@ -20,7 +20,7 @@ extern void openblas_set_num_threads(int) __attribute__((weak));
 extern int openblas_get_num_threads(void) __attribute__((weak));
 extern int openblas_get_parallel(void) __attribute__((weak));
 void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *, const int *,
-            const double *, double *, const int *, size_t, size_t);
+            const double *, double *, const int *, size_t, size_t) __attribute__((weak));
 
 extern void omp_set_max_active_levels(int) __attribute__((weak));
 extern int omp_get_max_active_levels(void) __attribute__((weak));
@@ -43,7 +43,7 @@ static int buffered;
 
 static int has_threads(void)
 {
-    return openblas_set_num_threads && openblas_get_num_threads && openblas_get_parallel;
+    return openblas_set_num_threads && openblas_get_num_threads && openblas_get_parallel && dsyrk_;
 }
 
 static int has_room(size_t size)
