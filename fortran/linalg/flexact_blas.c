@@ -20,7 +20,7 @@ extern void openblas_set_num_threads(int) __attribute__((weak));
 extern int openblas_get_num_threads(void) __attribute__((weak));
 extern int openblas_get_parallel(void) __attribute__((weak));
 void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *, const int *,
-            const double *, double *, const int *, size_t, size_t);
+            const double *, double *, const int *, size_t, size_t) __attribute__((weak));
 
 extern void omp_set_max_active_levels(int) __attribute__((weak));
 extern int omp_get_max_active_levels(void) __attribute__((weak));
@@ -35,14 +35,15 @@ static const size_t ample = (size_t)1 << 31;
 typedef struct { int limited, alone, threads, levels; } work_t;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t ended = PTHREAD_COND_INITIALIZER;
 /* Calls at work, those that want one thread only, and the threads before them. */
 static int active, alone, before;
-/* Calls at once for which OpenBLAS is known to have buffers. */
+/* Whether OpenBLAS is known to have a buffer for each of its threads. */
 static int buffered;
 
 static int has_threads(void)
 {
-    return openblas_set_num_threads && openblas_get_num_threads && openblas_get_parallel;
+    return openblas_set_num_threads && openblas_get_num_threads && openblas_get_parallel && dsyrk_;
 }
 
 static int has_room(size_t size)
@@ -59,7 +60,7 @@ static int is_limited(void)
     return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
-static int is_tight(void) { return is_limited() && !has_room(ample); }
+static int is_tight(size_t bytes) { return is_limited() && !has_room(ample + bytes); }
 
 /* OpenMP, with which CHOLMOD may be built, ends the process where it gets no threads. */
 static void forbid_openmp(work_t *work)
@@ -87,10 +88,10 @@ static void take_buffers(void)
 
 static int find_buffers(void)
 {
-    if (!has_threads() || active < buffered || !is_tight()) return 1;
-    if (!has_room(buffer * (buffered == 0 ? openblas_get_num_threads() : 1))) return 0;
-    if (active == 0) take_buffers();
-    buffered = active + 1;
+    if (!has_threads() || buffered || !is_tight(0)) return 1;
+    if (!has_room(buffer * openblas_get_num_threads())) return 0;
+    take_buffers();
+    buffered = 1;
     return 1;
 }
 
@@ -123,8 +124,8 @@ __attribute__((constructor)) static void load(void)
     find_buffers();
 }
 
-/* 0, or -1 where OpenBLAS, or so many bytes for others, would find no room; work is what
- * flexact_blas_end is to be given. */
+/* 0, or -1 where OpenBLAS, or so many bytes for others, would find no room even when nothing
+ * else is at work; work is what flexact_blas_end is to be given. */
 int flexact_blas_begin(int is_small, double bytes, work_t *work)
 {
     int found;
@@ -133,7 +134,9 @@ int flexact_blas_begin(int is_small, double bytes, work_t *work)
     if (!has_threads()) return work->limited && !has_room((size_t)bytes) ? -1 : 0;
     work->alone = is_small;
     pthread_mutex_lock(&lock);
-    if (is_tight()) {
+    /* One after the other, so that one buffer does and none takes what another has found. */
+    while (active > 0 && is_tight((size_t)bytes)) pthread_cond_wait(&ended, &lock);
+    if (is_tight((size_t)bytes)) {
         work->alone = 1;
         forbid_openmp(work);
     }
@@ -160,6 +163,7 @@ void flexact_blas_end(work_t *work)
     pthread_mutex_lock(&lock);
     active -= 1;
     alone -= work->alone;
+    pthread_cond_broadcast(&ended);
     if (openblas_get_parallel() != openmp) set_threads();
     pthread_mutex_unlock(&lock);
 }

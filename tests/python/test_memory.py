@@ -156,6 +156,27 @@ for call in (flexact.jacobian, flexact.analyse):
         assert done.stdout.split()[-1] == b"refused"
 
 
+@LIMITED
+def test_analyses_at_once_wait_for_room(tmp_path: Path) -> None:
+    """Where the buffers of eight would not do, one goes after the other."""
+    code = """
+import sys, threading
+import flexact
+model = flexact.read(sys.argv[1])
+found = []
+def work():
+    for _ in range(3):
+        found.append(flexact.analyse(model, method="svd").over_constrained)
+threads = [threading.Thread(target=work) for _ in range(8)]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+print(len(found), *set(found) - {flexact.analyse(model).over_constrained})
+"""
+    strip = write(tmp_path / "grid.dat", bar_grid(9))
+    done = limited(["-c", code, str(strip)], 1500, None)
+    assert done.stdout.split() == [b"24"], done.stderr.decode()
+
+
 def bar_grid(side: int) -> str:
     """A deck of triangles in the plane, of about three bars a node."""
     lines = []
