@@ -128,4 +128,7 @@ def _method(result: Result) -> Iterator[Line]:
         chosen = f" ({result.asked.method} could not confirm the count)"
     rows, columns = result.raw.largest_component
     pieces = f", in {parts} parts, the largest {rows} x {columns}" if parts > 1 else ""
-    yield sentence(f"Method: {method}{chosen}{pieces}.")
+    shown = ""
+    if method == "sparse":
+        shown = f"; its factorisation shows how many singular values lie below {result.bound:.1e}"
+    yield sentence(f"Method: {method}{chosen}{pieces}{shown}.")
