@@ -31,6 +31,9 @@ module flexact_determinacy
    !> Up to this cost, some half a minute, components are decomposed completely where
    !> the sparse route leaves doubt.
    real(wp), parameter :: feasible = 3.0e10_wp
+   !> Up to this cost, a good second, zeros that exact arithmetic has not seen are judged
+   !> with more digits, which takes a complete decomposition.
+   real(wp), parameter :: soon_judged = 1.0e9_wp
 
 contains
 
@@ -60,7 +63,8 @@ contains
          call analyse_sparse(problem, options, rule, result)
          result%unjudged = .not. result%proof%is_complete()
          if (options%only_plain_values .or. operations(problem) > feasible) return
-         if (.not. (is_in_doubt(result) .or. disagrees(problem, result))) return
+         if (.not. (is_in_doubt(result) .or. disagrees(problem, result) .or. &
+                    (is_unseen(result) .and. operations(problem) <= soon_judged))) return
          complete%method = method_svd
          call prepare(problem, complete)
          complete%proof = result%proof
@@ -103,6 +107,13 @@ contains
       is_in_doubt = is_kind(result%error, error_convergence) .or. &
                     .not. (allocated(result%error) .or. result%confirmed)
    end function is_in_doubt
+
+   !> Whether there are zeros, with both vectors, that neither exact arithmetic nor more
+   !> digits have seen.
+   pure logical function is_unseen(result)
+      type(result_t), intent(in) :: result
+      is_unseen = result%unjudged .and. min(result%motions%vectors, result%stresses%vectors) > 0
+   end function is_unseen
 
    !> A result with nothing in it but the method.
    pure subroutine prepare(problem, result)

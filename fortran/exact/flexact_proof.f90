@@ -83,11 +83,11 @@ contains
       integer :: i
 
       call no_proof(problem%components%count, proof)
+      proof%as_typed = all_typed(model)
       if (wish == prove_never .or. flint_is_there() == 0) return
       allocate (place(problem%partition%count%columns), component_of(problem%partition%count%columns))
       allocate (is_joined(problem%components%count), source=.false.)
       call locate(problem, place, component_of)
-      proof%as_typed = all_typed(model)
       bits_of_row = row_bits(model, proof%as_typed)
       proof%primes = 1
       arithmetic = modular_arithmetic(flint_prime(seed_of(model)), proof%as_typed)
