@@ -55,7 +55,7 @@ contains
       if (options%only_plain_values) then
          call no_proof(problem%components%count, result%proof)
       else
-         call prove(model, problem, options%prove, options%memory, result%proof)
+         call prove(model, problem, options%prove, options%as_stored, options%memory, result%proof)
       end if
       if (result%method == method_sparse .and. cholmod_is_there() == 0) then
          call fail(error_library, result%error)

@@ -257,14 +257,18 @@ contains
       if (kind == node_planar_position) place(3) = 0.0_wp
    end function place
 
-   function proof_of(model, wish) result(proof)
+   function proof_of(model, wish, as_stored) result(proof)
       type(model_t), intent(in) :: model
       integer, intent(in) :: wish
+      logical, intent(in), optional :: as_stored
       type(proof_t) :: proof
       type(problem_t) :: problem
+      logical :: stored
 
+      stored = .false.
+      if (present(as_stored)) stored = as_stored
       call make_problem(model, .false., problem)
-      call prove(model, problem, wish, memory, proof)
+      call prove(model, problem, wish, stored, memory, proof)
    end function proof_of
 
    subroutine nothing_is_proven_unasked()
@@ -308,6 +312,8 @@ contains
 
       proof = proof_of(chain(points), prove_always)
       call tally%check(proof%as_typed .and. proof%total() == 2, 'bars in a line')
+      proof = proof_of(chain(points), prove_always, as_stored=.true.)
+      call tally%check(.not. proof%as_typed .and. proof%total() == 3, 'where their doubles are what counts')
    end subroutine collinear_decimals
 
    !> A point that no fifteen digits give: the doubles are what there is, and these decimals
