@@ -31,6 +31,9 @@ module flexact_determinacy
    !> Up to this cost, some half a minute, components are decomposed completely where
    !> the sparse route leaves doubt.
    real(wp), parameter :: feasible = 3.0e10_wp
+   !> Up to this cost, a tenth of a second, zeros that exact arithmetic has not seen are judged
+   !> with more digits, which takes a complete decomposition.
+   real(wp), parameter :: soon_judged = 1.0e8_wp
 
 contains
 
@@ -40,7 +43,6 @@ contains
       type(options_t), intent(in) :: options
       type(problem_t), intent(out) :: problem
       type(result_t), intent(out) :: result
-      type(result_t) :: complete
       type(rank_rule_t) :: rule
 
       call options%progress%report(stage_assembling)
@@ -53,32 +55,42 @@ contains
          call no_proof(problem%components%count, result%proof)
       else
          call options%progress%report(stage_exact_rank)
-         call prove(model, problem, options%prove, options%memory, result%proof)
+         call prove(model, problem, options%prove, options%as_stored, options%memory, result%proof)
       end if
       if (result%method == method_sparse .and. cholmod_is_there() == 0) then
          call fail(error_library, result%error)
       else if (result%method == method_sparse) then
          call analyse_sparse(problem, options, rule, result)
-         result%unjudged = .not. result%proof%is_complete()
-         if (options%only_plain_values) return
-         if (.not. (is_in_doubt(result) .or. disagrees(problem, result))) return
-         if (operations(problem) > feasible) then
-            if (result%proof%is_complete()) then
-               ! What exact arithmetic says is offered beside the counts.
-               result%undecided = max(0, result%proof%total() - result%decision%rank)
-               result%confirmed = result%confirmed .and. result%proof%total() >= result%decision%rank
-            end if
-            return
-         end if
-         complete%method = method_svd
-         call prepare(problem, complete)
-         complete%proof = result%proof
-         call analyse_dense(model, problem, options, rule, result%proof, complete)
-         if (.not. allocated(complete%error)) result = complete
+         if (.not. options%only_plain_values) call look_again(model, problem, options, rule, result)
       else
          call analyse_dense(model, problem, options, rule, result%proof, result)
       end if
    end subroutine analyse
+
+   !> A complete decomposition where the sparse route leaves doubt, if it is feasible.
+   subroutine look_again(model, problem, options, rule, result)
+      type(model_t), intent(in) :: model
+      type(problem_t), intent(in) :: problem
+      type(options_t), intent(in) :: options
+      type(rank_rule_t), intent(in) :: rule
+      type(result_t), intent(inout) :: result
+      type(result_t) :: complete
+      logical :: is_wanted
+
+      result%unjudged = .not. result%proof%is_complete()
+      is_wanted = is_in_doubt(result) .or. disagrees(problem, result)
+      if (is_wanted .and. operations(problem) > feasible .and. result%proof%is_complete()) then
+         ! What exact arithmetic says is offered beside the counts.
+         result%undecided = max(0, result%proof%total() - result%decision%rank)
+         result%confirmed = result%confirmed .and. result%proof%total() >= result%decision%rank
+      end if
+      if (operations(problem) > merge(feasible, soon_judged, is_wanted) .or. .not. (is_wanted .or. is_unseen(result))) return
+      complete%method = method_svd
+      call prepare(problem, complete)
+      complete%proof = result%proof
+      call analyse_dense(model, problem, options, rule, result%proof, complete)
+      if (.not. allocated(complete%error)) result = complete
+   end subroutine look_again
 
    !> Whether exact arithmetic has another rank than the sparse route for some component.
    pure logical function disagrees(problem, result)
@@ -112,6 +124,13 @@ contains
       is_in_doubt = is_kind(result%error, error_convergence) .or. &
                     .not. (allocated(result%error) .or. result%confirmed)
    end function is_in_doubt
+
+   !> Whether there are zeros, with both vectors, that neither exact arithmetic nor more
+   !> digits have seen.
+   pure logical function is_unseen(result)
+      type(result_t), intent(in) :: result
+      is_unseen = result%unjudged .and. min(result%motions%vectors, result%stresses%vectors) > 0
+   end function is_unseen
 
    !> A result with nothing in it but the method.
    pure subroutine prepare(problem, result)

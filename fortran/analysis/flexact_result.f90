@@ -33,6 +33,8 @@ module flexact_result
       logical :: only_plain_values = .false.
       !> Whether the rank is to be proven in exact arithmetic.
       integer :: prove = prove_by_cost
+      !> Whether numbers are what is stored, though they may look like decimals.
+      logical :: as_stored = .false.
       type(progress_t) :: progress
    end type options_t
 

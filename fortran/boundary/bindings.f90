@@ -51,17 +51,15 @@ subroutine describe_names(n, enumeration, names, first, count)
    end do
 end subroutine describe_names
 
-! Read a deck. sizes: nodes, elements, 1 for a planar model, statements that
-! were read and not used, 1 where the deck says how elements are drawn; only then
-! choice and value are filled. name: first and last place of each element's name.
+! Read a deck. sizes: as give_deck says; only where the deck says how elements are
+! drawn choice and value are filled. name: first and last place of each element's name.
 subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements, vectors, &
                      name, choice, value, sizes, diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_deck, only: read_text => read_deck
    use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: diagnostics_t
-   use flexact_exchange, only: to_text, give_diagnostics, give_appearance, pack_model
-   use flexact_slots, only: node_position, node_orientation
+   use flexact_exchange, only: to_text, give_diagnostics, give_appearance, give_deck
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: n
@@ -71,7 +69,7 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
    integer(c_int), intent(inout) :: name(2, most_elements), choice(2, most_elements)
    real(c_double), intent(inout) :: value(9, most_elements)
-   integer(c_int), intent(out) :: sizes(5)
+   integer(c_int), intent(out) :: sizes(6)
    integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
@@ -82,17 +80,10 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    call to_text(text, letters)
    call read_text(letters, deck, unused, diagnostics)
    call give_diagnostics(letters, diagnostics, diag_count, diag_number, diag_text)
-   sizes = [0, 0, 0, unused, 0]
+   sizes = [0, 0, 0, unused, 0, 0]
    if (diagnostics%has_errors()) return
-   associate (model => deck%model, ne => deck%model%elements)
-      call pack_model(model, nodes, places, elements, vectors)
-      sizes(:2) = [model%nodes, ne]
-      sizes(3) = merge(0, 1, any(model%node_kind == node_position .or. model%node_kind == node_orientation))
-      name(1, :ne) = deck%element_names%first
-      name(2, :ne) = deck%element_names%last
-      sizes(5) = merge(1, 0, allocated(deck%appearance))
-      if (allocated(deck%appearance)) call give_appearance(deck%appearance, choice(:, :ne), value(:, :ne))
-   end associate
+   call give_deck(deck, nodes, places, elements, vectors, name, sizes)
+   if (allocated(deck%appearance)) call give_appearance(deck%appearance, choice(:, :sizes(2)), value(:, :sizes(2)))
 end subroutine read_deck
 
 ! Check a model that was made without a deck.
@@ -199,7 +190,7 @@ subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wish
    integer(c_int), intent(in) :: n, room, nn, ne
    integer(c_int), intent(in) :: nodes(5, nn), elements(12, ne)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
-   real(c_double), intent(in) :: wishes(5)
+   real(c_double), intent(in) :: wishes(6)
    integer(c_int), intent(inout), target :: stage(2)
    integer(c_int), intent(inout) :: index(3, n + 1), place(room)
    real(c_double), intent(inout) :: value(room), by_size(n, 8)

@@ -4,14 +4,16 @@ module flexact_exchange
    use, intrinsic :: iso_c_binding, only: c_signed_char
    use flexact_sparse_basis, only: sparse_basis_t
    use flexact_deck, only: locate
+   use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: span_t, diagnostics_t, most_shown
    use flexact_kinds, only: wp
    use flexact_appearance, only: appearance_t
    use flexact_model, only: model_t
    use flexact_partition, only: class_count_t
+   use flexact_slots, only: node_position, node_orientation
    implicit none
    private
-   public :: to_text, from_text, counts_of, unpack_model, pack_model, give_diagnostics, give_basis, give_appearance
+   public :: to_text, from_text, counts_of, unpack_model, give_deck, give_diagnostics, give_basis, give_appearance
 
 contains
 
@@ -78,6 +80,25 @@ contains
          vectors(:, :ne) = model%element_vector
       end associate
    end subroutine pack_model
+
+   !> What a deck holds; there is room for it. sizes: nodes, elements, 1 for a planar model,
+   !> one that stays, 1 where the deck says how elements are drawn, and where it has more
+   !> digits than its numbers hold.
+   pure subroutine give_deck(deck, nodes, places, elements, vectors, name, sizes)
+      type(deck_model_t), intent(in) :: deck
+      integer, intent(inout) :: nodes(:, :), elements(:, :), name(:, :), sizes(:)
+      real(wp), intent(inout) :: places(:, :), vectors(:, :)
+
+      associate (model => deck%model, ne => deck%model%elements)
+         call pack_model(model, nodes, places, elements, vectors)
+         sizes(:2) = [model%nodes, ne]
+         sizes(3) = merge(0, 1, any(model%node_kind == node_position .or. model%node_kind == node_orientation))
+         sizes(5) = merge(1, 0, allocated(deck%appearance))
+         sizes(6) = merge(1, 0, deck%has_long_numbers)
+         name(1, :ne) = deck%element_names%first
+         name(2, :ne) = deck%element_names%last
+      end associate
+   end subroutine give_deck
 
    !> Append the vectors of a basis, whose places lie behind `before` others; only
    !> as many as fit. start(k): where vector k begins, from 0.

@@ -65,8 +65,8 @@ contains
    !> Analyse a model. wishes: method, tolerance (negative: from the data), bytes
    !> of memory that may be used, 1 if only the singular values of D(c) itself
    !> are wanted (by sparse the smallest), which come as scaled values then, and
-   !> whether the rank is to be proven (flexact_proof). Rows of D(c) stand before its columns in
-   !> index(:2, i): owner and part of each, from 1;
+   !> whether the rank is to be proven (flexact_proof), and 1 if numbers are no decimals.
+   !> Rows of D(c) stand before its columns in index(:2, i): owner and part of each, from 1;
    !> by_size: scale, singular values, and vectors of pairs.
    !> Vectors of motions, then of self-stresses: vector k begins at index(3, k)
    !> of place (from 0) and value.
@@ -87,6 +87,7 @@ contains
       options%memory = wishes(3)
       options%only_plain_values = wishes(4) > 0
       options%prove = nint(wishes(5))
+      options%as_stored = wishes(6) > 0
       options%progress%stage => stage
       call analyse(model, options, problem, answer)
       facts = 0

@@ -115,6 +115,7 @@ contains
          end if
          fine = operands%fine
       end associate
+      if (.not. operands%is_short) deck%has_long_numbers = .true.
    end subroutine read_element
 
    subroutine read_vector(operands, use_of_vector, vector)

@@ -25,6 +25,8 @@ module flexact_deck_model
       !> Numbers in element statements that could not be read: nodes or elements
       !> perhaps, so that it is not reported that they do not exist.
       type(numbering_t) :: excused
+      !> Whether the geometry was typed with more digits than its numbers hold.
+      logical :: has_long_numbers = .false.
       !> How the elements are to be drawn, where the deck says something about it.
       type(appearance_t), allocatable :: appearance
    end type deck_model_t

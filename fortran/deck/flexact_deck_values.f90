@@ -6,7 +6,7 @@ module flexact_deck_values
    use flexact_diagnostics, only: span_t
    use flexact_keywords, only: role_value
    use flexact_kinds, only: wp
-   use flexact_slots, only: node_planar_position, node_position, node_angle
+   use flexact_slots, only: node_planar_position, node_position, node_angle, is_position
    use flexact_numbers, only: leading_integer
    use flexact_operands, only: operands_t, operands_of
    use flexact_statement, only: statement_t
@@ -50,6 +50,7 @@ contains
          end if
          stated(node) = operands%word
          call read_value(operands, deck%model%node_kind(node), deck%model%node_value(:, node))
+         if (is_position(deck%model%node_kind(node)) .and. .not. operands%is_short) deck%has_long_numbers = .true.
          ! Not known: what is measured with it is not reported as well.
          if (.not. operands%fine) deck%model%node_value(:, node) = ieee_value(1.0_wp, ieee_quiet_nan)
       end do

@@ -25,6 +25,9 @@ module flexact_numbers
    integer :: k
    real(wp), parameter :: power_of_ten(0:exact_power) = [(10.0_wp**k, k=0, exact_power)]
 
+   !> Any decimal of so many digits comes back from the number that is read of it.
+   integer, parameter :: short_digits = 15
+
    !> Any integer of so many digits fits.
    integer, parameter :: few_digits = 9
 
@@ -33,6 +36,8 @@ module flexact_numbers
       integer(int64) :: mantissa = 0
       integer :: exponent = 0
       integer :: digits = 0
+      !> Digits from the first that is not zero, and up to the last such one.
+      integer :: behind_zeros = 0, significant = 0
       logical :: negative = .false.
       logical :: whole = .true.
       !> More digits than the mantissa holds.
@@ -94,17 +99,20 @@ contains
       if (last > 1) call read_integer(word(:last - 1), value, status)
    end function leading_integer
 
-   !> A real number: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3.
-   subroutine read_real(word, value, status)
+   !> A real number: 1 1. .1 +1.5 -.5303 1e-3 1.0D-3. is_short: whether it has so few digits
+   !> that they can be known again.
+   subroutine read_real(word, value, status, is_short)
       character(len=*), intent(in) :: word
       real(wp), intent(out) :: value
       integer, intent(out) :: status
+      logical, intent(out) :: is_short
       type(decimal_t) :: decimal
       logical :: settled
       integer :: io
 
       value = 0.0_wp
       call take_apart(word, decimal, status)
+      is_short = decimal%significant <= short_digits
       if (status /= number_fine) return
       settled = .false.
       if (abs(decimal%exponent) <= exact_power .and. .not. decimal%long) call convert(decimal, value, settled)
@@ -115,6 +123,7 @@ contains
          ! A vanishing mantissa or exponent reads as zero; only the other end fails.
          if (decimal%exponent > 0) status = number_too_large
       end if
+      if (decimal%significant > 0 .and. .not. abs(value) > 0) is_short = .false.
    end subroutine read_real
 
    !> Mantissa times or over an exact power of ten, where that surely rounds as
@@ -208,6 +217,8 @@ contains
       logical, intent(in) :: behind_point
 
       decimal%digits = decimal%digits + 1
+      if (digit > 0 .or. decimal%behind_zeros > 0) decimal%behind_zeros = decimal%behind_zeros + 1
+      if (digit > 0) decimal%significant = decimal%behind_zeros
       if (decimal%mantissa > roomy_mantissa) then
          decimal%long = .true.
          if (.not. behind_point) decimal%exponent = decimal%exponent + 1

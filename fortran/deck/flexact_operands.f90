@@ -21,6 +21,8 @@ module flexact_operands
       type(span_t) :: word
       !> Whether every operand so far was what it should be.
       logical :: fine = .true.
+      !> Whether every real number so far has so few digits that they can be known again.
+      logical :: is_short = .true.
       !> What is wrong with one is a warning, and the statement is not used.
       logical :: forgiving = .false.
       integer, private :: position = 1
@@ -122,10 +124,12 @@ contains
       character(len=*), intent(in) :: what
       real(wp), intent(out) :: value
       integer :: status
+      logical :: is_short
 
       value = 0.0_wp
       if (.not. required(self, what)) return
-      call read_real(self%text(self%word%first:self%word%last), value, status)
+      call read_real(self%text(self%word%first:self%word%last), value, status, is_short)
+      self%is_short = self%is_short .and. is_short
       if (status /= number_fine) call wrong_number(self, what, status)
    end subroutine real_number
 

@@ -74,11 +74,13 @@ contains
       allocate (proof%rank(components), source=unknown)
    end subroutine no_proof
 
-   !> wish: one of those above. memory: bytes that may be used.
-   subroutine prove(model, problem, wish, memory, proof)
+   !> wish: one of those above. as_stored: numbers are no decimals, whatever they look like.
+   !> memory: bytes that may be used.
+   subroutine prove(model, problem, wish, as_stored, memory, proof)
       type(model_t), intent(in) :: model
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: wish
+      logical, intent(in) :: as_stored
       real(wp), intent(in) :: memory
       type(proof_t), intent(out) :: proof
       type(arithmetic_t) :: arithmetic
@@ -89,6 +91,7 @@ contains
       integer :: i
 
       call no_proof(problem%components%count, proof)
+      proof%as_typed = all_typed(model) .and. .not. as_stored
       if (wish == prove_never .or. flint_is_there() == 0) return
       associate (rows => problem%partition%count%rows, columns => problem%partition%count%columns)
          proof%is_too_large = bytes_of_row*rows > memory .or. (wish == prove_by_cost .and. rows + columns > cheap_size)
@@ -98,7 +101,6 @@ contains
       allocate (place(problem%partition%count%columns), component_of(problem%partition%count%columns))
       allocate (is_joined(problem%components%count), source=.false.)
       call locate(problem, place, component_of)
-      proof%as_typed = all_typed(model)
       bits_of_row = row_bits(model, proof%as_typed)
       proof%primes = 1
       arithmetic = modular_arithmetic(flint_prime(seed_of(model)), proof%as_typed)

@@ -13,6 +13,7 @@ program test_numbers
    call reals()
    call last_bits()
    call back_from_seventeen_digits()
+   call numbers_of_few_digits()
    call tally%finish()
 
 contains
@@ -98,8 +99,29 @@ contains
       integer, intent(in) :: status
       real(wp) :: got
       integer :: got_status
+      logical :: is_short
 
-      call read_real(word, got, got_status)
+      call read_real(word, got, got_status, is_short)
       call tally%check(transfer(got, 0_int64) == transfer(value, 0_int64) .and. got_status == status, 'real '//word)
    end subroutine expect_real
+
+   !> Zeros at either end are no digits; what is too small for a number is lost.
+   subroutine numbers_of_few_digits()
+      call tally%check(is_short('1.50000000000000000000'), 'zeros at the end')
+      call tally%check(is_short('-0.00000000000000000000123456789012345e-3'), 'zeros before')
+      call tally%check(is_short('12345678901234500000.'), 'zeros before the point')
+      call tally%check(is_short('0.0') .and. is_short('0.000000000000000000e9'), 'zero')
+      call tally%check(.not. is_short('1.5000000000000001'), 'seventeen digits of 1.5')
+      call tally%check(.not. is_short('0.1234567890123451'), 'sixteen digits')
+      call tally%check(.not. is_short('1.00000000000000000000000000001'), 'more than are kept')
+      call tally%check(.not. is_short('1e-400'), 'smaller than any number')
+   end subroutine numbers_of_few_digits
+
+   logical function is_short(word)
+      character(len=*), intent(in) :: word
+      real(wp) :: value
+      integer :: status
+
+      call read_real(word, value, status, is_short)
+   end function is_short
 end program test_numbers

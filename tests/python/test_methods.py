@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from known_models import folded_sheet, ring, twelve_trusses
 from large_results import changed
+from proofs import CAN_PROVE, NEEDS_FLINT
 from verdicts import DENSE
 
 import flexact
@@ -99,6 +100,16 @@ def test_what_is_not_worth_a_look_may_always_be_used(monkeypatch: pytest.MonkeyP
     assert analyse(ring(3)).rank == 9
 
 
+@pytest.mark.skipif(CAN_PROVE, reason="proofs are at hand")
+@pytest.mark.parametrize("prove", [None, True])
+def test_a_build_that_cannot_prove_says_so(prove: bool | None) -> None:
+    analysis = analyse(twelve_trusses(), prove=prove)
+    assert (analysis.certainty.value, analysis.proof) == ("certain", None)
+    assert analysis.to_dict()["proof"] is None
+    assert "this build has no FLINT" in describe(analysis)
+
+
+@NEEDS_FLINT
 def test_method_is_told_where_it_is_not_the_plain_one() -> None:
     analysis = analyse(folded_sheet(False))
     plain = set(describe(analysis).splitlines())

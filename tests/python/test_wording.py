@@ -28,6 +28,7 @@ from known_models import (
     twelve_trusses,
 )
 from large_results import changed, first_of
+from proofs import NEEDS_FLINT
 from reference_decks import ROOT, transform
 from small_decks import BROKEN, COLLINEAR, DECKS, write
 from wording import GOLDEN, AsStored, masked
@@ -123,11 +124,13 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
 }
 
 
+@NEEDS_FLINT
 @pytest.mark.parametrize("name", RESULTS)
 def test_words_of_a_result(name: str, as_stored: AsStored) -> None:
     as_stored(masked(RESULTS[name]().describe()), GOLDEN / "results" / f"{name}.txt")
 
 
+@NEEDS_FLINT
 @pytest.mark.parametrize("name", ["both", "many_modes", "vectors_left_out"])
 def test_words_of_a_log(name: str, as_stored: AsStored) -> None:
     log = log_text(RESULTS[name](), most_in_mesh=6)
@@ -326,6 +329,7 @@ COMMANDS = (
 )
 
 
+@NEEDS_FLINT
 def test_words_of_the_command(
     as_stored: AsStored,
     tmp_path: Path,

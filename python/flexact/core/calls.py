@@ -118,13 +118,14 @@ def read_deck(text: bytes) -> RawDeck:
     choice = np.empty((2, ne), np.int32, order="F")
     value = np.empty((9, ne), np.float64, order="F")
     sizes, counts, number, words = _core.read_deck(data, *room, name, choice, value)
-    nodes, elements, planar, _, drawn = sizes.tolist()
+    nodes, elements, planar, _, drawn, long = sizes.tolist()
     return RawDeck(
         unpacked(room, nodes, elements),
         name[:, :elements],
         planar == 1,
         RawDiagnostics(counts, number, words),
         RawAppearance(choice[:, :elements], value[:, :elements]) if drawn else None,
+        long == 1,
     )
 
 
@@ -189,6 +190,7 @@ def analyse_model(
     memory: float = math.inf,
     only_plain_values: bool = False,
     prove: bool | None = None,
+    as_stored: bool = False,
 ) -> RawAnalysis:
     """Decompose D(c).
 
@@ -201,6 +203,7 @@ def analyse_model(
         only_plain_values: whether, in place of all else, the singular values of D(c) itself
             are wanted (by the method sparse the smallest), as `scaled_values`.
         prove: whether the rank is to be proven in exact arithmetic; None: where it costs little.
+        as_stored: whether numbers are no decimals as typed, whatever they look like.
     """
     # Memory is taken only where it is written to.
     most = 3 * model.nodes.shape[1] + 6 * model.elements.shape[1]
@@ -216,7 +219,7 @@ def analyse_model(
         np.array(
             (
                 *(METHODS.index(method), asked, min(memory, sys.float_info.max)),
-                *(only_plain_values, _PROOFS[prove]),
+                *(only_plain_values, _PROOFS[prove], as_stored),
             ),
             float,
         ),

@@ -65,6 +65,8 @@ class RawDeck(NamedTuple):
     problems: RawDiagnostics
     appearance: RawAppearance | None
     """None where the deck has nothing of it."""
+    has_long_numbers: bool
+    """Whether its geometry was typed with more digits than its numbers hold."""
 
 
 class RawCount(NamedTuple):

@@ -90,7 +90,16 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
         raise DeckError(problems, name, source)
     names = DeckNames(raw, deck.name)
     appearance = Appearance.of(deck.appearance) if deck.appearance is not None else None
-    return ModelData(deck.arrays, deck.planar, name, names, source, problems, appearance)
+    return ModelData(
+        deck.arrays,
+        deck.planar,
+        name,
+        names,
+        source,
+        problems,
+        appearance,
+        deck.has_long_numbers,
+    )
 
 
 def _require_text(raw: bytes, name: str) -> None:

@@ -63,6 +63,8 @@ class ModelData(Frozen):
         found: What reading the deck, or making the arrays, found; None where the arrays
             are still to be checked.
         given_appearance: What was said about drawing the elements; None where nothing was.
+        has_long_numbers: Whether the geometry was typed with more digits than its numbers hold,
+            so that these are not what was typed, though they may look like it.
     """
 
     arrays: ModelArrays
@@ -72,6 +74,7 @@ class ModelData(Frozen):
     source: Source | None = None
     found: Problems | None = None
     given_appearance: Appearance | None = None
+    has_long_numbers: bool = False
 
     @cached_property
     def packed(self) -> PackedModel:

@@ -51,6 +51,8 @@ class Draft:
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
         self.rigid: set[int] = set()
+        #: Of the data that it started as.
+        self.has_long_numbers = False
         self.last_node = 0
         self.last_element = 0
         self._index_of: dict[int, int] | None = None
@@ -77,6 +79,7 @@ class Draft:
         draft.names = {i: name for i, name in enumerate(data.element_names) if name}
         if data.given_appearance is not None:
             draft.appearance = AppearanceDraft.of(data.given_appearance)
+        draft.has_long_numbers = data.has_long_numbers
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
         return draft
@@ -198,7 +201,15 @@ class Draft:
         wrong = [_unused(number) for number in self._given_in_vain(set(numbers))]
         found = Problems.of(wrong) if wrong else None
         appearance = self.appearance.freeze(len(self.kinds))
-        return ModelData(arrays, self.planar, name, names, found=found, given_appearance=appearance)
+        return ModelData(
+            arrays,
+            self.planar,
+            name,
+            names,
+            found=found,
+            given_appearance=appearance,
+            has_long_numbers=self.has_long_numbers,
+        )
 
     def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
         """Kinds, slots and classes, with the kind of every rigid element decided.

@@ -86,7 +86,9 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
 
     def work(stage: IntArray | None) -> RawAnalysis:
         return calls.analyse_model(
-            data.packed, asked.method, asked.tolerance, stage, room, prove=asked.prove
+            *(data.packed, asked.method, asked.tolerance, stage, room),
+            prove=asked.prove,
+            as_stored=data.has_long_numbers,
         )
 
     try:

@@ -177,6 +177,7 @@ def _undeclared(data: ModelData, places: Sequence[_Place]) -> ModelData:
         data.name,
         data.element_names,
         given_appearance=data.given_appearance,
+        has_long_numbers=data.has_long_numbers,
     )
 
 
