@@ -5,21 +5,20 @@
 !> made: time and memory stay in proportion to its entries.
 module flexact_dense_route
    use flexact_complement, only: add_complement
+   use flexact_component_ranks, only: component_t, settle, merge_values
    use flexact_components, only: shape_of
    use flexact_decomposition, only: is_feasible, decompose_by, singular_values_by
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t
-   use flexact_proof, only: proof_t, unknown
+   use flexact_proof, only: proof_t
    use flexact_rank, only: rank_rule_t, decide_rank
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_scaled_basis, only: add_scaled, add_scaled_sparse
    use flexact_smallest_values, only: offer_pair
-   use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
    use flexact_sparse_basis, only: sparse_basis_t, new_sparse_basis
-   use flexact_tiny_values, only: judgement_t, judge_zeros
    implicit none
    private
    public :: analyse_dense, operations, entries_of_bases
@@ -27,16 +26,6 @@ module flexact_dense_route
    !> From this length on, and this many times its width, a component is long. What is
    !> shorter takes less than half a second, whatever its width.
    integer, parameter :: least_long = 1000, many = 4
-
-   !> Singular values of a component, descending, and all its singular vectors; of a
-   !> long one, which stands upright, only as many left ones as there are columns. Values
-   !> from rank + 1 on count as zero.
-   type :: component_t
-      logical :: is_transposed = .false.
-      integer, allocatable :: row(:), column(:)
-      real(wp), allocatable :: values(:), u(:, :), vt(:, :)
-      integer :: rank = 0
-   end type component_t
 
 contains
 
@@ -70,74 +59,6 @@ contains
          if (allocated(result%error)) return
       end do
    end subroutine analyse_dense
-
-   !> The rank of each component, where exact arithmetic or more digits know better than
-   !> the values do; where a tolerance was given, it alone decides.
-   subroutine settle(model, problem, proof, component, result)
-      type(model_t), intent(in) :: model
-      type(problem_t), intent(in) :: problem
-      type(proof_t), intent(in) :: proof
-      type(component_t), intent(inout) :: component(:)
-      type(result_t), intent(inout) :: result
-      logical :: is_raised
-      integer :: i
-
-      is_raised = .false.
-      do i = 1, size(component)
-         associate (item => component(i), proven => proof%rank(i))
-            item%rank = count(item%values > result%decision%tolerance)
-            if (result%decision%is_given .or. proven == item%rank) cycle
-            if (proven /= unknown .and. proven < item%rank) then
-               item%rank = proven
-            else if (item%rank < size(item%values)) then
-               call look_closer(model, problem, proof%as_typed, proven, item, is_raised, result)
-            end if
-         end associate
-      end do
-      if (.not. (is_raised .or. sum(component%rank) /= result%decision%rank)) return
-      result%decision%rank = sum(component%rank)
-      do i = 1, size(component)
-         ! Between values far below rounding, what counts as zero is given as zero.
-         if (is_raised) component(i)%values(component(i)%rank + 1:) = 0.0_wp
-      end do
-      call merge_values(component, result)
-      result%decision%tolerance = max(0.0_wp, maxval([(component(i)%values(component(i)%rank + 1:), i=1, size(component))]))
-   end subroutine settle
-
-   !> What the small values of a component are in truth.
-   subroutine look_closer(model, problem, as_typed, proven, item, is_raised, result)
-      type(model_t), intent(in) :: model
-      type(problem_t), intent(in) :: problem
-      logical, intent(in) :: as_typed
-      integer, intent(in) :: proven
-      type(component_t), intent(inout) :: item
-      logical, intent(inout) :: is_raised
-      type(result_t), intent(inout) :: result
-      type(judgement_t) :: judgement
-      integer :: excess
-
-      excess = merge(unknown, proven - item%rank, proven == unknown)
-      ! Of a long component some of the left vectors are not there.
-      if (size(item%u, 2) == size(item%u, 1)) call judge_zeros(model, problem, item%row, item%column, item%u, &
-                                                               item%values, item%vt, item%rank, excess, as_typed, judgement)
-      if (.not. judgement%is_made) then
-         result%undecided = result%undecided + max(0, excess)
-         if (proven == unknown) result%unjudged = .true.
-         return
-      end if
-      result%undecided = result%undecided + judgement%undecided
-      result%unseen = result%unseen + judgement%unseen
-      if (judgement%left > result%left) then
-         result%left = judgement%left
-         result%explained = judgement%explained
-      end if
-      if (judgement%nonzero == 0) return
-      is_raised = .true.
-      item%values(item%rank + 1:) = judgement%zeros%value
-      item%u(:, item%rank + 1:) = judgement%zeros%left
-      item%vt(item%rank + 1:, :) = transpose(judgement%zeros%right)
-      item%rank = item%rank + judgement%nonzero
-   end subroutine look_closer
 
    !> Bytes for U, V and the matrices of all components, and for the work on the
    !> largest.
@@ -257,22 +178,6 @@ contains
          end do
       end do
    end subroutine fill
-
-   !> Singular values of all components together, descending. Beside them stand the
-   !> zeros of a matrix whose components are not all of full shape.
-   pure subroutine merge_values(component, result)
-      type(component_t), intent(in) :: component(:)
-      type(result_t), intent(inout) :: result
-      integer :: i, zeros
-
-      zeros = min(sum([(size(component(i)%row), i=1, size(component))]), &
-                  sum([(size(component(i)%column), i=1, size(component))])) &
-              - sum([(size(component(i)%values), i=1, size(component))])
-      result%scaled_values = [(component(i)%values, i=1, size(component)), (0.0_wp, i=1, zeros)]
-      associate (values => result%scaled_values)
-         if (size(component) > 1) values = values(ascending(-values))
-      end associate
-   end subroutine merge_values
 
    !> Add the modes of a component to the result, and offer its smallest non-zero values.
    subroutine take_modes(problem, component, result)
