@@ -211,8 +211,7 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    use iso_c_binding
    use flexact_exchange, only: unpack_model
    use flexact_model, only: model_t
-   use flexact_partition, only: model_count_t, count_model
-   use flexact_sensitivity, only: sensitivity_t, find => find_sensitivities
+   use flexact_result_exchange, only: give_sensitivities
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: n, k, pairs, nn, ne
@@ -223,18 +222,26 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    real(c_double), intent(out) :: effect(5, pairs)
    integer(c_int), intent(out) :: place(2, pairs), used
    type(model_t) :: model
-   type(model_count_t) :: counts
-   type(sensitivity_t) :: found(pairs)
-   integer :: i
 
-   effect = 0; place = 0
    call unpack_model(nodes, places, elements, vectors, model)
-   counts = count_model(model%coordinate_class, model%deformation_class)
-   used = counts%rows + counts%columns
-   if (used /= n .or. any(pair < 1) .or. any(pair > k)) return
-   call find(model, modes(:counts%rows, :), modes(counts%rows + 1:, :), pair, found)
-   do i = 1, pairs
-      effect(:, i) = [found(i)%lift_of_bits, found(i)%lift_of_digits, found(i)%lift_of_storing, found(i)%by_move, found(i)%by_turn]
-      place(:, i) = [found(i)%node, found(i)%element]
-   end do
+   call give_sensitivities(model, modes, pair, effect, place, used)
 end subroutine find_sensitivities
+
+! Residues of null vectors; wishes and what comes back as give_echelon says. n: columns of
+! D(c), or of its transpose; room: no more entries are given.
+subroutine find_echelon(n, room, nn, ne, nodes, places, elements, vectors, wishes, pivot, place, facts)
+   use iso_c_binding
+   use flexact_exchange, only: unpack_model
+   use flexact_model, only: model_t
+   use flexact_result_exchange, only: give_echelon
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne), wishes(3)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
+   integer(c_int), intent(inout) :: pivot(n), place(4, room)
+   integer(c_int), intent(out) :: facts(5)
+   type(model_t) :: model
+
+   call unpack_model(nodes, places, elements, vectors, model)
+   call give_echelon(model, wishes, pivot, place, facts)
+end subroutine find_echelon

@@ -1,9 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> An analysis as flat arrays: what is wished for, and what comes back.
 module flexact_result_exchange
+   use, intrinsic :: iso_fortran_env, only: int64
    use flexact_blas, only: blas_work_t, blas_begin, blas_end, blas_bytes, is_small
    use flexact_components, only: largest_component
    use flexact_determinacy, only: analyse
+   use flexact_echelon, only: echelon_t, find_echelon
    use flexact_error, only: error_memory
    use flexact_exchange, only: give_basis, counts_of
    use flexact_kinds, only: wp
@@ -11,9 +13,10 @@ module flexact_result_exchange
    use flexact_partition, only: model_count_t, count_model
    use flexact_problem, only: problem_t
    use flexact_result, only: result_t, options_t, most_pairs
+   use flexact_sensitivity, only: sensitivity_t, find_sensitivities
    implicit none
    private
-   public :: run, fact_names
+   public :: run, give_sensitivities, give_echelon, fact_names
 
    !> What each of the facts is; values of pairs stand behind the last.
    character(len=24), parameter :: fact_names(*) = [character(len=24) :: &
@@ -116,6 +119,68 @@ contains
       facts(33:35) = [answer%left, answer%explained, real(answer%unseen, wp)]
       facts(36) = answer%bound
    end subroutine run_with_blas
+
+   !> As find_sensitivities in bindings.f90 says; nothing where sizes do not fit.
+   subroutine give_sensitivities(model, modes, pair, effect, place, used)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: modes(:, :)
+      integer, intent(in) :: pair(:, :)
+      real(wp), intent(out) :: effect(:, :)
+      integer, intent(out) :: place(:, :), used
+      type(model_count_t) :: counts
+      type(sensitivity_t) :: found(size(pair, 2))
+      integer :: i
+
+      effect = 0
+      place = 0
+      counts = count_model(model%coordinate_class, model%deformation_class)
+      used = counts%rows + counts%columns
+      if (used /= size(modes, 1) .or. any(pair < 1) .or. any(pair > size(modes, 2))) return
+      call find_sensitivities(model, modes(:counts%rows, :), modes(counts%rows + 1:, :), pair, found)
+      do i = 1, size(found)
+         associate (f => found(i))
+            effect(:, i) = [f%lift_of_bits, f%lift_of_digits, f%lift_of_storing, f%by_move, f%by_turn]
+            place(:, i) = [f%node, f%element]
+         end associate
+      end do
+   end subroutine give_sensitivities
+
+   !> The reduced echelon form of D(c) modulo a prime. wishes: number of the prime, 1 if numbers
+   !> are no decimals, 1 for the transpose. pivot: of each of its columns 1 where some row begins.
+   !> place: for the other entries that are not zero the column, the one where their row
+   !> begins, and the residue in two parts of 31 bits. facts: the prime in two parts (0 where
+   !> there is no FLINT), 1 if of decimals, columns, and entries, of which as many as fit are given.
+   subroutine give_echelon(model, wishes, pivot, place, facts)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: wishes(:)
+      integer, intent(inout) :: pivot(:), place(:, :)
+      integer, intent(out) :: facts(:)
+      type(echelon_t) :: echelon
+      integer :: i, j, used
+
+      call find_echelon(model, wishes(1), wishes(2) > 0, wishes(3) > 0, echelon)
+      pivot = 0
+      used = 0
+      do i = 1, echelon%rank
+         pivot(echelon%pivot(i)) = 1
+      end do
+      do j = 1, size(echelon%entry, 1)
+         if (pivot(j) > 0) cycle
+         do i = 1, echelon%rank
+            if (echelon%entry(j, i) == 0) cycle
+            used = used + 1
+            if (used <= size(place, 2)) place(:, used) = [j - 1, echelon%pivot(i) - 1, halves(echelon%entry(j, i))]
+         end do
+      end do
+      facts = [halves(echelon%prime), merge(1, 0, echelon%as_typed), size(echelon%entry, 1), used]
+   end subroutine give_echelon
+
+   !> 62 bits as two whole numbers.
+   pure function halves(number)
+      integer(int64), intent(in) :: number
+      integer :: halves(2)
+      halves = int([ishft(number, -31), iand(number, int(huge(1), int64))])
+   end function halves
 
    pure subroutine give_labels(problem, index)
       type(problem_t), intent(in) :: problem

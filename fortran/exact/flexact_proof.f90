@@ -16,7 +16,7 @@ module flexact_proof
    use flexact_rounding, only: typed_t, typed
    implicit none
    private
-   public :: proof_t, prove, no_proof
+   public :: proof_t, prove, no_proof, all_typed, seed_of
    public :: prove_by_cost, prove_always, prove_never, proof_names, unknown
 
    integer, parameter :: prove_by_cost = 0, prove_always = 1, prove_never = 2

@@ -51,6 +51,22 @@ int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modu
     return rank;
 }
 
+/* The reduced echelon form modulo a prime in place of a matrix, row by row; its rank. */
+int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
+{
+    nmod_mat_t matrix;
+    nmod_mat_init(matrix, rows, columns, (ulong)modulus);
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++)
+            nmod_mat_entry(matrix, i, j) = (ulong)entry[(int64_t)i * columns + j];
+    int rank = (int)nmod_mat_rref(matrix);
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++)
+            entry[(int64_t)i * columns + j] = (int64_t)nmod_mat_entry(matrix, i, j);
+    nmod_mat_clear(matrix);
+    return rank;
+}
+
 #else
 
 int flexact_flint_is_there(void) { return 0; }
@@ -74,6 +90,12 @@ int64_t flexact_flint_inverse(int64_t a, int64_t prime)
 }
 
 int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
+{
+    (void)rows, (void)columns, (void)entry, (void)modulus;
+    return -1;
+}
+
+int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
 {
     (void)rows, (void)columns, (void)entry, (void)modulus;
     return -1;

@@ -4,7 +4,7 @@ module flexact_flint
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    implicit none
    private
-   public :: flint_is_there, flint_prime, flint_times, flint_inverse, flint_rank
+   public :: flint_is_there, flint_prime, flint_times, flint_inverse, flint_rank, flint_echelon
 
    interface
       function flint_is_there() bind(c, name='flexact_flint_is_there') result(is_there)
@@ -41,5 +41,15 @@ module flexact_flint
          integer(c_int64_t), value :: modulus
          integer(c_int) :: rank
       end function flint_rank
+
+      !> The reduced echelon form modulo a prime in place of a matrix given as (columns, rows);
+      !> its rank.
+      function flint_echelon(rows, columns, entry, modulus) bind(c, name='flexact_flint_echelon') result(rank)
+         import :: c_int, c_int64_t
+         integer(c_int), value :: rows, columns
+         integer(c_int64_t), intent(inout) :: entry(*)
+         integer(c_int64_t), value :: modulus
+         integer(c_int) :: rank
+      end function flint_echelon
    end interface
 end module flexact_flint

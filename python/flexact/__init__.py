@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.model import Model
     from .result.decompose import AnalysisError
+    from .result.exact import ExactBases
     from .result.modes import Motion, SelfStress
     from .result.verdict import (
         Alternative,
@@ -51,6 +52,7 @@ _HOMES = {
     "model.handles": ("Element", "Node", "Sheet"),
     "model.model": ("Model",),
     "result.decompose": ("AnalysisError",),
+    "result.exact": ("ExactBases",),
     "result.modes": ("Motion", "SelfStress"),
     "result.verdict": (
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
@@ -70,6 +72,7 @@ __all__ = [
     "DeckError",
     "Diagnostic",
     "Element",
+    "ExactBases",
     "FlexactError",
     "Gap",
     "Jacobian",

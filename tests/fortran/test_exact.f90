@@ -7,6 +7,7 @@ program test_exact
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix
    use flexact_exact_number, only: arithmetic_t, number_t, modular_arithmetic, many_digits, number_of, whole, &
                                    operator(+), operator(-), operator(*)
+   use flexact_echelon, only: echelon_t, find_echelon
    use flexact_flint, only: flint_is_there, flint_prime, flint_rank, flint_times
    use flexact_jacobian, only: jacobian_t, make_jacobian
    use flexact_kinds, only: wp, qp
@@ -36,6 +37,7 @@ program test_exact
       call proof_of_twelve_trusses()
       call collinear_decimals()
       call collinear_doubles()
+      call echelon_of_collinear_decimals()
    else
       write (*, '(a)') 'skipped: this build has no FLINT'
    end if
@@ -315,6 +317,23 @@ contains
       proof = proof_of(chain(points), prove_always, as_stored=.true.)
       call tally%check(.not. proof%as_typed .and. proof%total() == 3, 'where their doubles are what counts')
    end subroutine collinear_decimals
+
+   !> Motions are free across the line, (-3, 1): a motion of y takes x along by minus three.
+   !> Forces over lengths are the same in all bars.
+   subroutine echelon_of_collinear_decimals()
+      real(wp), parameter :: points(2, 4) = reshape([0.0_wp, 0.0_wp, 0.1_wp, 0.3_wp, 0.2_wp, 0.6_wp, 0.3_wp, 0.9_wp], [2, 4])
+      type(echelon_t) :: echelon, other
+
+      call find_echelon(chain(points), 0, .false., .false., echelon)
+      call tally%check(echelon%as_typed .and. echelon%rank == 2 .and. all(echelon%pivot == [1, 3]), 'two pivots')
+      call tally%check(all(echelon%entry(:, 1) == [1, 3, 0, 0]) .and. all(echelon%entry(:, 2) == [0, 0, 1, 3]), 'their rows')
+      call find_echelon(chain(points), 1, .false., .true., other)
+      call tally%check(other%prime /= echelon%prime, 'another prime')
+      call tally%check(other%rank == 2 .and. all(shape(other%entry) == [3, 4]), 'the transpose')
+      call tally%check(all(other%entry(3, :2) == other%prime - 1), 'all bars alike')
+      call find_echelon(chain(points), 0, .true., .false., echelon)
+      call tally%check(.not. echelon%as_typed .and. echelon%rank == 3, 'of doubles')
+   end subroutine echelon_of_collinear_decimals
 
    !> A point that no fifteen digits give: the doubles are what there is, and these decimals
    !> are not in a line among them.

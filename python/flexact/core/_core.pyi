@@ -61,3 +61,13 @@ def find_sensitivities(
     pair: _Ints,
     /,
 ) -> tuple[_Floats, _Ints, int]: ...
+def find_echelon(
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    wishes: _Ints,
+    pivot: _Ints,
+    place: _Ints,
+    /,
+) -> _Ints: ...

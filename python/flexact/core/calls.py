@@ -23,6 +23,7 @@ from .raw import (
     RawCount,
     RawDeck,
     RawDiagnostics,
+    RawEchelon,
     RawFrames,
     RawSensitivities,
 )
@@ -272,6 +273,35 @@ def analyse_model(
         explained=named["explained"],
         motions=_basis_of(n, start[: motions + 1], place, value, m),
         stresses=_basis_of(m, start[motions:], place, value, 0),
+    )
+
+
+def find_echelon(
+    model: PackedModel, size: int, number: int, as_stored: bool, is_transposed: bool
+) -> RawEchelon:
+    """The reduced echelon form of D(c) modulo a prime; each row of D(c) up to a positive factor.
+
+    Args:
+        model: the model.
+        size: columns of D(c), or rows if the transpose is wanted; at least one.
+        number: of the prime; each gives another one.
+        as_stored: whether numbers are no decimals as typed, whatever they look like.
+        is_transposed: whether that of the transpose is wanted.
+    """
+    # Entries beside the pivots: rank times (size - rank).
+    place = np.empty((4, size * size // 4 + 1), np.int32, order="F")
+    pivot = np.empty(size, np.int32)
+    _require_room_for(model, _OF_JACOBIAN)
+    wishes = np.array((number, as_stored, is_transposed), np.int32)
+    facts = _core.find_echelon(*model, wishes, pivot, place)
+    high, low, as_typed, _, used = facts.tolist()
+    columns, pivots, upper, lower = place[:, :used].tolist()
+    residues = ((a << 31) + b for a, b in zip(upper, lower, strict=True))
+    return RawEchelon(
+        (high << 31) + low,
+        as_typed == 1,
+        tuple(np.flatnonzero(pivot).tolist()),
+        dict(zip(zip(columns, pivots, strict=True), residues, strict=True)),
     )
 
 

@@ -176,6 +176,19 @@ class RawAnalysis(NamedTuple):
         return True
 
 
+class RawEchelon(NamedTuple):
+    """The reduced echelon form of D(c), or of its transpose, modulo a prime."""
+
+    prime: int
+    """0 where the build has no FLINT."""
+    as_typed: bool
+    """Whether it is of the decimals as typed, or of the doubles as stored."""
+    pivots: tuple[int, ...]
+    """The column of the first entry, a one, of each row that is not zero."""
+    entries: dict[tuple[int, int], int]
+    """Residues of the other entries that are not zero, by column and pivot of their row."""
+
+
 class RawSensitivities(NamedTuple):
     """What small changes of the geometry make of the singular values of p pairs of vectors."""
 

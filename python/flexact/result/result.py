@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
+from ..base.loading import load
 from ..core.basis import Basis
 from ..core.progress import Progress
 from ..model.data import ModelData
@@ -20,6 +21,9 @@ from .rank_evidence import Evidence
 from .sensitivity import Pair
 from .sparse_basis import orthonormal
 from .verdict import Alternative, Certainty, Margin, Nearly
+
+if TYPE_CHECKING:
+    from .exact import ExactBases
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -40,6 +44,18 @@ class Result(Outcome):
     def self_stresses(self) -> Modes[SelfStress]:
         """Stresses without load: an orthonormal basis, from U of eq. (16); see `motions`."""
         return Modes(SelfStress, self)
+
+    def exact(self) -> ExactBases:
+        """Motions and self-stresses as fractions, where D(c) has up to 1000 rows and columns.
+
+        They are those of the numbers of the proof. Parts of some 300 columns take seconds.
+
+        Raises:
+            AnalysisError: this build has no FLINT, or D(c) or the fractions are too large.
+        """
+        # Fractions take some milliseconds to load.
+        made: ExactBases = load("flexact.result.exact").exact_bases(self)
+        return made
 
     @cached_property
     def freedoms(self) -> tuple[Freedom, ...]:
