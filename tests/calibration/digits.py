@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What sets 2 in theory.md (27): mechanisms rounded to a few digits.
+"""What sets 2 in theory.md (25): mechanisms rounded to a few digits.
 
     python tests/calibration/digits.py
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What sets 1 and 30 in theory.md (25): a value over what storing the geometry makes of it.
+"""What sets 1 and 30 in theory.md (22): a value over what storing the geometry makes of it.
 
     python tests/calibration/lift_ratio.py
 
