@@ -9,7 +9,7 @@ module flexact_determinacy
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t, make_problem
-   use flexact_progress, only: stage_assembling
+   use flexact_progress, only: stage_assembling, stage_exact_rank
    use flexact_proof, only: prove, no_proof, unknown
    use flexact_rank, only: rank_rule_t
    use flexact_result, only: options_t, result_t, method_auto, method_svd, method_sparse
@@ -52,6 +52,7 @@ contains
       if (options%only_plain_values) then
          call no_proof(problem%components%count, result%proof)
       else
+         call options%progress%report(stage_exact_rank)
          call prove(model, problem, options%prove, options%memory, result%proof)
       end if
       if (result%method == method_sparse .and. cholmod_is_there() == 0) then
@@ -59,8 +60,16 @@ contains
       else if (result%method == method_sparse) then
          call analyse_sparse(problem, options, rule, result)
          result%unjudged = .not. result%proof%is_complete()
-         if (options%only_plain_values .or. operations(problem) > feasible) return
+         if (options%only_plain_values) return
          if (.not. (is_in_doubt(result) .or. disagrees(problem, result))) return
+         if (operations(problem) > feasible) then
+            if (result%proof%is_complete()) then
+               ! What exact arithmetic says is offered beside the counts.
+               result%undecided = max(0, result%proof%total() - result%decision%rank)
+               result%confirmed = result%confirmed .and. result%proof%total() >= result%decision%rank
+            end if
+            return
+         end if
          complete%method = method_svd
          call prepare(problem, complete)
          complete%proof = result%proof

@@ -5,7 +5,7 @@ module flexact_progress
    private
    public :: progress_t
    public :: stage_assembling, stage_ordering, stage_factorising, stage_motions, stage_stresses, stage_values, &
-             stage_names
+             stage_exact_rank, stage_names
 
    integer, parameter :: stage_assembling = 0
    integer, parameter :: stage_ordering = 1
@@ -13,9 +13,10 @@ module flexact_progress
    integer, parameter :: stage_motions = 3
    integer, parameter :: stage_stresses = 4
    integer, parameter :: stage_values = 5
-   character(len=24), parameter :: stage_names(0:5) = [character(len=24) :: &
+   integer, parameter :: stage_exact_rank = 6
+   character(len=24), parameter :: stage_names(0:6) = [character(len=24) :: &
                                                        'assembling', 'ordering', 'factorising', 'motions', 'self-stresses', &
-                                                       'singular values']
+                                                       'singular values', 'exact rank']
 
    type :: progress_t
       !> What is at work, and per cent of it, which no stage can tell yet.

@@ -108,7 +108,8 @@ contains
       call give_basis(answer%stresses, 0, index(3, :), place, value, vectors, stressed)
       facts(25:26) = [moving, stressed]
       associate (proof => answer%proof)
-         facts(27:30) = [real(proof%total(), wp), merge(1.0_wp, 0.0_wp, proof%as_typed), real(proof%primes, wp), proof%failure]
+         facts(27:30) = [real(proof%total(), wp), merge(1.0_wp, 0.0_wp, proof%as_typed), &
+                         merge(-1.0_wp, real(proof%primes, wp), proof%is_too_large), proof%failure]
       end associate
       facts(31:32) = [answer%undecided, merge(1, 0, answer%unjudged)]
       facts(33:35) = [answer%left, answer%explained, real(answer%unseen, wp)]

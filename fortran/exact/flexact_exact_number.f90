@@ -4,7 +4,7 @@
 !> are made from is a number of a model, as it was typed or as it is stored.
 module flexact_exact_number
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_flint, only: flint_times
+   use flexact_flint, only: flint_inverse, flint_times
    use flexact_kinds, only: wp, qp
    use flexact_rounding, only: typed_t, typed
    implicit none
@@ -60,27 +60,12 @@ contains
       base = merge(10_int64, 2_int64, as_typed)
       arithmetic%power(0) = 1
       arithmetic%power(1) = base
-      arithmetic%power(-1) = inverse(base, prime)
+      arithmetic%power(-1) = flint_inverse(base, prime)
       do i = 2, kept
          arithmetic%power(i) = flint_times(arithmetic%power(i - 1), base, prime)
          arithmetic%power(-i) = flint_times(arithmetic%power(1 - i), arithmetic%power(-1), prime)
       end do
    end function modular_arithmetic
-
-   !> a**(prime - 2), which is 1/a (Fermat).
-   pure integer(int64) function inverse(a, prime)
-      integer(int64), intent(in) :: a, prime
-      integer(int64) :: square, rest
-
-      inverse = 1
-      square = a
-      rest = prime - 2
-      do while (rest > 0)
-         if (mod(rest, 2_int64) == 1) inverse = flint_times(inverse, square, prime)
-         square = flint_times(square, square, prime)
-         rest = rest/2
-      end do
-   end function inverse
 
    !> A number of the model.
    elemental type(number_t) function number_of(value, arithmetic) result(number)

@@ -8,12 +8,12 @@ module flexact_proof
    use flexact_components, only: shape_of
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix
    use flexact_exact_number, only: arithmetic_t, modular_arithmetic
-   use flexact_flint, only: flint_is_there, flint_prime, flint_rank
+   use flexact_flint, only: flint_is_there, flint_prime
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
+   use flexact_modular_rank, only: modular_rank, limits_t, too_much_work
    use flexact_problem, only: problem_t
    use flexact_rounding, only: typed_t, typed
-   use flexact_singletons, only: take_singletons
    implicit none
    private
    public :: proof_t, prove, no_proof
@@ -24,10 +24,14 @@ module flexact_proof
    !> A rank that is not known.
    integer, parameter :: unknown = -1
 
-   !> Operations of one component, and of all: squares of 300 columns take some 20 ms.
-   real(wp), parameter :: cheap = 2.7e7_wp, cheap_in_all = 1.0e9_wp
-   !> As many where a proof is asked for: a square of 4600 columns, half a minute.
-   real(wp), parameter :: most = 1.0e11_wp
+   !> Up to so many rows and columns a proof costs some hundredths of a second, if each
+   !> component takes no more multiplications than a square of 300 columns in full.
+   integer, parameter :: cheap_size = 40000
+   real(wp), parameter :: cheap_work = 2.7e7_wp
+   !> And so many where a proof is asked for, some minutes each.
+   real(wp), parameter :: most_work = 2.0e10_wp
+   !> Bytes for each row, its entries and their elimination.
+   real(wp), parameter :: bytes_of_row = 2000.0_wp
    !> Primes from 2**60 to 2**61 are at least 3/5 of 2**60 over its logarithm (Rosser
    !> and Schoenfeld, Illinois J. Math. 6, 1962, corollary 3 of theorem 2).
    real(wp), parameter :: primes_at_hand = 0.6_wp*2.0_wp**60/41.6_wp
@@ -43,6 +47,7 @@ module flexact_proof
       !> Of the decimals as typed, or of the doubles as stored.
       logical :: as_typed = .true.
       integer :: primes = 0
+      logical :: is_too_large = .false.
       !> That some rank is too low has at most this probability, over seeds: theory.md (18).
       real(wp) :: failure = 0.0_wp
    contains
@@ -79,11 +84,17 @@ contains
       type(arithmetic_t) :: arithmetic
       integer, allocatable :: place(:), component_of(:)
       logical, allocatable :: is_joined(:)
-      real(wp) :: bits_of_row, spent
+      type(limits_t) :: limits
+      real(wp) :: bits_of_row
       integer :: i
 
       call no_proof(problem%components%count, proof)
       if (wish == prove_never .or. flint_is_there() == 0) return
+      associate (rows => problem%partition%count%rows, columns => problem%partition%count%columns)
+         proof%is_too_large = bytes_of_row*rows > memory .or. (wish == prove_by_cost .and. rows + columns > cheap_size)
+      end associate
+      if (proof%is_too_large) return
+      limits = limits_t(merge(most_work, cheap_work, wish == prove_always), memory/16)
       allocate (place(problem%partition%count%columns), component_of(problem%partition%count%columns))
       allocate (is_joined(problem%components%count), source=.false.)
       call locate(problem, place, component_of)
@@ -91,14 +102,10 @@ contains
       bits_of_row = row_bits(model, proof%as_typed)
       proof%primes = 1
       arithmetic = modular_arithmetic(flint_prime(seed_of(model)), proof%as_typed)
-      spent = 0.0_wp
       do i = 1, problem%components%count
-         associate (sides => real(shape_of(problem%components, i), wp))
-            spent = spent + product(sides)*minval(sides)
-            if (product(sides)*minval(sides) > merge(most, cheap, wish == prove_always) .or. &
-                (spent > cheap_in_all .and. wish == prove_by_cost) .or. 16*product(sides) > memory) cycle
-            call prove_component(model, problem, i, arithmetic, place, component_of, is_joined, proof)
-            if (proof%rank(i) < minval(sides)) &
+         associate (sides => shape_of(problem%components, i))
+            call prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)
+            if (proof%rank(i) >= 0 .and. proof%rank(i) < minval(sides)) &
                proof%failure = proof%failure + (proof%rank(i) + 1)*bits_of_row/bits_of_prime/primes_at_hand
          end associate
       end do
@@ -121,11 +128,12 @@ contains
       end associate
    end subroutine locate
 
-   pure subroutine prove_component(model, problem, i, arithmetic, place, component_of, is_joined, proof)
+   pure subroutine prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)
       type(model_t), intent(in) :: model
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: i, place(:), component_of(:)
       type(arithmetic_t), intent(in) :: arithmetic
+      type(limits_t), intent(in) :: limits
       logical, intent(inout) :: is_joined(:)
       type(proof_t), intent(inout) :: proof
       type(exact_matrix_t) :: matrix
@@ -145,38 +153,9 @@ contains
       end do
       if (is_joined(i)) return
       matrix%column = place(matrix%column)
-      proof%rank(i) = rank_of(matrix, sides(2), arithmetic%modulus)
+      proof%rank(i) = modular_rank(matrix%start, matrix%column, matrix%entry%residue, sides(2), arithmetic%modulus, limits)
+      if (proof%rank(i) == too_much_work) proof%rank(i) = unknown
    end subroutine prove_component
-
-   !> Without what needs no arithmetic.
-   pure integer function rank_of(matrix, columns, modulus) result(rank)
-      type(exact_matrix_t), intent(in) :: matrix
-      integer, intent(in) :: columns
-      integer(int64), intent(in) :: modulus
-      logical :: is_row_left(size(matrix%start) - 1), is_column_left(columns)
-      integer :: new_place(columns), i, k, entry
-      integer(int64), allocatable :: dense(:, :)
-
-      call take_singletons(matrix%start, matrix%column, columns, rank, is_row_left, is_column_left)
-      if (.not. any(is_row_left)) return
-      allocate (dense(count(is_column_left), count(is_row_left)), source=0_int64)
-      k = 0
-      do i = 1, columns
-         if (is_column_left(i)) k = k + 1
-         new_place(i) = k
-      end do
-      k = 0
-      do i = 1, size(is_row_left)
-         if (.not. is_row_left(i)) cycle
-         k = k + 1
-         do entry = matrix%start(i), matrix%start(i + 1) - 1
-            associate (j => matrix%column(entry))
-               if (is_column_left(j)) dense(new_place(j), k) = matrix%entry(entry)%residue
-            end associate
-         end do
-      end do
-      rank = rank + flint_rank(size(dense, 2), size(dense, 1), dense, modulus)
-   end function rank_of
 
    !> Whether fifteen digits give every number of the geometry.
    pure logical function all_typed(model)

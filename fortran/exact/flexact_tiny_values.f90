@@ -18,8 +18,8 @@ module flexact_tiny_values
    public :: judgement_t, judge_zeros
 
    !> A value this many times larger than what half units make of it is not zero; one
-   !> that they explain was meant to be.
-   real(wp), parameter :: clearly = 30.0_wp
+   !> that they explain, of first order and so with a little to spare, was meant to be.
+   real(wp), parameter :: clearly = 30.0_wp, plainly = 0.9_wp
    !> What components of a vector that fades are to its largest: vectors have 30 digits.
    real(wp), parameter :: faded(2) = [1.0e-28_wp, 1.0e-7_wp]
    !> Products of numbers of many digits that are spent at most, a good tenth of a second.
@@ -89,7 +89,7 @@ contains
       judgement%left = value(judgement%nonzero + 1)
       judgement%explained = lift(judgement%nonzero + 1)
       do k = judgement%nonzero + 1, size(value)
-         if (value(k) > lift(k)) judgement%undecided = k - judgement%nonzero
+         if (value(k) > plainly*lift(k)) judgement%undecided = k - judgement%nonzero
       end do
    end subroutine compare
 

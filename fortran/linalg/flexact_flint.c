@@ -33,6 +33,11 @@ int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
     return (int64_t)n_mulmod2((ulong)a, (ulong)b, (ulong)modulus);
 }
 
+int64_t flexact_flint_inverse(int64_t a, int64_t prime)
+{
+    return (int64_t)n_invmod((ulong)a, (ulong)prime);
+}
+
 /* Rank of a matrix modulo a prime, row by row. */
 int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
 {
@@ -59,6 +64,12 @@ int64_t flexact_flint_prime(int64_t seed)
 int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
 {
     (void)a, (void)b, (void)modulus;
+    return 0;
+}
+
+int64_t flexact_flint_inverse(int64_t a, int64_t prime)
+{
+    (void)a, (void)prime;
     return 0;
 }
 

@@ -4,7 +4,7 @@ module flexact_flint
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    implicit none
    private
-   public :: flint_is_there, flint_prime, flint_times, flint_rank
+   public :: flint_is_there, flint_prime, flint_times, flint_inverse, flint_rank
 
    interface
       function flint_is_there() bind(c, name='flexact_flint_is_there') result(is_there)
@@ -25,6 +25,13 @@ module flexact_flint
          integer(c_int64_t), value :: a, b, modulus
          integer(c_int64_t) :: product
       end function flint_times
+
+      !> 1/a modulo a prime; a is not zero.
+      pure function flint_inverse(a, prime) bind(c, name='flexact_flint_inverse') result(inverse)
+         import :: c_int64_t
+         integer(c_int64_t), value :: a, prime
+         integer(c_int64_t) :: inverse
+      end function flint_inverse
 
       !> The rank modulo a prime of a matrix given as (columns, rows).
       pure function flint_rank(rows, columns, entry, modulus) bind(c, name='flexact_flint_rank') result(rank)

@@ -67,7 +67,7 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
     read = json.loads(text)
     assert list(read) == [
         *("deck", "flexact", "verdict", "under_constrained", "over_constrained", "rank", "rows"),
-        *("columns", "method", "tolerance", "certainty", "nearly", "alternatives"),
+        *("columns", "method", "tolerance", "bound", "certainty", "nearly", "alternatives"),
         *("proof", "gap", "margin"),
         *("singular_values", "singular_values_given", "condition_number", "degrees_of_freedom"),
         *("counts", "motions", "self_stresses", "warnings"),

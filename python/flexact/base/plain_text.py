@@ -6,6 +6,9 @@ from __future__ import annotations
 #: Bits of a number, and letters of what is given, beyond which a message leaves them out.
 _LONG_NUMBER, _LONG_TEXT = 64, 60
 
+#: A decimal of more digits cannot be told from a number that was computed.
+MOST_TYPED = 15
+
 
 def harmless(text: str, keep_tabs: bool = False) -> str:
     """The text with nothing in it that could move a cursor: one character for one."""
@@ -34,3 +37,9 @@ def in_short(given: object) -> str:
         # Python writes no number of thousands of digits, in a list either.
         text = type(given).__name__
     return text if len(text) <= _LONG_TEXT else f"{text[: _LONG_TEXT - 3]}..."
+
+
+def significant_digits(value: float) -> int:
+    """How many digits the shortest decimal of a number has; none for zero."""
+    mantissa = repr(abs(value)).split("e")[0].replace(".", "")
+    return len(mantissa.strip("0"))

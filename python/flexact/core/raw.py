@@ -146,7 +146,7 @@ class RawAnalysis(NamedTuple):
     as_typed: bool
     """Whether that is of the decimals as typed, or of the doubles as stored."""
     primes: int
-    """Modulo so many primes."""
+    """Modulo so many primes; -1 where that was too much."""
     failure: float
     """The probability that it is too low is at most this."""
     undecided: int

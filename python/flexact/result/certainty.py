@@ -177,15 +177,16 @@ def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
 
 def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator[Doubt]:
     """Reasons to take a zero for a tiny value, the plainest first."""
+    zeros = min(outcome.under_constrained, outcome.over_constrained)
     largest = max(outcome.scaled_singular_values[:1].max(initial=0.0), 1.0)
     computed = _EPSILON * max(outcome.rows, outcome.columns) * largest
     if zero > computed and zero > computed + _stored(evidence):
-        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, zeros=1, size=zero)
+        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, zeros=zeros, size=zero)
     left = evidence.largest_remainder
     if left and left.value > left.explained:
-        yield Doubt(DoubtKind.REMAINDER, zeros=1, size=left.value, explained=left.explained)
+        yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left.value, explained=left.explained)
     if evidence.powers_faded >= _FADED:
-        yield Doubt(DoubtKind.FADING, zeros=1, size=evidence.powers_faded)
+        yield Doubt(DoubtKind.FADING, zeros=zeros, size=evidence.powers_faded)
 
 
 def _stored(evidence: Evidence) -> float:

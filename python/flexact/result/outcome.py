@@ -131,6 +131,15 @@ class Outcome(Frozen):
         return self.raw.tolerance
 
     @property
+    def bound(self) -> float:
+        """No more scaled singular values than were counted lie below this one.
+
+        By the method sparse what its factorisation shows, rounding included; by the others the
+        noise.
+        """
+        return self.raw.bound
+
+    @property
     def characteristic_length(self) -> float:
         """The length [m] by which rotations and moments compare with the rest.
 

@@ -77,7 +77,7 @@ def _why(result: Result) -> str:
     """Why there is no proof."""
     if result.asked.prove is False:
         return "no proof was asked for"
-    if not result.raw.primes:
+    if result.raw.primes == 0:
         return "this build has no FLINT (apt-get install libflint-dev, then build Flexact again)"
     if result.asked.prove is None:
         return "D(c) is large (--prove, or prove=True, takes the time)"
@@ -128,4 +128,7 @@ def _method(result: Result) -> Iterator[Line]:
         chosen = f" ({result.asked.method} could not confirm the count)"
     rows, columns = result.raw.largest_component
     pieces = f", in {parts} parts, the largest {rows} x {columns}" if parts > 1 else ""
-    yield sentence(f"Method: {method}{chosen}{pieces}.")
+    shown = ""
+    if method == "sparse":
+        shown = f"; its factorisation shows how many singular values lie below {result.bound:.1e}"
+    yield sentence(f"Method: {method}{chosen}{pieces}{shown}.")

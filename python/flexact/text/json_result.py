@@ -125,6 +125,7 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         "columns": analysis.columns,
         "method": analysis.method,
         "tolerance": analysis.tolerance,
+        "bound": analysis.bound,
         "certainty": analysis.certainty.value,
         "nearly": analysis.nearly._asdict() if analysis.nearly else None,
         "alternatives": [item._asdict() for item in analysis.alternatives],

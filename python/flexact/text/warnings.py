@@ -5,6 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
+from ..base.plain_text import MOST_TYPED, significant_digits
+from ..core.elements import NodeKind
 from ..diagnostics.diagnostic import Diagnostic, Severity
 from ..result.certainty import CLEARLY, Doubt, DoubtKind
 from ..result.result import Result
@@ -59,14 +63,14 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
             full = result.rank == min(result.rows, result.columns)
             what = "full rank" if full else f"rank {result.rank}"
             return (
-                f"{what}, but a rounding of the deck's own digits explains it: the digits that "
-                f"were left out may make {size} of a zero",
+                f"{what}, but a rounding of the deck's own digits ({_digits(result)}) explains it: "
+                f"those that were left out may make {size} of a zero",
                 _ALL_DIGITS,
             )
         case DoubtKind.COORDINATES_ROUNDED:
             return (
                 f"singular values up to {size} count as zero because the coordinates are given "
-                "with so many digits only",
+                f"with so few digits ({_digits(result)})",
                 "give the coordinates with all their digits",
             )
         case DoubtKind.TOLERANCE_GIVEN:
@@ -110,3 +114,12 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
                 "the digits of the arithmetic",
                 _LOOK,
             )
+
+
+def _digits(result: Result) -> str:
+    """How many digits the coordinates were typed with, those aside that are known to the bit."""
+    arrays = result.data.arrays
+    places = arrays.node_value[:3, arrays.node_kind <= NodeKind.POSITION]
+    lengths = {significant_digits(value) for value in np.unique(places).tolist()}
+    typed = [length for length in lengths if length <= MOST_TYPED]
+    return f"at most {max(typed, default=0)}"
