@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> How well the numbers that describe a model are known: to the last bit, or to
-!> the digits that they were typed with.
+!> the digits that they were typed with; theory.md (4), (21) and (24).
 module flexact_rounding
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_kinds, only: wp, qp

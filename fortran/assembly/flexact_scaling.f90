@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Scales that make the rank of D(c) independent of the unit of length, and
-!> by how much the scaled matrix may be wrong.
+!> by how much the scaled matrix may be wrong; theory.md (2) to (6).
 module flexact_scaling
    use flexact_components, only: components_t
    use flexact_kinds, only: wp

@@ -33,7 +33,7 @@ module flexact_proof
    !> Bytes for each row, its entries and their elimination.
    real(wp), parameter :: bytes_of_row = 2000.0_wp
    !> Primes from 2**60 to 2**61 are at least 3/5 of 2**60 over its logarithm (Rosser
-   !> and Schoenfeld, Illinois J. Math. 6, 1962, eq. (3.12)).
+   !> and Schoenfeld, Illinois J. Math. 6, 1962, corollary 3 of theorem 2).
    real(wp), parameter :: primes_at_hand = 0.6_wp*2.0_wp**60/41.6_wp
    real(wp), parameter :: bits_of_prime = 60.0_wp
    !> Entries are of at most this degree in the offsets, and in the vectors; sums and
@@ -48,7 +48,7 @@ module flexact_proof
       logical :: as_typed = .true.
       integer :: primes = 0
       logical :: is_too_large = .false.
-      !> That some rank is too low has at most this probability.
+      !> That some rank is too low has at most this probability, over seeds: theory.md (18).
       real(wp) :: failure = 0.0_wp
    contains
       procedure :: is_complete

@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Whether singular values that a decomposition cannot tell from zero are zero: they
 !> are computed with more than 30 digits and compared with what half a unit of the
-!> last digit typed, or of the last bit, of every number makes of them.
+!> last digit printed, or of the last bit, of every number makes of them; theory.md (22)
+!> and (23).
 module flexact_tiny_values
    use flexact_error, only: error_t
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix

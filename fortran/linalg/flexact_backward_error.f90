@@ -11,7 +11,8 @@
 !> minimum is at most the root of g(k_i) g(k_j), the error has a norm of at most that of
 !> W |L| |L'| W, W = diag(root of g(k_i)). Of this matrix, which is not negative, the
 !> norm is at most the largest quotient of the entries of its product with x and those of
-!> x, for any positive x (Collatz, Math. Z. 48, 1942).
+!> x, for any positive x (Collatz, Math. Z. 48, 1942); theory.md (32) and (33), with what
+!> they leave out.
 module flexact_backward_error
    use flexact_cholmod, only: cholmod_error
    use flexact_kinds, only: wp

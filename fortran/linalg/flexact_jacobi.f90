@@ -4,7 +4,7 @@
 !> columns may be graded: the small singular values of diag(d1) B diag(d2) are
 !> as exact relative to themselves as the condition of B permits, where other
 !> methods are exact relative to the largest one. Where B is ill-conditioned too,
-!> they are refined (see `flexact_refinement`).
+!> they are refined (see `flexact_refinement`); theory.md (39).
 module flexact_jacobi
    use flexact_dense, only: fits_integer, bring_to_one, set_identity, transpose_in_place
    use flexact_error, only: error_t, fail, error_convergence, error_memory

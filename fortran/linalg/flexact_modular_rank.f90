@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The rank of a sparse matrix modulo a prime: what needs no arithmetic first, then
 !> elimination by the shortest row and its rarest column (Markowitz, Management
-!> Science 3, 1957), and the rest, once it has filled in, by FLINT.
+!> Science 3, 1957), and the rest, once it has filled in, by FLINT; theory.md (17).
 module flexact_modular_rank
    use, intrinsic :: iso_fortran_env, only: int64
    use flexact_flint, only: flint_inverse, flint_rank

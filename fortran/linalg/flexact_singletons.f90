@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Rows and columns that can be eliminated without arithmetic: a row with one entry
-!> takes its column with it, a column with one entry its row, and so on.
+!> takes its column with it, a column with one entry its row, and so on; theory.md (17).
 module flexact_singletons
    use, intrinsic :: iso_fortran_env, only: int64
    implicit none

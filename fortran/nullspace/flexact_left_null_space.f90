@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Vectors that A' sends to zero, by projection.
+!> Vectors that A' sends to zero, by projection; theory.md (37).
 module flexact_left_null_space
    use flexact_error, only: error_t, fail, error_not_found
    use flexact_kinds, only: wp

@@ -5,7 +5,7 @@
 !>
 !> Two independent routes lead to the count of zeros: vectors that A itself sends
 !> to zero give a lower bound, and a factorisation that runs to its end
-!> gives an upper one (`flexact_pinned`).
+!> gives an upper one (`flexact_pinned`); theory.md (31), (35) and (36).
 module flexact_low_end
    use flexact_decomposition, only: singular_values
    use flexact_error, only: error_t, is_kind, error_not_definite, error_not_found

@@ -8,7 +8,7 @@
 !> x_P = 0, and x'F x < 0. Cholesky's factorisation that runs to its end shows this up
 !> to its rounding, which is bounded by d from the factor that has come out (Rump,
 !> BIT 46, 2006; `flexact_backward_error`): what is shown holds up to the root of
-!> t**2 - d. Where d is large, t is raised.
+!> t**2 - d. Where d is large, t is raised; theory.md (30), (31) and (34).
 module flexact_pinned
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
    use flexact_backward_error, only: error_of_gram, error_of_skyline, error_of_cholmod

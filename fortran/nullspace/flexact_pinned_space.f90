@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The space that pins hold: the null space, and what is nearly in it.
+!> The space that pins hold: the null space, and what is nearly in it; theory.md (35)
+!> and (36).
 module flexact_pinned_space
    use flexact_error, only: error_t
    use flexact_kinds, only: wp

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Which singular values of a matrix count as zero.
+!> Which singular values of a matrix count as zero; theory.md (7) to (9).
 module flexact_rank
    use flexact_kinds, only: wp
    implicit none

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The smallest singular values of A on a small space (Rayleigh and Ritz). They are
 !> those of A itself, so that they do not suffer from squaring: k orthonormal
-!> vectors with small |A v| show that k singular values are small.
+!> vectors with small |A v| show that k singular values are small; theory.md (35).
 module flexact_rayleigh_ritz
    use flexact_decomposition, only: decompose
    use flexact_error, only: error_t

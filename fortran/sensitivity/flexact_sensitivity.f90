@@ -4,7 +4,8 @@
 !> A change dD of D(c) changes the singular value of a self-stress u and a
 !> motion v by u' dD v, to first order; of several zeros it is the block of all
 !> pairs that counts. The geometry is the positions of the nodes and the vectors
-!> of the elements, in the reference configuration, with lengths and frames.
+!> of the elements, in the reference configuration, with lengths and frames; theory.md
+!> (20), (21) and (29).
 module flexact_sensitivity
    use flexact_kinds, only: wp
    use flexact_model, only: model_t

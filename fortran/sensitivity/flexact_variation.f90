@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How an element's part of D changes with its geometry.
+!> How an element's part of D changes with its geometry; theory.md (20).
 module flexact_variation
    use flexact_kinds, only: wp
    use flexact_model, only: model_t

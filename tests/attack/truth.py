@@ -2,7 +2,8 @@
 """Exact counts of a deck: the rank of D(c) modulo two random primes near 2**61.
 
 The rank modulo a prime is never above the rank, and below it only where the prime divides all
-minors of that size: for decks of this kind less than once in 10**14 times, by both primes never.
+minors of that size: for decks of this kind, made without regard to it, less than once in 10**13
+times, theory.md (17) and (18).
 """
 
 from __future__ import annotations

@@ -221,3 +221,37 @@ def test_links_within_the_repository_lead_somewhere(page: Path) -> None:
 def test_every_page_is_in_the_index() -> None:
     index = (DOCS / "README.md").read_text("utf-8")
     assert [page.name for page in PAGES[1:] if f"({page.name})" not in index] == ["README.md"]
+
+
+def formulas() -> list[int]:
+    """Numbers of the formulas of theory.md, as they stand at the ends of lines in its blocks."""
+    text = "\n".join(blocks((DOCS / "theory.md").read_text("utf-8")))
+    return [int(found) for found in re.findall(r" \((\d+)\)(?=,?(?:\n|$|   ))", text)]
+
+
+def test_formulas_of_the_theory_are_numbered_in_order() -> None:
+    assert formulas() == list(range(1, len(formulas()) + 1))
+
+
+def test_sources_point_to_formulas_that_there_are() -> None:
+    """Such as "theory.md (17) and (18)"."""
+    pointed = {}
+    for folder in ("fortran", "python", "tests"):
+        for path in (ROOT / folder).rglob("*.*"):
+            if path.suffix in (".f90", ".c", ".py") and path != Path(__file__):
+                text = re.sub(r"\n\s*(!>|\*|#)?\s*", " ", path.read_text("utf-8"))
+                for found in re.findall(r"theory\.md ((?:(?:,| and| to)? ?\(\d+\))+)", text):
+                    pointed[path.name] = {int(number) for number in re.findall(r"\d+", found)}
+    assert len(pointed) > 15
+    known = set(formulas())
+    assert {name: found - known for name, found in pointed.items() if found - known} == {}
+
+
+def test_constants_of_the_theory_are_those_of_the_code() -> None:
+    text = (DOCS / "theory.md").read_text("utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| `([^`]+)` \| `([^`]+)` \|", text, re.MULTILINE)
+    assert len(rows) > 30
+    for name, value, file in rows:
+        source = (ROOT / file).read_text("utf-8")
+        found = re.search(rf"(?<!\w){name}(?:\(\d\))? = {re.escape(value)}(?![\w.])", source)
+        assert found, f"{name} = {value} is not in {file}"

@@ -28,7 +28,6 @@ from known_models import (
     twelve_trusses,
 )
 from large_results import changed, first_of
-from proofs import NEEDS_FLINT
 from reference_decks import ROOT, transform
 from small_decks import BROKEN, COLLINEAR, DECKS, write
 from wording import GOLDEN, AsStored, masked
@@ -108,7 +107,7 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
     "beyond_the_digits_unjudged": unjudged,
     "undecided": lambda: changed(analyse(ring(6)), undecided=1, left=1e-16, explained=2e-17),
     "unseen": lambda: changed(analyse(ring(5)), unseen=1),
-    "zero_meant": lambda: analyse(ROOT / "input_decks/linkages/bennett.dat", name="bennett"),
+    "zero_meant": lambda: deck("linkages/bennett"),
     "not_proven": lambda: analyse(ring(5), prove=False),
     "no_exact_arithmetic": lambda: changed(analyse(ring(5)), proven_rank=-1, primes=0),
     "too_large_by_default": lambda: changed(analyse(ring(5)), proven_rank=-1),
@@ -124,13 +123,11 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
 }
 
 
-@NEEDS_FLINT
 @pytest.mark.parametrize("name", RESULTS)
 def test_words_of_a_result(name: str, as_stored: AsStored) -> None:
     as_stored(masked(RESULTS[name]().describe()), GOLDEN / "results" / f"{name}.txt")
 
 
-@NEEDS_FLINT
 @pytest.mark.parametrize("name", ["both", "many_modes", "vectors_left_out"])
 def test_words_of_a_log(name: str, as_stored: AsStored) -> None:
     log = log_text(RESULTS[name](), most_in_mesh=6)
@@ -329,7 +326,6 @@ COMMANDS = (
 )
 
 
-@NEEDS_FLINT
 def test_words_of_the_command(
     as_stored: AsStored,
     tmp_path: Path,

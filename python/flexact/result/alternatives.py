@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The counts that may be meant instead of those that were found, and what change leads there."""
+"""The counts that may be meant instead of those that were found, and what change leads there.
+
+See theory.md (28) and (29).
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How certain the rank of D(c) is, and what else could be true."""
+"""How certain the rank of D(c) is, and what else could be true: theory.md (22) to (28)."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far the mechanism is from another verdict, in lengths and angles of its own."""
+"""How far the mechanism is from another verdict, in lengths and angles: theory.md (29)."""
 
 from __future__ import annotations
 

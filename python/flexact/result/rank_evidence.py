@@ -5,7 +5,7 @@ What is left of a value that is not zero is u' D v of a self-stress u and a moti
 where it is far below the rounding of the decomposition it is as exact as the entries of D(c)
 are, for errors of u and v enter it multiplied by each other. Below that a tiny value shows in
 its vectors, as each element passes on a part of the motion of the last: the components of
-both fade evenly through many powers of ten, where those of true zeros end.
+both fade evenly through many powers of ten, where those of true zeros end: theory.md (23).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 """Pairs of a self-stress and a motion that share a singular value, and what moves that value.
 
 A change dD of D(c) changes the singular value of a pair (u, v) by u' dD v, to first order;
-where several are zero it is the block of all their pairs that counts.
+where several are zero it is the block of all their pairs that counts: theory.md (20), (21).
 """
 
 from __future__ import annotations
