@@ -108,7 +108,9 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
     "beyond_the_digits_unjudged": unjudged,
     "undecided": lambda: changed(analyse(ring(6)), undecided=1, left=1e-16, explained=2e-17),
     "unseen": lambda: changed(analyse(ring(5)), unseen=1),
-    "zero_meant": lambda: analyse(flexact.read(ROOT / "input_decks" / "linkages" / "bennett.dat")),
+    "zero_meant": lambda: analyse(
+        ROOT / "input_decks" / "linkages" / "bennett.dat", name="bennett.dat"
+    ),
     "not_proven": lambda: analyse(ring(5), prove=False),
     "no_exact_arithmetic": lambda: changed(analyse(ring(5)), proven_rank=-1, primes=0),
     "too_large_by_default": lambda: changed(analyse(ring(5)), proven_rank=-1),
