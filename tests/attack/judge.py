@@ -21,7 +21,8 @@ from .truth import Counts
 
 #: The methods under attack; the last leaves out the proof, where there is one to leave out.
 METHODS = ("auto", "svd", "jacobi", "sparse")
-UNPROVED = "auto, unproved"
+#: The methods that are also tried without proofs.
+UNPROVED = {"auto, unproved": "auto", "sparse, unproved": "sparse"}
 CAN_PROVE = "prove" in inspect.signature(flexact.analyse).parameters
 #: A doubt is without need where the smallest value is this many times what rounding makes.
 _FAR_ABOVE = 1000.0
@@ -65,7 +66,7 @@ class Judged(NamedTuple):
 
 def methods() -> tuple[str, ...]:
     """All that this version of the package offers."""
-    return (*METHODS, UNPROVED) if CAN_PROVE else METHODS
+    return (*METHODS, *UNPROVED) if CAN_PROVE else METHODS
 
 
 def judge(case: Case, chosen: tuple[str, ...]) -> Judged:
@@ -110,8 +111,9 @@ def dense_jacobian(model: flexact.Model) -> FloatArray:
 
 
 def _analysed(model: flexact.Model, method: str) -> flexact.Analysis:
-    if method == UNPROVED:
-        return flexact.analyse(model, **{"prove": False})  # type: ignore[arg-type]
+    if method in UNPROVED:
+        unproved = {"method": UNPROVED[method], "prove": False}
+        return flexact.analyse(model, **unproved)  # type: ignore[arg-type]
     return flexact.analyse(model, method=method)
 
 

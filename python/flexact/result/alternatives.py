@@ -44,6 +44,8 @@ def _ranks(outcome: Outcome, evidence: Evidence, lower: int, higher: int) -> Ite
         yield outcome.proof.rank
     for k in _groups([pair.value for pair in evidence.pairs[:lower]]):
         yield outcome.rank - k
+    if outcome.proof:
+        higher = max(higher, outcome.proof.rank - outcome.rank)
     below = outcome.scaled_singular_values.size + outcome.rank - min(outcome.rows, outcome.columns)
     zeros = outcome.scaled_singular_values[max(below, 0) :][:higher]
     for k in _groups([1.0 / value if value else math.inf for value in zeros.tolist()]):
