@@ -108,7 +108,7 @@ contains
          associate (sides => shape_of(problem%components, i))
             call prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)
             if (proof%rank(i) >= 0 .and. proof%rank(i) < minval(sides)) &
-               proof%failure = proof%failure + (proof%rank(i) + 1)*bits_of_row/bits_of_prime/primes_at_hand
+               proof%failure = proof%failure + minval(sides)*bits_of_row/bits_of_prime/primes_at_hand
          end associate
       end do
       where (is_joined) proof%rank = unknown

@@ -132,10 +132,10 @@ class Outcome(Frozen):
 
     @property
     def bound(self) -> float:
-        """No more scaled singular values than were counted lie below this one.
+        """Below this no more scaled singular values lie than the method sparse has pinned.
 
-        By the method sparse what its factorisation shows, rounding included; by the others the
-        noise.
+        Its factorisation shows it, rounding included (theory.md (31)); by the other methods it
+        is the noise.
         """
         return self.raw.bound
 

@@ -130,5 +130,6 @@ def _method(result: Result) -> Iterator[Line]:
     pieces = f", in {parts} parts, the largest {rows} x {columns}" if parts > 1 else ""
     shown = ""
     if method == "sparse":
-        shown = f"; its factorisation shows how many singular values lie below {result.bound:.1e}"
+        below = f"{result.bound:.1e}"
+        shown = f"; its factorisation shows at most how many singular values lie below {below}"
     yield sentence(f"Method: {method}{chosen}{pieces}{shown}.")
