@@ -3,7 +3,7 @@
 !> the motions that it leaves free and the self-stresses that it admits.
 module flexact_determinacy
    use flexact_cholmod, only: cholmod_is_there
-   use flexact_components, only: largest_component, shape_of
+   use flexact_components, only: largest_component, component_of_columns, shape_of
    use flexact_dense_route, only: analyse_dense, operations, entries_of_bases
    use flexact_error, only: fail, is_kind, error_convergence, error_library
    use flexact_kinds, only: wp
@@ -99,11 +99,7 @@ contains
       integer :: motions(problem%components%count), component_of(problem%partition%count%columns), i
 
       motions = 0
-      associate (c => problem%components)
-         do i = 1, c%count
-            component_of(c%column(c%column_start(i):c%column_start(i + 1) - 1)) = i
-         end do
-      end associate
+      component_of = component_of_columns(problem%components)
       do i = 1, result%motions%vectors
          associate (here => component_of(result%motions%place(result%motions%start(i))))
             motions(here) = motions(here) + 1

@@ -47,7 +47,7 @@ module flexact_result
       integer :: method = method_svd
       !> Whether error bounds, or two independent routes, support the rank.
       logical :: confirmed = .true.
-      !> No more scaled values than the method holds lie below: by sparse what its
+      !> Below this no more scaled values lie than were pinned: by sparse what its
       !> factorisation shows, the least of all components; else the noise.
       real(wp) :: bound = 0.0_wp
       type(proof_t) :: proof

@@ -5,7 +5,7 @@
 !> minors; theory.md (17) and (18).
 module flexact_proof
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_components, only: shape_of
+   use flexact_components, only: components_t, component_of_columns, shape_of
    use flexact_exact_matrix, only: exact_matrix_t, make_exact_matrix
    use flexact_exact_number, only: arithmetic_t, modular_arithmetic
    use flexact_flint, only: flint_is_there, flint_prime
@@ -98,9 +98,9 @@ contains
       end associate
       if (proof%is_too_large) return
       limits = limits_t(merge(most_work, cheap_work, wish == prove_always), memory/16)
-      allocate (place(problem%partition%count%columns), component_of(problem%partition%count%columns))
       allocate (is_joined(problem%components%count), source=.false.)
-      call locate(problem, place, component_of)
+      place = places_in_components(problem%components)
+      component_of = component_of_columns(problem%components)
       bits_of_row = row_bits(model, proof%as_typed)
       proof%primes = 1
       arithmetic = modular_arithmetic(flint_prime(seed_of(model)), proof%as_typed)
@@ -115,20 +115,16 @@ contains
    end subroutine prove
 
    !> Where each column of D(c) stands in its component.
-   pure subroutine locate(problem, place, component_of)
-      type(problem_t), intent(in) :: problem
-      integer, intent(out) :: place(:), component_of(:)
-      integer :: i, j
+   pure function places_in_components(components) result(place)
+      type(components_t), intent(in) :: components
+      integer :: place(size(components%column)), i, j
 
-      associate (c => problem%components)
-         do i = 1, c%count
-            do j = c%column_start(i), c%column_start(i + 1) - 1
-               place(c%column(j)) = j - c%column_start(i) + 1
-               component_of(c%column(j)) = i
-            end do
-         end do
-      end associate
-   end subroutine locate
+      do i = 1, components%count
+         associate (first => components%column_start(i), last => components%column_start(i + 1) - 1)
+            place(components%column(first:last)) = [(j, j=1, last - first + 1)]
+         end associate
+      end do
+   end function places_in_components
 
    pure subroutine prove_component(model, problem, i, arithmetic, limits, place, component_of, is_joined, proof)
       type(model_t), intent(in) :: model

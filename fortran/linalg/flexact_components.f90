@@ -5,7 +5,7 @@ module flexact_components
    use flexact_sparse, only: operator_t
    implicit none
    private
-   public :: components_t, find_components, shape_of, largest_component, breadth_first_order
+   public :: components_t, find_components, shape_of, largest_component, component_of_columns, breadth_first_order
 
    type :: components_t
       integer :: count = 0
@@ -26,6 +26,16 @@ contains
          shape_of = [row_start(i + 1) - row_start(i), column_start(i + 1) - column_start(i)]
       end associate
    end function shape_of
+
+   !> The component of each column.
+   pure function component_of_columns(components) result(component_of)
+      type(components_t), intent(in) :: components
+      integer :: component_of(size(components%column)), i
+
+      do i = 1, components%count
+         component_of(components%column(components%column_start(i):components%column_start(i + 1) - 1)) = i
+      end do
+   end function component_of_columns
 
    !> Rows and columns of the component that is largest in its shorter side.
    pure function largest_component(components) result(largest)

@@ -131,8 +131,8 @@ class RawAnalysis(NamedTuple):
     confirmed: bool
     """Whether the rank follows from a decomposition with error bounds, or from two routes."""
     bound: float
-    """No more scaled values than are held for zero, or shown to be none, lie below: by sparse
-    what the factorisation shows of each part, the least of them; else the noise."""
+    """Below this no more scaled values lie than were pinned: by sparse what the factorisation
+    shows of each component, the least of them; else the noise."""
     components: int
     """Connected components of D(c), which are decomposed one by one."""
     largest_component: tuple[int, int]

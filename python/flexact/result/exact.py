@@ -31,8 +31,8 @@ _CHECKS = 2
 class ExactBases:
     """Bases of both null spaces of D(c) over the rationals.
 
-    Each vector is one where all others are zero. By each of two random primes from 2**60 to
-    2**61 what is no null vector passes with a probability below 1e-7.
+    Each vector is one where all others are zero. Two further random primes have given the same
+    residues: a test of high probability, for which no bound is proven.
 
     Attributes:
         of: Of the "decimals" as they were typed, or of the "doubles" as they are stored.
