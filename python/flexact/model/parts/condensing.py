@@ -18,7 +18,7 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ..appearance import Appearance
 from ..data import ModelData
-from .chains import Chain, chains_of, part_name
+from .chains import Chain, part_name
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,16 +196,12 @@ def _inner_nodes(arrays: ModelArrays, chain: Chain) -> InnerNodes:
 
 
 def condensed(data: ModelData) -> Condensed:
-    """The model in which each chain that is declared as one beam is one beam."""
+    """The sound model in which each chain that is declared as one beam is one beam."""
     arrays = data.arrays
     every_node = np.arange(arrays.node_number.size, dtype=np.int32)
     every_element = np.arange(arrays.element_number.size, dtype=np.int32)
-    chains = tuple(
-        chain
-        for chain in chains_of(arrays, data.element_names)
-        if chain.condensed_classes is not None
-    )
-    if not chains or data.problems.errors:
+    chains = tuple(chain for chain in data.chains if chain.condensed_classes is not None)
+    if not chains:
         return Condensed(data, data, (), every_node, every_element)
     left_nodes, left_elements = every_node >= 0, every_element >= 0
     element_node, classes = arrays.element_node.copy(), arrays.deformation_class.copy()
