@@ -18,13 +18,11 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray, ModelArrays, packed
-from ..core.elements import Class, Dual, Member, NodeKind, dual_table
+from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.configuration import Configuration
 from ..model.data import ModelData
+from ..model.parts.bodies import bodies_of
 from ..result.modes import Velocities
-from .chains import groups_of
-from .forms import all_held, is_member
-from .places import slots_of
 from .pose import Pose, pose_of, reference_pose
 from .rotations import matrix_of, screw_matrix
 
@@ -214,17 +212,10 @@ def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
 
     (nodes,) indices, -1 for nodes of no body.
     """
-    rigid = is_member(arrays.element_kind, Member.BEAM, Member.LINK) & all_held(arrays)
-    slots = slots_of(arrays)[rigid]
-    # Members that share a position alone turn about it.
-    body_of = groups_of(
-        arrays.node_kind.size, ((oq, op) for _, op, _, oq in slots.tolist() if oq >= 0)
-    )
     centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
-    first: dict[int, tuple[int, int]] = {}
-    for p, op, q, _ in slots.tolist():
-        body = first.setdefault(int(body_of[op]), (p, op))
-        for node in (p, q):
+    for body in bodies_of(arrays):
+        p, op = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
+        for node in body.positions:
             if centre[node] < 0:
-                centre[node], turn[node] = body
+                centre[node], turn[node] = p, op
     return centre, turn

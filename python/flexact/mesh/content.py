@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Pose, drawing_of
-from ..drawing.forms import forms_of
 from ..drawing.movement import scale_of
 from ..drawing.selection import select_motion
 from ..model.data import ModelData
+from ..model.parts.forms import forms_of
 from ..result.result import Result
 from .layout import Integers, Layout, layout_of
 

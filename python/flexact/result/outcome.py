@@ -18,6 +18,7 @@ from ..core.raw import RawAnalysis, RawAssembly
 from ..model.data import ModelData
 from ..model.labels import Labels, column_labels, row_labels
 from ..model.parts.condensing import Condensed
+from ..model.parts.parts import Parts
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
 
@@ -60,6 +61,11 @@ class Outcome(Frozen):
     def given(self) -> ModelData:
         """The model as it was given, with the nodes inside its sheets and wires."""
         return self.condensed.given
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Sheets, wires, bodies, hinges and bars of the model as it was given."""
+        return Parts(self.given)
 
     @property
     def rank(self) -> int:
@@ -132,7 +138,7 @@ class Outcome(Frozen):
         return Proof(of, raw.proven_rank, raw.primes, raw.failure)
 
     @property
-    def parts(self) -> int:
+    def components(self) -> int:
         """Number of connected components of D(c), which are decomposed one by one."""
         return self.raw.components
 
