@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..core.arrays import FloatArray
 from ..core.basis import Basis
 from ..core.elements import Class, Dual, NodeKind, dual_table
-from ..result.modes import column_weights, ranked, row_weights
+from ..result.order import ranked
 from ..result.result import Result
 from ..result.sparse_basis import (
     Sparse,
@@ -27,6 +27,7 @@ from ..result.sparse_basis import (
     row_norms,
     support_of,
 )
+from ..result.weights import column_weights, row_weights
 
 #: Below this leverage a row does not reach into a space.
 _NOTHING = 1.0e-7
