@@ -17,10 +17,9 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
+from .order import column_key, ranked, row_key
 from .outcome import Outcome
 
-#: Parts of a mode below this part of its largest are not named.
-_UNNAMED = 1.0e-9
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12
 
@@ -58,19 +57,6 @@ def row_weights(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
     """
     moment = row_duals(analysis, rows) != Dual.FORCE
     return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)
-
-
-def ranked(weighted: FloatArray, most: int) -> list[int]:
-    """Indices of the largest entries; those of practically one size in their order."""
-    size = np.abs(weighted)
-    largest = size.max(initial=0.0)
-    if not largest > 0.0:
-        return []
-    rounded = np.round(size / largest, 9)
-    least = np.partition(rounded, -most)[-most] if 0 < most < size.size else 0.0
-    able = np.flatnonzero((rounded > _UNNAMED) & (rounded >= least))
-    chosen: list[int] = able[np.argsort(-rounded[able], kind="stable")][:most].tolist()
-    return chosen
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +138,8 @@ class Motion(Frozen):
         """
         analysis = self.analysis
         place, value = analysis.raw.motions.entries(self.index)
-        order = ranked(value * column_weights(analysis, place), k)
+        weighted = value * column_weights(analysis, place)
+        order = ranked(weighted, k, lambda i: column_key(analysis, place[i]))
         node, axis = analysis.raw.column_label[:, place[order]] - 1
         numbers = analysis.data.arrays.node_number[node].tolist()
         names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
@@ -215,7 +202,8 @@ class SelfStress(Frozen):
         """
         analysis = self.analysis
         place, value = analysis.raw.stresses.entries(self.index)
-        order = ranked(value * row_weights(analysis, place), k)
+        weighted = value * row_weights(analysis, place)
+        order = ranked(weighted, k, lambda i: row_key(analysis, place[i]))
         element, deformation = analysis.raw.row_label[:, place[order]]
         numbers = analysis.data.arrays.element_number[element - 1].tolist()
         values = value[order] * row_factors(analysis, place[order])
