@@ -72,10 +72,10 @@ class Carriers:
             if node not in taken:
                 made.append(self._joint(place, node))
         carried = {node for body in self.parts.bodies for node in body.positions}
+        known = taken | carried | with_orientation
         for node in range(arrays.node_number.size):
-            if arrays.node_kind[node] <= NodeKind.POSITION and node not in taken | carried:
-                if node not in with_orientation:
-                    made.append(self._joint(node, None))
+            if arrays.node_kind[node] <= NodeKind.POSITION and node not in known:
+                made.append(self._joint(node, None))
         return tuple(sorted(made, key=self._key))
 
     @cached_property

@@ -16,7 +16,9 @@ from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, coordinate_name
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
+from .body_motions import Moves
 from .order import column_key, ranked, row_key
+from .part_stresses import Conflict, Load, PartStress, Pressing
 from .spaces import Spaces
 from .weights import column_weights, row_duals, row_factors, row_weights
 
@@ -49,7 +51,7 @@ class Velocities(Frozen):
 
 
 @dataclass(frozen=True, repr=False)
-class Motion(Frozen):
+class Motion(Moves, Frozen):
     """A kinematically indeterminate motion: velocities that nothing determines.
 
     Attributes:
@@ -159,6 +161,31 @@ class SelfStress(Frozen):
         for array in made:
             array.flags.writeable = False
         return made
+
+    @cached_property
+    def _pressing(self) -> Pressing:
+        return Pressing(self.analysis, self.vector)
+
+    @property
+    def parts(self) -> tuple[PartStress, ...]:
+        """The flexible parts that carry something: the largest first, of equal ones by name."""
+        return self._pressing.parts
+
+    @property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """Bodies on which parts press, then joints, with what each part exerts on them."""
+        return self._pressing.conflicts
+
+    def of(self, part: object) -> PartStress:
+        """The stress resultants of a part; see `flexact.result.part_stresses.Pressing.of`."""
+        return self._pressing.of(part)
+
+    def on(self, body: object) -> tuple[Load, ...]:
+        """What each part exerts on a body or point, in balance.
+
+        See `flexact.result.part_stresses.Pressing.on`.
+        """
+        return self._pressing.on(body)
 
     def largest(self, k: int = 6) -> list[tuple[int, int, float]]:
         """Element number, deformation and force [N] or moment [N m] of the k largest parts.

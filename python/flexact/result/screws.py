@@ -73,12 +73,12 @@ class Screw(Frozen):
 
     def __str__(self) -> str:
         """In words."""
-        along = _vector(self.direction)
+        along = in_words(self.direction)
         if self.kind is ScrewKind.NONE:
             return "does not move"
         if self.kind is ScrewKind.TRANSLATION:
             return f"moves by {self.magnitude:.4g} m along {along}"
-        about = f"{self.magnitude:.4g} rad about the line through {_vector(self.point)} m along"
+        about = f"{self.magnitude:.4g} rad about the line through {in_words(self.point)} m along"
         if self.kind is ScrewKind.ROTATION:
             return f"turns by {about} {along}"
         return f"screws by {about} {along}, pitch {self.pitch:.4g} m/rad"
@@ -138,7 +138,8 @@ def sense_of(vector: FloatArray) -> float:
     return -1.0 if vector[first] < 0.0 else 1.0
 
 
-def _vector(vector: FloatArray) -> str:
+def in_words(vector: FloatArray) -> str:
+    """Its components; what is rounding beside the largest is zero."""
     size = float(np.abs(vector).max(initial=0.0))
     parts = np.where(np.abs(vector) > ROUNDING * size, vector, 0.0) + 0.0
     return f"({', '.join(f'{part:.4g}' for part in parts)})"

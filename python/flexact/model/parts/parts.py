@@ -95,6 +95,26 @@ class Parts:
         """The rigid bodies, in the order of their first elements."""
         return bodies_of(self.data.arrays)
 
+    @cached_property
+    def links(self) -> frozenset[int]:
+        """Indices of the elements that only carry points of a body.
+
+        Rigid links, and of a body of several members those without a name of their own.
+        """
+        link = is_member(self.data.arrays.element_kind, Member.LINK)
+        made = set(np.flatnonzero(link).tolist())
+        names = self.data.element_names
+        for body in self.bodies:
+            if len(body.elements) > 1:
+                own = [part_name(names[i]) for i in body.elements]
+                given = Counter(own)
+                made.update(
+                    i
+                    for i, name in zip(body.elements, own, strict=True)
+                    if not name or given[name] > 1
+                )
+        return frozenset(made)
+
     def of_element(self, index: int) -> Part:
         """The part that an element, by its index, belongs to."""
         chain = self._chain_of.get(index)
@@ -199,10 +219,14 @@ class Parts:
 
     def at(self, position: int) -> tuple[Part, ...]:
         """The parts that end at or belong to a position node, by name."""
-        start, element = self._users
-        mine = element[start[position] : start[position + 1]].tolist()
-        found = dict.fromkeys(self.of_element(i) for i in mine)
+        found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
         return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+
+    def elements_at(self, position: int) -> list[int]:
+        """Indices of the elements that end at a position node."""
+        start, element = self._users
+        mine: list[int] = element[start[position] : start[position + 1]].tolist()
+        return mine
 
     def is_held(self, node: int) -> bool:
         """Whether a node is fixed in all that it has."""
