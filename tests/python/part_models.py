@@ -81,9 +81,7 @@ class Placed:
             self.model.fix(self.node[point])
 
 
-def guide(
-    place: Place = HERE, sheets: int = 2, beams: int = 1, names: Sequence[str] = ()
-) -> Model:
+def guide(place: Place = HERE, sheets: int = 2, beams: int = 1, names: Sequence[str] = ()) -> Model:
     """Parallel sheets along x with their width along z, and a stage: it moves along y."""
     points: dict[str, Sequence[float]] = {}
     for k in range(sheets):
