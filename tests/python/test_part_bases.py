@@ -112,7 +112,7 @@ def test_analyse_makes_no_basis(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(spaces, "motion_basis", fail)
     monkeypatch.setattr(spaces, "stress_basis", fail)
     analysis = analyse(guide())
-    assert analysis.margin and analysis.certainty and analysis.to_dict()["rank"] == analysis.rank
+    assert analysis.margin and analysis.certainty and analysis.verdict
     with pytest.raises(AssertionError, match="the basis is made"):
         _ = analysis.motions[0].vector
 

@@ -243,6 +243,8 @@ class _MotionGroups:
 
     def basis(self, space: FloatArray) -> FloatArray:
         """All vectors: bodies and joints before the insides of parts."""
+        if space.shape[1] < 2:
+            return space
         groups, costs, _ = self._groups(one_by_one=False)
         pieces = pieces_of(space, groups, costs, self._by_points)
         pieces.sort(key=lambda piece: piece.cost[:2] == (0, 0))
@@ -332,6 +334,8 @@ class _StressGroups:
 
     def basis(self, space: FloatArray) -> FloatArray:
         """All vectors: those of flexible parts before those inside of bodies."""
+        if space.shape[1] < 2:
+            return space
         pieces = pieces_of(space, self.flexible, [(1,)] * len(self.flexible), self._by_bodies)
         pieces.sort(key=lambda piece: not piece.support)
         return columns_of(pieces, space.shape[0])

@@ -87,8 +87,8 @@ def _modes(analysis: Result) -> dict[str, tuple[str, str, Iterator[list[Componen
         return arrays.element_number[element - 1].tolist(), deformation.tolist()
 
     return {
-        "motions": ("node", "coordinate", _components(raw.motions, columns)),
-        "self_stresses": ("element", "deformation", _components(raw.stresses, rows)),
+        "motions": ("node", "coordinate", _components(analysis.motion_basis, columns)),
+        "self_stresses": ("element", "deformation", _components(analysis.stress_basis, rows)),
     }
 
 
