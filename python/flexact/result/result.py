@@ -12,6 +12,7 @@ from ..core.basis import Basis
 from ..core.progress import Progress
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
+from ..model.parts.declaring import declared
 from .certainty import Assessment, assess
 from .decompose import decompose
 from .freedoms import Freedom, freedoms_of
@@ -62,6 +63,18 @@ class Result(Outcome):
     def freedoms(self) -> tuple[Freedom, ...]:
         """The declared degrees of freedom, with the motion of each (`flexact.result.freedoms`)."""
         return freedoms_of(self)
+
+    @cached_property
+    def with_internal_declared(self) -> Result | None:
+        """The result with each divided sheet or wire as one beam; None where there is none.
+
+        Where divided sheets and wires are not declared so, their internal motions are among
+        the `motions`, and a bend by as little as rounding keeps them from passing on moments.
+        """
+        whole = declared(self.given)
+        if whole is self.given:
+            return None
+        return result_of(whole, self.asked, self.name)
 
     @cached_property
     def evidence(self) -> Evidence:

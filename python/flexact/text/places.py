@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts
 
 #: Names that say themselves what they are.
@@ -44,6 +45,25 @@ def parts_words(parts: Sequence[Part], most: int = _MOST_NAMED) -> str:
     if len(words) > most + 1:
         words = [*words[:most], f"{len(words) - most} more"]
     return listed(words)
+
+
+def others_words(parts: Sequence[Part]) -> str:
+    """The same of parts that meet another; of many how many there are."""
+    return parts_words(parts) if len(parts) <= _MOST_NAMED else f"{len(parts)} other parts"
+
+
+def node_words(parts: Parts, node: int) -> str:
+    """What a node, by its index, stands for: a point, or the body that it turns with."""
+    if parts.data.arrays.node_kind[node] <= NodeKind.POSITION:
+        return place_words(parts, node)
+    body = parts.body_at.get(node)
+    if body is not None:
+        return part_words(parts.of_body(body))
+    place = parts.place_of(node)
+    if place is not None:
+        return place_words(parts, place)
+    side = "ground" if parts.is_held(node) else "other side"
+    return f"the {side} of {parts_words(parts.turning(node))}"
 
 
 def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
@@ -85,7 +105,7 @@ def _without_name(parts: Parts, position: int, within: Part | None) -> str:
     if is_fold and shared:
         return "the fold" if within is not None else f"the fold of {shared}"
     if within is not None:
-        return f"its {kind} with {parts_words(others)}"
+        return f"its {kind} with {others_words(others)}"
     return f"the {kind} of {parts_words(here)}"
 
 

@@ -222,6 +222,12 @@ class Parts:
         found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
         return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
 
+    def turning(self, orientation: int) -> tuple[Part, ...]:
+        """The parts that turn with an orientation node, by name."""
+        used = np.any(self.data.arrays.element_node[[1, 3]] == orientation + 1, axis=0)
+        found = dict.fromkeys(self.of_element(i) for i in np.flatnonzero(used).tolist())
+        return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+
     def elements_at(self, position: int) -> list[int]:
         """Indices of the elements that end at a position node."""
         start, element = self._users
