@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parts that are read off models: sheets, wires, bodies, and rows of beams that are one."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from reference_decks import text_of
@@ -22,7 +24,7 @@ def row_of_beams(
     model = flexact.Model()
     nodes = [model.node(*point) for point in points]
     model.fix(nodes[0])
-    for p, q in zip(nodes, nodes[1:], strict=False):
+    for p, q in pairwise(nodes):
         model.beam(p, q, (0, 0, 1), released)
     return model
 
