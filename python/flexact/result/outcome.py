@@ -17,6 +17,7 @@ from ..core.arrays import FloatArray
 from ..core.raw import RawAnalysis, RawAssembly
 from ..model.data import ModelData
 from ..model.labels import Labels, column_labels, row_labels
+from .accuracy import Accuracy
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
 
@@ -29,6 +30,8 @@ class Asked(NamedTuple):
     """None: it follows from the data and the arithmetic."""
     prove: bool | None = None
     """Whether the rank is to be proven in exact arithmetic; None: where it costs little."""
+    accuracy: Accuracy | None = None
+    """To what the parts are made and put together; None: nothing is known of it."""
 
 
 _PLAIN = Asked()
@@ -138,6 +141,11 @@ class Outcome(Frozen):
         is the noise.
         """
         return self.raw.bound
+
+    @property
+    def accuracy(self) -> Accuracy | None:
+        """To what the parts are made and put together, as it was given; None without."""
+        return self.asked.accuracy
 
     @property
     def characteristic_length(self) -> float:

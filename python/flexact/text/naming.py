@@ -31,10 +31,24 @@ def deformation_in_words(result: Result, element: int, number: int) -> Pieces:
 
 
 def _deformation(part: Deformation) -> Pieces:
-    name = harmless(part.name)
-    called = f" ({name})" if name else ""
     word = deformation_word(part.kind, part.number)
-    return (Named("element", part.element), f"{called} e{part.number} {word}")
+    named, *called = _element(part.element, part.name)
+    return (named, f"{''.join(map(str, called))} e{part.number} {word}")
+
+
+def node_in_words(result: Result, number: int) -> Pieces:
+    """A node by its number."""
+    return (Named("node", number),)
+
+
+def element_in_words(result: Result, number: int) -> Pieces:
+    """An element by its number, and its name."""
+    return _element(number, result.data.element_names[result.data.element_index[number]])
+
+
+def _element(number: int, name: str) -> Pieces:
+    called = (f" ({harmless(name)})",) if name else ()
+    return (Named("element", number), *called)
 
 
 def unit_of(result: Result, element: int, number: int) -> str:

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""To what the parts of a machine are made and put together: what a margin is held against."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from ..base.plain_text import in_short
+from .verdict import Margin
+
+#: A length [m], or a length [m] and an angle [rad].
+AccuracyGiven = float | Iterable[float]
+
+
+class Accuracy(NamedTuple):
+    """How far nodes and elements of the machine may lie from where the model has them."""
+
+    length: float
+    """Of nodes [m]."""
+    angle: float | None = None
+    """Of elements [rad]; None where nothing is known of it."""
+
+    def exceeds(self, margin: Margin) -> tuple[bool, bool]:
+        """Whether it is larger than the length, and than the angle, of a margin."""
+        length = margin.length is not None and margin.length < self.length
+        if margin.angle is None or self.angle is None:
+            return length, False
+        return length, margin.angle < self.angle
+
+
+def checked_accuracy(given: AccuracyGiven | None) -> Accuracy | None:
+    """An accuracy as it may be given: a length, or a length and an angle.
+
+    Raises:
+        TypeError: it is neither a number nor two.
+        ValueError: one is not positive, or not finite.
+    """
+    if given is None:
+        return None
+    parts: list[Any] = [given]
+    if isinstance(given, Iterable) and not isinstance(given, (str, bytes, bytearray, memoryview)):
+        parts = list(given)
+    if not 1 <= len(parts) <= 2:
+        raise TypeError(
+            "the accuracy is a length [m], or a length and an angle [rad], "
+            f"not {len(parts)} numbers"
+        )
+    return Accuracy(*(_checked(part) for part in parts))
+
+
+def _checked(part: Any) -> float:
+    if isinstance(part, (str, bytes, bytearray, memoryview, bool)):
+        raise TypeError(f"the accuracy must be a number or two, not {type(part).__name__}")
+    try:
+        value = float(part)
+    except TypeError:
+        raise TypeError(
+            f"the accuracy must be a number or two, not {type(part).__name__}"
+        ) from None
+    except (ValueError, OverflowError):
+        raise ValueError(f"the accuracy must be a number or two, not {in_short(part)}") from None
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(f"the accuracy must be finite and positive, not {value}")
+    return value
