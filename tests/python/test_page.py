@@ -192,12 +192,12 @@ def test_a_doubtful_decision_is_doubted_in_the_first_line() -> None:
     assert analysis.verdict is flexact.Verdict.EXACT and analysis.nearly == (1, 1)
     text = page(analysis)
     head = head_of(text)
-    assert "Doubtful: there may be 1 motion and 1 self-stress." in head
-    assert "Proven." not in head
+    assert "rank doubtful: there may be 1 motion and 1 self-stress" in head
+    assert "proven" not in head
     assert re.search(r'<span class="sign"[^>]*>[^<]+\?</span>', text)
     assert 'href="#decision"' in text and 'id="decision"' in text
     unproven = flexact.analyse(two_wires(1e-3), prove=False)
-    assert "Numerically certain." in head_of(page(unproven))
+    assert "rank numerically certain" in head_of(page(unproven))
 
 
 def test_degrees_of_freedom_are_told_in_words() -> None:
@@ -358,9 +358,17 @@ def test_poses_that_take_much_room_are_cut_and_told(monkeypatch: pytest.MonkeyPa
 
 def test_an_index_of_entries() -> None:
     entries = (
-        Entry("a/<b>&", "a/<b>&.html", flexact.Verdict.EXACT, "Exactly constrained", b"\x89PNG"),
-        Entry("x", "x.html", None, "Cannot be analysed: 2 errors"),
-        Entry("nothing", "", None, "Cannot be read"),
+        Entry(
+            "a/<b>&",
+            "a/<b>&.html",
+            ("exact", "+"),
+            "exactly constrained",
+            "Exactly constrained",
+            "margin 10 um",
+            b"\x89PNG",
+        ),
+        Entry("x", "x.html", ("broken", "x"), "cannot be analysed", "Cannot be analysed: 2 errors"),
+        Entry("nothing", "", ("broken", "x"), "cannot be analysed", "Cannot be read"),
     )
     text = index_page(entries)
     assert 'href="a/%3Cb%3E%26.html"' in text and "a/&lt;b&gt;&amp;</a>" in text
@@ -368,6 +376,7 @@ def test_an_index_of_entries() -> None:
     words = words_of(text)
     assert "3 decks" in words and "1 exactly constrained" in words
     assert "2 cannot be analysed" in words
+    assert words.count("margin 10 um") == 1
 
 
 def test_a_notebook_shows_the_page_and_words() -> None:

@@ -15,7 +15,7 @@ from flexact.deck.reading import read_file
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile
 from flexact.model.data import ModelData
-from flexact.result.accuracy import Accuracy, checked_accuracy
+from flexact.result.accuracy import Accuracy
 from flexact.result.decompose import asked_for
 from flexact.result.result import Result, result_of
 
@@ -57,10 +57,13 @@ def add_accuracy(parser: argparse.ArgumentParser) -> None:
 
 def accuracy(text: str) -> Accuracy:
     """A length, or a length and an angle behind a comma, as an option's type."""
-    found = checked_accuracy([float(part) for part in text.split(",")])
-    if found is None:
-        raise ValueError
-    return found
+    try:
+        return Accuracy.of([float(part) for part in text.split(",")])
+    except (TypeError, ValueError):
+        raise argparse.ArgumentTypeError(
+            f"a length [m], or a length and an angle [rad], is wanted, such as 20e-6 or "
+            f"20e-6,1e-4, not {text!r}"
+        ) from None
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:

@@ -11,7 +11,9 @@ from ..base.plain_text import in_short
 from .verdict import Margin
 
 #: A length [m], or a length [m] and an angle [rad].
-AccuracyGiven = float | Iterable[float]
+AccuracyGiven = float | Iterable[float | None]
+
+_NO_NUMBERS = (str, bytes, bytearray, memoryview)
 
 
 class Accuracy(NamedTuple):
@@ -29,29 +31,28 @@ class Accuracy(NamedTuple):
             return length, False
         return length, margin.angle < self.angle
 
+    @classmethod
+    def of(cls, given: AccuracyGiven) -> Accuracy:
+        """An accuracy as it may be given.
 
-def checked_accuracy(given: AccuracyGiven | None) -> Accuracy | None:
-    """An accuracy as it may be given: a length, or a length and an angle.
-
-    Raises:
-        TypeError: it is neither a number nor two.
-        ValueError: one is not positive, or not finite.
-    """
-    if given is None:
-        return None
-    parts: list[Any] = [given]
-    if isinstance(given, Iterable) and not isinstance(given, (str, bytes, bytearray, memoryview)):
-        parts = list(given)
-    if not 1 <= len(parts) <= 2:
-        raise TypeError(
-            "the accuracy is a length [m], or a length and an angle [rad], "
-            f"not {len(parts)} numbers"
-        )
-    return Accuracy(*(_checked(part) for part in parts))
+        Raises:
+            TypeError: it is neither a number nor two.
+            ValueError: one is not positive, or not finite.
+        """
+        parts: list[Any] = [given]
+        if isinstance(given, Iterable) and not isinstance(given, _NO_NUMBERS):
+            parts = list(given)
+            parts = parts[:1] if parts[1:] == [None] else parts
+        if not 1 <= len(parts) <= 2:
+            raise TypeError(
+                "the accuracy is a length [m], or a length and an angle [rad], "
+                f"not {len(parts)} numbers"
+            )
+        return cls(*(_checked(part) for part in parts))
 
 
 def _checked(part: Any) -> float:
-    if isinstance(part, (str, bytes, bytearray, memoryview, bool)):
+    if isinstance(part, (*_NO_NUMBERS, bool)):
         raise TypeError(f"the accuracy must be a number or two, not {type(part).__name__}")
     try:
         value = float(part)

@@ -13,7 +13,7 @@ from ..core.arrays import IntArray
 from ..core.progress import Progress, reported
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
-from .accuracy import AccuracyGiven, checked_accuracy
+from .accuracy import Accuracy, AccuracyGiven
 from .outcome import Asked
 
 
@@ -48,7 +48,8 @@ def asked_for(
     if not isinstance(prove, (bool, type(None))):
         raise TypeError(f"prove must be True, False or None, not {type(prove).__name__}")
     tolerance = _checked_tolerance(tolerance)
-    return Asked(_checked_method(method), tolerance, prove, checked_accuracy(accuracy))
+    known = None if accuracy is None else Accuracy.of(accuracy)
+    return Asked(_checked_method(method), tolerance, prove, known)
 
 
 def _checked_method(method: str) -> str:

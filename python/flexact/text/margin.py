@@ -52,13 +52,7 @@ def _margin(result: Result) -> Pieces:
     of_node = node_in_words(result, margin.node) if margin.node is not None else ()
     of_element = element_in_words(result, margin.element) if margin.element is not None else ()
     if margin.exact_alignment:
-        between: Pieces = (" or of ",) if of_node and of_element else ()
-        return (
-            "none. A motion and a self-stress here depend on exact alignment: any "
-            "misalignment, however small, of ",
-            *(*of_node, *between, *of_element),
-            " lifts both.",
-        )
+        return _aligned(of_node, of_element)
     length, angle = _small(result)
     moving: Pieces = ()
     turning: Pieces = ()
@@ -68,7 +62,22 @@ def _margin(result: Result) -> Pieces:
         turning = ("turning ", *of_element, f" by {angle_in_words(angle)}")
     if not moving and not turning:
         return ("no small misalignment of one node or element would change this.",)
-    return (*moving, *((" or ",) if moving and turning else ()), *turning, " would change this, to first order.")
+    return (
+        *moving,
+        *((" or ",) if moving and turning else ()),
+        *turning,
+        " would change this, to first order.",
+    )
+
+
+def _aligned(of_node: Pieces, of_element: Pieces) -> Pieces:
+    between = (" or of ",) if of_node and of_element else ()
+    return (
+        "none. A motion and a self-stress here depend on exact alignment: any misalignment, "
+        "however small, of ",
+        *(*of_node, *between, *of_element),
+        " lifts both.",
+    )
 
 
 def _small(result: Result) -> tuple[float | None, float | None]:

@@ -32,23 +32,29 @@ def deformation_in_words(result: Result, element: int, number: int) -> Pieces:
 
 def _deformation(part: Deformation) -> Pieces:
     word = deformation_word(part.kind, part.number)
-    named, *called = _element(part.element, part.name)
+    named, *called = _with_name("element", part.element, part.name)
     return (named, f"{''.join(map(str, called))} e{part.number} {word}")
 
 
+def node_name(result: Result, index: int) -> str:
+    """What a node is called; empty where it has no name."""
+    return ""
+
+
 def node_in_words(result: Result, number: int) -> Pieces:
-    """A node by its number."""
-    return (Named("node", number),)
+    """A node by its number, and its name."""
+    return _with_name("node", number, node_name(result, result.data.node_index[number]))
 
 
 def element_in_words(result: Result, number: int) -> Pieces:
     """An element by its number, and its name."""
-    return _element(number, result.data.element_names[result.data.element_index[number]])
+    name = result.data.element_names[result.data.element_index[number]]
+    return _with_name("element", number, name)
 
 
-def _element(number: int, name: str) -> Pieces:
+def _with_name(kind: str, number: int, name: str) -> Pieces:
     called = (f" ({harmless(name)})",) if name else ()
-    return (Named("element", number), *called)
+    return (Named(kind, number), *called)
 
 
 def unit_of(result: Result, element: int, number: int) -> str:
