@@ -73,10 +73,10 @@ def _margin(result: Result) -> Pieces:
 def _aligned(of_node: Pieces, of_element: Pieces) -> Pieces:
     between = (" or of ",) if of_node and of_element else ()
     return (
-        "none. A motion and a self-stress here depend on exact alignment: any misalignment, "
-        "however small, of ",
+        "none. A motion and a self-stress here depend on exact alignment: any misalignment lifts "
+        "both, however small, such as one of ",
         *(*of_node, *between, *of_element),
-        " lifts both.",
+        ".",
     )
 
 
