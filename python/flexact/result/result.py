@@ -22,7 +22,7 @@ from .outcome import Asked, Outcome
 from .rank_evidence import Evidence
 from .sensitivity import Pair
 from .sparse_basis import orthonormal
-from .verdict import Alternative, Certainty, Margin, Nearly
+from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
@@ -125,6 +125,18 @@ class Result(Outcome):
     def margin(self) -> Margin:
         """The smallest misalignment that would change the verdict: a length and an angle."""
         return least(self.margins)
+
+    @property
+    def is_marginal(self) -> bool:
+        """Whether the margin is smaller than the accuracy; False where none was given."""
+        return self.accuracy is not None and any(self.accuracy.exceeds(self.margin))
+
+    @property
+    def colour(self) -> str:
+        """Of the verdict, as #rrggbb; amber where exactly constrained is only marginal."""
+        if self.verdict is Verdict.EXACT and self.is_marginal:
+            return MARGINAL_COLOUR
+        return self.verdict.colour
 
     @cached_property
     def motion_space(self) -> Basis:

@@ -11,6 +11,7 @@ from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
 from .decision import decision
+from .margin import but_only, margin_line
 from .naming import (
     coordinate_in_words,
     counted,
@@ -63,7 +64,7 @@ class VerdictInWords(NamedTuple):
 
 
 def verdict_in_words(result: Result) -> VerdictInWords:
-    """The verdict in a sentence."""
+    """The verdict in a sentence, and whether it holds within the accuracy."""
     under, over = result.under_constrained, result.over_constrained
     reasons = []
     if under:
@@ -75,7 +76,7 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
-    start = counts_in_words(under, over).capitalize()
+    start = counts_in_words(under, over).capitalize() + but_only(result)
     return VerdictInWords(start, f"{'; '.join(reasons) or none}.")
 
 
@@ -83,6 +84,7 @@ def _verdict(result: Result) -> Iterator[str]:
     if result.name:
         yield harmless(result.name)
     yield filled(sentence(str(verdict_in_words(result))))
+    yield filled(margin_line(result))
 
 
 def _counts(result: Result) -> Iterator[str]:

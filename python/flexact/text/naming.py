@@ -41,6 +41,12 @@ def named_node(result: Outcome, node: int) -> Named:
     return Named("node", node, node_words(result.parts, result.parts.data.node_index[node]))
 
 
+def node_name(result: Outcome, index: int) -> str:
+    """The name of the point of a node, by its index in `result.data`; empty without one."""
+    place = result.parts.place_of(int(result.condensed.nodes[index]))
+    return "" if place is None else result.parts.name_of_point(place)
+
+
 def named_element(result: Outcome, element: int) -> Named:
     """An element by its number, and by the name of its part."""
     part = result.parts.of_element(result.given.element_index[element])
