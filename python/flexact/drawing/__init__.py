@@ -5,9 +5,9 @@ Members with their sizes, symbols, poses, shapes, resultants and views; `picture
 `page` put them down.
 """
 
+from ..model.parts.forms import Form
 from .colours import QUANTITIES
 from .drawing import Drawing, drawing_of, joints_of
-from .forms import Form
 from .hinges import Hinges
 from .members import Members
 from .movement import Movement, move, reach_of

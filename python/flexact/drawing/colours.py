@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.arrays import FloatArray
-from .forms import Form
+from ..model.parts.forms import Form
 
 #: Resultants along a member: normal force, torsion, bending in the local xz and xy planes.
 QUANTITIES = ("N", "T", "My", "Mz")

@@ -14,9 +14,9 @@ from ..core.arrays import FloatArray
 from ..core.elements import Member, keywords_of, planar_table
 from ..model.appearance import Appearance, CrossSection
 from ..model.data import ModelData
+from ..model.parts.forms import Form, all_held, bending_held, forms_of, is_member
 from .chains import chain_lengths
 from .colours import of_forms
-from .forms import Form, all_held, bending_held, forms_of, is_member
 from .places import slots_of
 
 #: Sizes across a member where none is given: parts of the drawing's size, and of the member's own

@@ -14,10 +14,10 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.elements import Role, role_table
+from ..model.parts.forms import Form
 from ..result.modes import SelfStress
 from .colours import QUANTITIES
 from .drawing import Drawing
-from .forms import Form
 
 #: A quantity below this part of the largest one, moments over the length, is rounding.
 _NOISE = 1.0e-10

@@ -16,6 +16,7 @@ from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
 from ..diagnostics.source import Source, decode
 from .appearance import Appearance
+from .parts.chains import Chain, chains_of
 
 #: As the core says it of a deck.
 _NOTHING = Diagnostic(
@@ -106,6 +107,11 @@ class ModelData(Frozen):
     def element_index(self) -> dict[int, int]:
         """Index of each element by its number."""
         return {number: i for i, number in enumerate(self.arrays.element_number.tolist())}
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """Rows of beams that are one sheet or wire each."""
+        return chains_of(self.arrays, self.element_names)
 
     @cached_property
     def count(self) -> RawCount:

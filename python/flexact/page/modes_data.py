@@ -52,7 +52,7 @@ def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
 
 def looked_at(analysis: Result) -> tuple[Freedom, ...]:
     """The declared degrees of freedom whose motions are asked for."""
-    if analysis.data.arrays.element_number.size > MOST_ELEMENTS:
+    if analysis.given.arrays.element_number.size > MOST_ELEMENTS:
         return ()
     return analysis.freedoms[:MOST_MODES]
 

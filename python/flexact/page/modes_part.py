@@ -85,7 +85,7 @@ def _of_motion(motion: Motion) -> str:
 
 def _of_stress(analysis: Result, stress: SelfStress) -> str:
     parts = stress.largest(MOST_PARTS)
-    index_of, kinds = analysis.data.element_index, analysis.data.arrays.element_kind
+    index_of, kinds = analysis.given.element_index, analysis.given.arrays.element_kind
     units = [unit_of(analysis, element, mode) for element, mode, _ in parts]
     length = analysis.characteristic_length
     sizes = [
@@ -107,7 +107,7 @@ def _of_stress(analysis: Result, stress: SelfStress) -> str:
 
 
 def _name(analysis: Result, index: int) -> str:
-    name = analysis.data.element_names[index]
+    name = analysis.given.element_names[index]
     return f'<span class="called">{text(name)}</span>' if name else ""
 
 

@@ -16,6 +16,7 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
+from ..model.parts.condensing import Condensed
 from .outcome import Outcome
 
 #: Parts of a mode below this part of its largest are not named.
@@ -72,6 +73,30 @@ def ranked(weighted: FloatArray, most: int) -> list[int]:
     return chosen
 
 
+@dataclass(frozen=True, eq=False)
+class Velocities(Frozen):
+    """The velocities of all nodes of a model.
+
+    Attributes:
+        data: The model.
+        displacement: (nodes, 3) of each position [m]; zero rows for orientations.
+        rotation: (nodes, 3) of each orientation [rad]; zero rows for positions.
+    """
+
+    data: ModelData
+    displacement: FloatArray
+    rotation: FloatArray
+
+    def at_all_nodes(self, condensed: Condensed) -> tuple[FloatArray, FloatArray]:
+        """Displacement and rotation at the nodes of the model as it was given."""
+        if not condensed.chains:
+            return self.displacement, self.rotation
+        made = condensed.motion(self.displacement, self.rotation)
+        for array in made:
+            array.flags.writeable = False
+        return made
+
+
 @dataclass(frozen=True, repr=False)
 class Motion(Frozen):
     """A kinematically indeterminate motion: velocities that nothing determines.
@@ -85,9 +110,9 @@ class Motion(Frozen):
     analysis: Outcome
 
     @property
-    def data(self) -> ModelData:
-        """The model whose coordinates it is a motion of."""
-        return self.analysis.data
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one whose coordinates it is made of."""
+        return self.analysis.condensed
 
     @property
     def vector(self) -> FloatArray:
@@ -97,24 +122,28 @@ class Motion(Frozen):
         return column
 
     @cached_property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
-        return self._at_nodes(positions=True)
-
-    @cached_property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
-        return self._at_nodes(positions=False)
-
-    def _at_nodes(self, positions: bool) -> FloatArray:
+    def analysed(self) -> Velocities:
+        """The velocities of the nodes of the model as it was analysed."""
         kinds = self.analysis.data.arrays.node_kind
         place, value = self.analysis.raw.motions.entries(self.index)
         node, axis = self.analysis.raw.column_label[:, place] - 1
-        chosen = (kinds[node] <= NodeKind.POSITION) == positions
-        made = np.zeros((kinds.size, 3))
-        made[node[chosen], axis[chosen]] = value[chosen]
-        made.flags.writeable = False
-        return made
+        both = np.zeros((2, kinds.size, 3))
+        both[(kinds[node] > NodeKind.POSITION).astype(int), node, axis] = value
+        return Velocities(self.analysis.data, *both)
+
+    @property
+    def displacement(self) -> FloatArray:
+        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
+        return self._at_nodes[0]
+
+    @property
+    def rotation(self) -> FloatArray:
+        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
+        return self._at_nodes[1]
+
+    @cached_property
+    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
+        return self.analysed.at_all_nodes(self.condensed)
 
     def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
         """Node number, coordinate and value [m, rad] of the k largest parts.
@@ -154,27 +183,29 @@ class SelfStress(Frozen):
         column.flags.writeable = False
         return column
 
-    @cached_property
+    @property
     def forces(self) -> FloatArray:
         """(elements, 6) by deformation, where its stress resultant is a force [N]; else zero."""
-        return self._at_elements(moments=False)
+        return self._at_elements[1]
 
-    @cached_property
+    @property
     def moments(self) -> FloatArray:
         """(elements, 6) by deformation, where it is a moment [N m]; else zero.
 
         Of a beam's torsion and bending the moment is sigma l0.
         """
-        return self._at_elements(moments=True)
+        return self._at_elements[0]
 
-    def _at_elements(self, moments: bool) -> FloatArray:
+    @cached_property
+    def _at_elements(self) -> tuple[FloatArray, FloatArray]:
         place, value = self.analysis.raw.stresses.entries(self.index)
         element, deformation = self.analysis.raw.row_label[:, place] - 1
-        chosen = (row_duals(self.analysis, place) != Dual.FORCE) == moments
-        values = value * row_factors(self.analysis, place)
-        made = np.zeros((self.analysis.data.arrays.element_number.size, 6))
-        made[element[chosen], deformation[chosen]] = values[chosen]
-        made.flags.writeable = False
+        is_force = (row_duals(self.analysis, place) == Dual.FORCE).astype(int)
+        both = np.zeros((2, self.analysis.data.arrays.element_number.size, 6))
+        both[is_force, element, deformation] = value * row_factors(self.analysis, place)
+        made = self.analysis.condensed.stress(*both)
+        for array in made:
+            array.flags.writeable = False
         return made
 
     def largest(self, k: int = 6) -> list[tuple[int, int, float]]:

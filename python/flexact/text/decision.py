@@ -118,7 +118,7 @@ def _margin(result: Result) -> Line:
 
 def _method(result: Result) -> Iterator[Line]:
     """How D(c) was decomposed, where somebody asked for it or the default is not plain."""
-    method, parts = result.method, result.parts
+    method, parts = result.method, result.components
     automatic = result.asked.method == "auto"
     plain = method == "svd" and (parts <= 1 or max(result.rows, result.columns) < _LARGE)
     if automatic and plain:
