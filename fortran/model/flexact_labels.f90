@@ -50,15 +50,14 @@ contains
    !> Whether this is a whole number, or "part" of it "of" another.
    pure logical function counts(words)
       character(len=*), intent(in) :: words
+      character(len=len(words)) :: trimmed
       integer :: middle
 
       counts = is_whole(words)
-      if (counts) return
-      associate (trimmed => adjustl(words))
-         if (len_trim(trimmed) < 11 .or. trimmed(:min(5, len(trimmed))) /= 'part ') return
-         middle = index(trimmed, ' of ')
-         if (middle > 5) counts = is_whole(trimmed(6:middle)) .and. is_whole(trimmed(middle + 4:))
-      end associate
+      trimmed = adjustl(words)
+      if (counts .or. len_trim(trimmed) < len('part 1 of 1')) return
+      middle = index(trimmed, ' of ')
+      if (trimmed(:5) == 'part ' .and. middle > 5) counts = is_whole(trimmed(6:middle)) .and. is_whole(trimmed(middle + 4:))
    end function counts
 
    pure logical function is_whole(word)

@@ -32,7 +32,9 @@ contains
       end if
       if (any(names%node%first > 0)) then
          name = names%node
-         where (.not. is_position(model%node_kind)) name%first = 0
+         do i = 1, model%nodes
+            if (.not. is_position(model%node_kind(i))) name(i) = span_t()
+         end do
          call check(model, names, name, [(i, i=1, model%nodes)], 'points are called', diagnostics)
       end if
    end subroutine check_repeated_names
