@@ -7,8 +7,8 @@ module flexact_equal_texts
    private
    public :: find_equal_texts
 
-   !> A prime; products of what is below it fit 64 bits.
-   integer(int64), parameter :: modulus = 2147483647_int64
+   !> Times the factor of a hash, this fits 64 bits.
+   integer(int64), parameter :: lower_bits = 2_int64**50 - 1
 
 contains
 
@@ -51,7 +51,7 @@ contains
 
       hash = 0
       do i = 1, len(word)
-         hash = modulo(hash*8191 + iachar(word(i:i)) + 1, modulus)
+         hash = iand(hash*8191 + iachar(word(i:i)) + 1, lower_bits)
       end do
    end function hash_of
 end module flexact_equal_texts

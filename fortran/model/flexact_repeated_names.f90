@@ -20,36 +20,42 @@ contains
       type(names_t), intent(in) :: names
       type(diagnostics_t), intent(inout) :: diagnostics
       type(span_t), allocatable :: name(:)
-      integer :: i, part(model%elements)
+      integer, allocatable :: group(:)
+      integer :: groups, i, part(model%elements)
 
       if (any(names%element%first > 0)) then
          allocate (name(model%elements))
          do i = 1, model%elements
             name(i) = part_name(names, i)
          end do
-         call find_parts(model, names, name, part)
-         call check(model, names, name, part, 'parts that do not hang together are called', diagnostics)
+         allocate (group(model%elements))
+         call find_equal_texts(names%text, name, group, groups)
+         if (groups < count(group > 0)) then
+            call find_parts(model, group, groups, part)
+            call check(model, names, name, group, groups, part, 'parts that do not hang together are called', diagnostics)
+         end if
       end if
       if (any(names%node%first > 0)) then
          name = names%node
          do i = 1, model%nodes
             if (.not. is_position(model%node_kind(i))) name(i) = span_t()
          end do
-         call check(model, names, name, [(i, i=1, model%nodes)], 'points are called', diagnostics)
+         group = [(0, i=1, model%nodes)]
+         call find_equal_texts(names%text, name, group, groups)
+         if (groups < count(group > 0)) &
+            call check(model, names, name, group, groups, [(i, i=1, model%nodes)], 'points are called', diagnostics)
       end if
    end subroutine check_repeated_names
 
    !> The part of each element, as one of its elements.
-   subroutine find_parts(model, names, name, part)
+   subroutine find_parts(model, group, groups, part)
       type(model_t), intent(in) :: model
-      type(names_t), intent(in) :: names
-      type(span_t), intent(in) :: name(:)
+      integer, intent(in) :: group(:), groups
       integer, intent(out) :: part(:)
       !> The group of names that a node was met with last, and by which element.
       integer :: met(model%nodes), by(model%nodes)
-      integer :: parent(model%elements), group(model%elements), groups, i, slot, node
+      integer :: parent(model%elements), i, slot, node
 
-      call find_equal_texts(names%text, name, group, groups)
       parent = [(i, i=1, model%elements)]
       met = 0
       associate (order => by_number(group, groups))
@@ -69,19 +75,17 @@ contains
       end do
    end subroutine find_parts
 
-   !> Report each name that more than one thing has; things are known by numbers.
-   subroutine check(model, names, name, thing, what, diagnostics)
+   !> Report each name that more than one thing has; a thing is known by its first member.
+   subroutine check(model, names, name, group, groups, thing, what, diagnostics)
       type(model_t), intent(in) :: model
       type(names_t), intent(in) :: names
       type(span_t), intent(in) :: name(:)
-      integer, intent(in) :: thing(:)
+      integer, intent(in) :: group(:), groups, thing(:)
       character(len=*), intent(in) :: what
       type(diagnostics_t), intent(inout) :: diagnostics
-      integer :: group(size(name)), groups, i
-      integer, allocatable :: first(:), second(:), count(:)
+      integer :: first(groups), second(groups), count(groups), i
 
-      call find_equal_texts(names%text, name, group, groups)
-      allocate (first(groups), second(groups), count(groups), source=0)
+      count = 0
       do i = 1, size(name)
          if (group(i) == 0 .or. thing(i) /= i) cycle
          count(group(i)) = count(group(i)) + 1

@@ -10,7 +10,6 @@ module flexact_silent_mistakes
    use flexact_parallel_elements, only: check_parallel_elements
    use flexact_repeated_names, only: check_repeated_names
    use flexact_slots, only: node_planar_position, node_position, node_orientation
-   use flexact_vectors, only: length_of
    implicit none
    private
    public :: check_silent_mistakes
@@ -44,8 +43,7 @@ contains
       if (any(model%coordinate_class == class_fixed)) return
       motions = merge(6, 3, any(model%node_kind == node_position .or. model%node_kind == node_orientation))
       if (count(model%coordinate_class == class_independent) >= motions) return
-      call diagnostics%warning('no-support', span_t(), 'nothing is fixed: '//digits_of(motions)// &
-                               ' motions are those of the mechanism as a whole', '', &
+      call diagnostics%warning('no-support', span_t(), 'nothing is fixed, so that the mechanism can move as a whole', '', &
                                'fix the points that are clamped to the ground')
    end subroutine check_support
 
@@ -79,7 +77,8 @@ contains
       integer :: axes
 
       axes = merge(2, 3, any(model%node_kind([p, q]) == node_planar_position))
-      length = 2*length_of(model%node_value(:axes, q)/2 - model%node_value(:axes, p)/2)
+      ! Its square stays in range, because the length of a sound element does.
+      length = sqrt(sum((model%node_value(:axes, q) - model%node_value(:axes, p))**2))
    end function length_between
 
    pure function times(ratio) result(words)

@@ -295,23 +295,17 @@ class Draft:
         points = [
             number
             for number, kind in self.node_kind.items()
-            if number not in used and is_position(kind)
+            # The orientation of a point is the number behind its position.
+            if number not in used and number + 1 not in used and is_position(kind)
         ]
         if points:
-            what = "the point" if len(points) == 1 else f"{len(points)} points"
-            yield Diagnostic(
-                Severity.WARNING,
-                "unused-node",
-                f"no element uses {what} {self._listed(points)}",
-                help="join it to something, or leave it out",
+            yield _warning_of_unused(
+                f"no element uses {self._listed(points)}", "join it to something, or leave it out"
             )
-        masses = [number for number in self.properties.node_mass if number not in used]
-        if masses := [number for number in masses if number not in points]:
-            yield Diagnostic(
-                Severity.WARNING,
-                "unused-node",
-                f"a mass is given to {self._listed(masses)}, but no element uses that",
-                help="give it to a node that an element uses",
+        if masses := [number for number in self.properties.node_mass if number not in used]:
+            yield _warning_of_unused(
+                f"{self._listed(masses)} is given a mass, but no element uses it",
+                "give it to a node that an element uses",
             )
 
     def _listed(self, numbers: Sequence[int]) -> str:
@@ -320,7 +314,8 @@ class Draft:
             f"'{self.node_names[number]}'" if number in self.node_names else f"node {number}"
             for number in numbers[:_MOST_LISTED]
         ]
-        return ", ".join(words) + (", ..." if len(numbers) > _MOST_LISTED else "")
+        more = len(numbers) - _MOST_LISTED
+        return ", ".join(words) + (f" and {more} more" if more > 0 else "")
 
     def _given_in_vain(self, used: set[int]) -> list[int]:
         """Nodes that were given a class and are not in use."""
@@ -351,6 +346,10 @@ def _conflict(what: str, before: int, now: int) -> ModelError:
         f"{what} is given two classes: {words}",
         "keep one of the two, or name other components",
     )
+
+
+def _warning_of_unused(message: str, hint: str) -> Diagnostic:
+    return Diagnostic(Severity.WARNING, "unused-node", message, help=hint)
 
 
 def _unused(number: int) -> Diagnostic:
