@@ -151,9 +151,7 @@ def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnosti
         raise ValueError("a name stands outside the text")
     _require_room_for(model)
     return RawDiagnostics(
-        *_core.check_model(
-            np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32)
-        )
+        *_core.check_model(np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32))
     )
 
 

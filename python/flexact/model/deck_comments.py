@@ -100,7 +100,8 @@ class _Reader:
             self._statement([word.upper() for word in words], comment)
         elif comment:
             lines = self.waiting if self.has_begun else self.made.top
-            lines.append(_printable(line if line.lstrip()[0] != ";" else f"% {comment}"))
+            # What opens a comment of a picture does so nowhere else.
+            lines.append(_printable(f"% {comment[1:].lstrip()}" if comment[0] == ";" else line))
 
     def finish(self) -> None:
         """Take the end of the deck."""
@@ -117,7 +118,7 @@ class _Reader:
         body, comment = line[: mark.start()], line[mark.start() :]
         if not body.strip():
             return "", comment
-        return body, _printable(comment.lstrip("%#;\t ") if self.block == _PICTURE else comment.lstrip("%# \t"))
+        return body, _printable(comment.lstrip("%# \t"))
 
     def _statement(self, words: list[str], comment: str) -> None:
         self.has_begun = True

@@ -39,14 +39,15 @@ def deck_of(data: ModelData) -> str:
 
     Comments of the deck that it was read from stay with their statements.
     """
-    comments = comments_of(data.source or data.began_as)
+    origin = data.source or data.began_as
+    comments = comments_of(origin)
     beside = comments.beside
-    title = one_line(data.name)
+    # What a file is called does not stand in it.
+    title = one_line(data.name) if origin is None else ""
     appearance, numbers = data.given_appearance, data.arrays.element_number
     dynamics = _dynamics(data, comments)
     blocks = (
-        # What a deck is called is not what stands in it.
-        comments.top or ([f"% {title}"] if title else []),
+        [f"% {title}"] if title else comments.top,
         beside(ELEMENT, _elements(data)),
         beside("X", _values(data, comments)),
         beside("FIX", _coordinates(data, Class.FIXED, "FIX")),
