@@ -294,7 +294,7 @@ def test_a_mechanism_far_away_keeps_its_digits() -> None:
 
 
 def test_diagnostics_stand_at_their_lines() -> None:
-    analysis = flexact.analyse(ROOT / "input_decks" / "paper" / "six_folded_sheets.dat")
+    analysis = flexact.analyse(ROOT / "input_decks" / "linkages" / "four_bar_planar_driven.dat")
     (note,) = [item for item in analysis.warnings if item.line]
     text = page(analysis)
     line = text.index(f'id="line-{note.line}"')

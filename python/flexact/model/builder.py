@@ -48,14 +48,14 @@ class Builder:
 
     # Nodes ------------------------------------------------------------------
 
-    def node(self, x: float, y: float, z: float = 0.0) -> Node:
+    def node(self, x: float, y: float, z: float = 0.0, name: str = "") -> Node:
         """Add a point [m]; its orientation is used only if an element needs it."""
         draft = self._change()
         value = (*targets.vector((x, y, z), "position"), 0.0)
         if draft.planar and value[2] != 0.0:
             raise model_error("no-coordinate", "a planar model has no coordinate z")
         kind = NodeKind.PLANAR_POSITION if draft.planar else NodeKind.POSITION
-        position = draft.add_node(kind, value)
+        position = draft.add_node(kind, value, targets.text(name, "the name of a point"))
         return Node(position, draft.add_orientation(), self._owner)
 
     def pivot(self, node: Node) -> Node:

@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
-from ..core.elements import AXES, Class, NodeKind, coordinate_name, kind_of
+from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
 from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
 from ..diagnostics.errors import ModelError, model_error
+from ..diagnostics.source import Source
 from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
+from .properties_draft import PropertiesDraft
 
 Vector = tuple[float, float, float]
 
@@ -23,6 +25,8 @@ NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 
 #: Of the numbers of nodes and elements.
 LARGEST = 2**31 - 1
+#: Nodes that one message names.
+_MOST_LISTED = 5
 _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
@@ -35,6 +39,7 @@ class Draft:
         self.owner = owner
         self.node_kind: dict[int, int] = {}
         self.node_value: dict[int, tuple[float, ...]] = {}
+        self.node_names: dict[int, str] = {}
         self.coordinate_class: dict[tuple[int, int], int] = {}
         #: Coordinates that were named one by one, so that they must exist.
         self.named: set[tuple[int, int]] = set()
@@ -47,12 +52,14 @@ class Draft:
         self.classes: list[tuple[int, ...]] = []
         self.names: dict[int, str] = {}
         self.appearance = AppearanceDraft()
+        self.properties = PropertiesDraft()
         #: Classes that were stated for single deformations, by index.
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
         self.rigid: set[int] = set()
         #: Of the data that it started as.
         self.has_long_numbers = False
+        self.began_as: Source | None = None
         self.last_node = 0
         self.last_element = 0
         self._index_of: dict[int, int] | None = None
@@ -77,14 +84,20 @@ class Draft:
         draft.vectors = list(map(tuple, a.element_vector.T.tolist()))
         draft.classes = list(map(tuple, a.deformation_class.T.tolist()))
         draft.names = {i: name for i, name in enumerate(data.element_names) if name}
+        draft.node_names = {
+            number: name for number, name in zip(numbers, data.node_names, strict=True) if name
+        }
+        if data.properties is not None:
+            draft.properties = PropertiesDraft.of(data.properties, numbers)
         if data.given_appearance is not None:
             draft.appearance = AppearanceDraft.of(data.given_appearance)
         draft.has_long_numbers = data.has_long_numbers
+        draft.began_as = data.source or data.began_as
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
         return draft
 
-    def add_node(self, kind: int, value: tuple[float, ...]) -> int:
+    def add_node(self, kind: int, value: tuple[float, ...], name: str = "") -> int:
         """Add a node and return its number."""
         number = self.last_node + 1
         if number > LARGEST:
@@ -92,6 +105,8 @@ class Draft:
         self.last_node = number
         self.node_kind[number] = kind
         self.node_value[number] = value
+        if name := one_line(name):
+            self.node_names[number] = name
         return number
 
     def add_orientation(self) -> int:
@@ -128,6 +143,29 @@ class Draft:
         self.vectors.append(vector)
         self.classes.append(_classes(kind.deformations, tuple(released)))
         return number
+
+    def give_properties(
+        self,
+        index: int,
+        stiffness: tuple[float, ...] | None = None,
+        mass: tuple[float, ...] | None = None,
+    ) -> None:
+        """Give an element the numbers of ESTIFF, of EM, or of both; see `Properties`.
+
+        What is not given stays as it was.
+
+        Raises:
+            ModelError: there are too many numbers, or one is not finite; nothing has changed.
+        """
+        self.properties.give(index, stiffness, mass)
+
+    def give_node_mass(self, number: int, values: tuple[float, ...]) -> None:
+        """Give a node the numbers of XM; see `Properties`.
+
+        Raises:
+            ModelError: there are too many numbers, or one is not finite; nothing has changed.
+        """
+        self.properties.give_node(number, values)
 
     def index_of(self, number: int) -> int:
         """Index of the element with this number."""
@@ -206,17 +244,21 @@ class Draft:
             deformation_class=classes.T,
         )
         names = tuple(self.names.get(i, "") for i in range(len(self.kinds)))
-        wrong = [_unused(number) for number in self._given_in_vain(set(numbers))]
-        found = Problems.of(wrong) if wrong else None
-        appearance = self.appearance.freeze(len(self.kinds))
+        node_names = tuple(self.node_names.get(n, "") for n in numbers) if self.node_names else ()
+        in_use = set(numbers)
+        in_vain = self._given_in_vain(in_use)
         return ModelData(
             arrays,
             self.planar,
             name,
             names,
-            found=found,
-            given_appearance=appearance,
+            node_names,
+            found=Problems.of([_unused(number) for number in in_vain]) if in_vain else None,
+            besides=tuple(self._left_over(in_use)),
+            given_appearance=self.appearance.freeze(len(self.kinds)),
+            properties=self.properties.freeze(len(self.kinds), numbers),
             has_long_numbers=self.has_long_numbers,
+            began_as=self.began_as,
         )
 
     def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
@@ -256,6 +298,33 @@ class Draft:
             classes[place[there], stated[there, 1]] = values[there]
         return classes.T
 
+    def _left_over(self, used: set[int]) -> Iterator[Diagnostic]:
+        """Warnings about points, and about masses, that nothing uses."""
+        points = [
+            number
+            for number, kind in self.node_kind.items()
+            # The orientation of a point is the number behind its position.
+            if number not in used and number + 1 not in used and is_position(kind)
+        ]
+        if points:
+            yield _warning_of_unused(
+                f"no element uses {self._listed(points)}", "join it to something, or leave it out"
+            )
+        if masses := [number for number in self.properties.node_mass if number not in used]:
+            yield _warning_of_unused(
+                f"{self._listed(masses)} is given a mass, but no element uses it",
+                "give it to a node that an element uses",
+            )
+
+    def _listed(self, numbers: Sequence[int]) -> str:
+        """Nodes by name, or by number where they have none; of many the first."""
+        words = [
+            f"'{self.node_names[number]}'" if number in self.node_names else f"node {number}"
+            for number in numbers[:_MOST_LISTED]
+        ]
+        more = len(numbers) - _MOST_LISTED
+        return ", ".join(words) + (f" and {more} more" if more > 0 else "")
+
     def _given_in_vain(self, used: set[int]) -> list[int]:
         """Nodes that were given a class and are not in use."""
         vain = {number for number, _ in self.named if number not in used}
@@ -285,6 +354,10 @@ def _conflict(what: str, before: int, now: int) -> ModelError:
         f"{what} is given two classes: {words}",
         "keep one of the two, or name other components",
     )
+
+
+def _warning_of_unused(message: str, hint: str) -> Diagnostic:
+    return Diagnostic(Severity.WARNING, "unused-node", message, help=hint)
 
 
 def _unused(number: int) -> Diagnostic:

@@ -147,6 +147,11 @@ class Model(Builder):
         """(elements,) names, empty where an element has none."""
         return tuple(self.data.element_names)
 
+    @property
+    def node_names(self) -> tuple[str, ...]:
+        """(nodes,) names, empty where a node has none; that of a point is its position's."""
+        return tuple(self.data.node_names)
+
     def node_index(self, number: int) -> int:
         """Where a node stands in what is given by node, such as `Motion.displacement`.
 
@@ -193,8 +198,9 @@ class Model(Builder):
     def to_deck(self) -> str:
         """The model in the deck language; reading it gives the same model.
 
-        Numbers are written so that they read back to the last bit; names of elements
-        stand as comments at the end of their lines.
+        Numbers are written so that they read back to the last bit; names of elements and
+        nodes stand as comments at the end of their lines. Of a deck that was read, comments
+        stay with the statements that they belong to.
 
         Raises:
             ModelError: the model is wrong, so that no deck can be read back.
