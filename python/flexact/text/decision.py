@@ -26,14 +26,21 @@ def decision(result: Result) -> Iterator[Line]:
         above = "no singular value but zeros"
         if small is not None:
             above = f"smallest non-zero singular value {small:.4g}"
-        below = "no zeros" if zero is None else f"largest zero {zero:.2g}"
-        if (ratio := result.gap.ratio) is not None:
-            below += f" (ratio {ratio:.1g})"
-        limit = f"limit {result.tolerance:.2g}"
-        yield sentence(f"Rank decision (free of units): {above}, {below}, {limit}.")
+        yield sentence(f"Rank decision (free of units): {above}, {_zeros(result)}.")
     yield from _certainty(result)
     if result.condition_number is not None:
         yield sentence(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
+
+
+def _zeros(result: Result) -> str:
+    """The zeros and their limit; a zero within it is rounding, and of rounding no digit counts."""
+    zero, limit = result.gap.largest_zero, f"limit {result.tolerance:.2g}"
+    if zero is None:
+        return f"no zeros, {limit}"
+    if zero <= min(result.tolerance, result.raw.noise):
+        return f"zeros within rounding, {limit}"
+    ratio = "" if result.gap.ratio is None else f" (ratio {result.gap.ratio:.1g})"
+    return f"largest zero {zero:.2g}{ratio}, {limit}"
 
 
 def _certainty(result: Result) -> Iterator[Line]:

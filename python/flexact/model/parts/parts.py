@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
@@ -260,8 +260,7 @@ class Parts:
 
     def name_of_point(self, position: int) -> str:
         """The name that the model gives a position node; empty without one."""
-        names: Sequence[str] = getattr(self.data, "node_names", ())
-        return harmless(names[position]).strip() if len(names) else ""
+        return harmless(self.data.node_names[position]).strip()
 
 
 def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
