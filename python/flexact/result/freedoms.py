@@ -22,6 +22,7 @@ from ..core.elements import Class, NodeKind, coordinate_name
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
+from .body_motions import Moves
 from .decompose import decompose
 from .modes import Velocities
 from .order import coordinate_key, ranked
@@ -39,16 +40,22 @@ _Place = tuple[bool, int, int]
 
 
 @dataclass(frozen=True, eq=False)
-class FreeMotion(Frozen):
+class FreeMotion(Moves, Frozen):
     """The velocities of all nodes in a declared degree of freedom.
 
     Attributes:
-        condensed: The model at whose nodes it is a motion, and the one that was analysed.
-        analysed: The velocities of the latter's nodes; its model is without this declaration.
+        analysis: The analysis that it belongs to.
+        analysed: The velocities of the nodes of the model as it was analysed; its model is
+            without this declaration.
     """
 
-    condensed: Condensed
+    analysis: Outcome
     analysed: Velocities
+
+    @property
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one that was analysed."""
+        return self.analysis.condensed
 
     @property
     def displacement(self) -> FloatArray:
@@ -120,7 +127,7 @@ class Freedom(Frozen):
         placed = (data.arrays.node_kind <= NodeKind.POSITION)[:, None]
         without = _undeclared(data, [(self.is_coordinate, *self.place)])
         return FreeMotion(
-            self.analysis.condensed,
+            self.analysis,
             Velocities(without, np.where(placed, both, 0.0), np.where(placed, 0.0, both)),
         )
 

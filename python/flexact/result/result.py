@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from ..base.loading import load
-from ..core.basis import Basis
 from ..core.progress import Progress
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
@@ -17,11 +16,11 @@ from .certainty import Assessment, assess
 from .decompose import decompose
 from .freedoms import Freedom, freedoms_of
 from .margin import least, margins
-from .modes import Modes, Motion, SelfStress, column_weights, row_weights
-from .outcome import Asked, Outcome
+from .modes import Modes, Motion, SelfStress
+from .outcome import Asked
 from .rank_evidence import Evidence
 from .sensitivity import Pair
-from .sparse_basis import orthonormal
+from .spaces import Spaces
 from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Outcome):
+class Result(Spaces):
     """The result of an analysis, in the reference configuration."""
 
     @property
@@ -137,16 +136,6 @@ class Result(Outcome):
         if self.verdict is Verdict.EXACT and self.is_marginal:
             return MARGINAL_COLOUR
         return self.verdict.colour
-
-    @cached_property
-    def motion_space(self) -> Basis:
-        """Orthonormal basis of the motions, rotations in lengths."""
-        return orthonormal(self.raw.motions, column_weights(self))
-
-    @cached_property
-    def stress_space(self) -> Basis:
-        """Orthonormal basis of the self-stresses, moments in forces."""
-        return orthonormal(self.raw.stresses, row_weights(self))
 
 
 Found = TypeVar("Found", bound=Result)

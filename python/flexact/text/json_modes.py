@@ -14,8 +14,8 @@ import numpy as np
 from ..core.arrays import FloatArray, IntArray
 from ..core.basis import Basis
 from ..core.elements import Dual, coordinate_name, keywords_of
-from ..result.modes import row_duals, row_factors
 from ..result.result import Result
+from ..result.weights import row_duals, row_factors
 from .deformation import deformation_word
 from .naming import node_name, unit_of_coordinate
 
@@ -102,7 +102,7 @@ def motions(result: Result) -> ModesTable:
         )
 
     keys = ("node", "name", "coordinate", "value", "unit")
-    return ModesTable(keys, raw.motions, columns)
+    return ModesTable(keys, result.motion_basis, columns)
 
 
 def self_stresses(result: Result) -> ModesTable:
@@ -128,4 +128,4 @@ def self_stresses(result: Result) -> ModesTable:
         )
 
     keys = ("element", "name", "keyword", "deformation", "word", "value", "unit", "raw")
-    return ModesTable(keys, raw.stresses, columns)
+    return ModesTable(keys, result.stress_basis, columns)
