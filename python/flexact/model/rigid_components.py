@@ -27,8 +27,10 @@ class RigidComponents:
                 self._merge(op, oq or -q)
 
     def _root(self, key: int) -> int:
-        while self._parent.setdefault(key, key) != key:
-            key = self._parent[key] = self._parent[self._parent[key]]
+        self._parent.setdefault(key, key)
+        while (above := self._parent[key]) != key:
+            self._parent[key] = self._parent[above]
+            key = above
         return key
 
     def _merge(self, a: int, b: int) -> None:
