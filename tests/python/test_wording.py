@@ -91,7 +91,7 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
     "both_of_a_fold": lambda: analyse(folded_sheet(clamped=True)),
     "exact_deck": lambda: deck("paper/five_folded_sheets"),
     "over_deck": lambda: deck("paper/six_folded_sheets"),
-    "zero_of_a_deck": lambda: deck("flexures/parallel_guide"),
+    "zero_of_a_deck": lambda: deck("flexures/parallel_guide_undeclared"),
     "no_extent": lambda: analyse(hinges_in_a_point()),
     # Advice
     "declared_against_a_constraint": lambda: deck("flexures/folded_sheet_clamped_trap"),
