@@ -182,7 +182,7 @@ def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
         assert told in head, told
     over = head_of(page(flexact.analyse(CLAMPED.with_name("six_folded_sheets.dat"))))
     assert "(RLSE 21 2); element 1 (upper 90, ground to fold)" in over
-    assert over.count("element") == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
+    assert len(re.findall(r"element \d", over)) == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
     exact = head_of(page(flexact.analyse(CLAMPED.with_name("five_wires.dat"))))
     assert "rank proven" in exact and "remove" not in exact
 
