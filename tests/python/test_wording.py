@@ -281,7 +281,7 @@ def test_messages_of_files(as_stored: AsStored, tmp_path: Path) -> None:
         said.append(f"OutputError: {error.value}")
     whole = read_answer(ROOT / "tests/reference/paper/twelve_trusses.json")
     assert whole.numbers["rank"] == 11
-    for text in ("", "{}", '{"format": 2}'):
+    for text in ("", "{}", '{"format": 2}', analyse(ring(3)).to_json()):
         with pytest.raises(StoredAnswerError) as wrong:
             read_answer(write(tmp_path / "answer.json", text))
         said.append(f"StoredAnswerError: {wrong.value}")
