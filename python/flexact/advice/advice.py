@@ -9,6 +9,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from ..core.elements import AXES, NodeKind, coordinate_name
+from ..model.parts.declaring import surplus_of
 from ..result.result import Result
 from . import leverage
 
@@ -19,6 +20,7 @@ _MOST_PARTS = 12
 class Step(str, Enum):
     """What is to be done with one of the parts, or with all of them."""
 
+    DECLARE_INTERNAL = "declare what is inside divided sheets and wires"
     DECLARE_OR_HOLD = "declare or hold one coordinate"
     DECLARE_OR_HOLD_RELEASED = "declare or hold one released deformation"
     DECLARE_OR_HOLD_ALL = "declare or hold all coordinates"
@@ -44,27 +46,13 @@ class Deformation(NamedTuple):
 
     element: int
     """Number of the element."""
-    name: str
-    """What the element is called, empty without a name."""
-    kind: int
-    """Row of the element table, from 1."""
     number: int
     """Number of the deformation, from 1."""
-
-    @property
-    def operands(self) -> str:
-        """Numbers of the element and the deformation, as a deck names them."""
-        return f"{self.element} {self.number}"
+    operands: str
+    """Numbers of the element and the deformation, as a deck names them."""
 
 
 Part = Coordinate | Deformation
-
-
-class Statement(NamedTuple):
-    """A statement of a deck."""
-
-    keyword: str
-    operands: str
 
 
 class Advice(NamedTuple):
@@ -75,16 +63,17 @@ class Advice(NamedTuple):
     """The best first; at most twelve, or all where all belong together."""
     more: bool
     """Whether there are more parts."""
-    statements: tuple[Statement, ...] = ()
-    """What does it with the first part, in a deck."""
+    keywords: tuple[str, ...] = ()
+    """Statements of a deck of which one does it with a part; none where there is none."""
     instead: bool = False
-    """Whether the last statement takes the place of one that is there."""
+    """Whether that takes the place of a statement that is there."""
 
 
 def on_motions(result: Result) -> Iterator[Advice]:
     """What may be declared or held so that there are fewer motions, the best first."""
     if not result.under_constrained:
         return
+    yield from _if_any(_internal(result))
     able = _coordinates(result, _of_columns(result, leverage.coordinates(result)))
     yield _some(Step.DECLARE_OR_HOLD, able, ("DYNX", "FIX"))
     changed = _deformations(result, leverage.deformations(result))
@@ -118,10 +107,18 @@ def _some(
     step: Step, parts: Iterable[Part], keywords: tuple[str, ...] = (), instead: bool = False
 ) -> Advice:
     some = tuple(islice(parts, _MOST_PARTS + 1))
-    statements = tuple(Statement(word, some[0].operands) for word in keywords) if some else ()
-    return Advice(
-        step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, statements, instead and bool(some)
+    return Advice(step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, keywords, instead)
+
+
+def _internal(result: Result) -> Advice:
+    """What makes each divided sheet or wire one beam, as far as a deck or model does not yet."""
+    numbers = result.given.arrays.element_number
+    parts = tuple(
+        Deformation(number, deformations[0], " ".join(map(str, (number, *deformations))))
+        for element, deformations in surplus_of(result.given)
+        for number in (int(numbers[element]),)
     )
+    return Advice(Step.DECLARE_INTERNAL, parts, False, ("DYNE",), instead=True)
 
 
 def _if_any(advice: Advice) -> Iterator[Advice]:
@@ -153,7 +150,7 @@ def coordinate_of(result: Result, node: int, axis: int) -> Coordinate:
 
 
 def _deformations(result: Result, places: leverage.Deformations) -> Iterator[Deformation]:
-    arrays, names = result.data.arrays, result.data.element_names
+    numbers, given = result.data.arrays.element_number, result.given.arrays.element_number
     for index, mode in places:
-        number, kind = int(arrays.element_number[index]), int(arrays.element_kind[index])
-        yield Deformation(number, names[index], kind, mode)
+        element, own = result.condensed.in_given(index, mode)
+        yield Deformation(int(numbers[index]), mode, f"{given[element]} {own}")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ..base.errors import BatchError, FlexactError
 from ..base.frozen import Frozen
+from ..result.freedoms import Freedom
 from ..result.result import Result
 from .pose import Moving
 
@@ -25,11 +26,14 @@ class Selection(Frozen):
 
     Attributes:
         motion: The motion.
-        words: Which one it is, such as "motion 1 of 2".
+        number: Which one of the motions or degrees of freedom it is, from 1.
+        freedom: The degree of freedom that it is the motion of; None of a motion that nothing
+            determines.
     """
 
     motion: Moving
-    words: str
+    number: int
+    freedom: Freedom | None = None
 
 
 def select_motion(
@@ -78,9 +82,7 @@ def require_there(number: int, count: int, what: str, plural: str) -> None:
 def _of_motion(analysis: Result, number: int) -> Selection:
     count = len(analysis.motions)
     require_there(number, count, "motion", "motions")
-    return Selection(
-        analysis.motions[number - 1], f"motion {number} of {analysis.under_constrained}"
-    )
+    return Selection(analysis.motions[number - 1], number)
 
 
 def _of_freedom(analysis: Result, number: int) -> Selection:
@@ -88,5 +90,5 @@ def _of_freedom(analysis: Result, number: int) -> Selection:
     require_there(number, count, "degree of freedom", "degrees of freedom")
     chosen = analysis.freedoms[number - 1]
     if (found := chosen.motion) is None:
-        raise NotThereError(f"degree of freedom {number}, {chosen.label}, cannot move")
-    return Selection(found, f"degree of freedom {number}, {chosen.label}")
+        raise NotThereError(f"degree of freedom {number} cannot move: a self-stress stops it")
+    return Selection(found, number, chosen)

@@ -203,6 +203,14 @@ class Draft:
         self.classes[index] = tuple(classes)
         self.stated.update(((index, number), value) for number in wanted)
 
+    def declare(self, index: int, numbers: Iterable[int]) -> None:
+        """Make deformations (from 1) of an element independent, whatever was said of them."""
+        classes = list(self.classes[index])
+        for number in numbers:
+            classes[number - 1] = Class.INDEPENDENT
+            self.stated[index, number] = Class.INDEPENDENT
+        self.classes[index] = tuple(classes)
+
     def state_coordinates(self, places: Iterable[tuple[int, int]], value: Class) -> None:
         """Give coordinates (node number, axis) a class, all or none of them.
 

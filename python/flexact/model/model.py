@@ -16,6 +16,7 @@ from .builder import Builder
 from .configuration import Configuration
 from .data import ModelData
 from .deck_text import deck_of
+from .parts.declaring import surplus_of
 
 
 class Model(Builder):
@@ -184,6 +185,15 @@ class Model(Builder):
     def reference(self) -> Configuration:
         """The configuration in which all deformations are zero."""
         return Configuration(self.data.arrays.node_kind, self.data.arrays.node_value.T)
+
+    def declare_internal_motions(self) -> None:
+        """Make independent what is inside divided sheets and wires, so that each is one beam.
+
+        Of each deformation that several beams of one sheet or wire release, that of the first
+        stays released; see `Result.internal_motions`.
+        """
+        for element, deformations in surplus_of(self.data):
+            self._change().declare(element, deformations)
 
     def to_deck(self) -> str:
         """The model in the deck language; reading it gives the same model.

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
-from ..base.plain_text import harmless
-from ..core.elements import coordinate_name
 from ..drawing import QUANTITIES, Drawing, Movement, Moving, move, reach_of, resultants
 from ..result.freedoms import Freedom
 from ..result.result import Result
-from ..text.deformation import deformation_word
+from ..text.naming import freedom_in_words
+from ..text.sentences import plain
 from .drawing_data import Frame, hinges_in
 from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES, MOST_POSES
 from .packing import floats
@@ -47,7 +46,8 @@ def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
 def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
     for freedom in looked_at(analysis):
         if (motion := freedom.motion) is not None:
-            yield "freedom", freedom.label, f"Degree of freedom: {_in_words(freedom)}", motion
+            words = plain(freedom_in_words(freedom))
+            yield "freedom", words, f"Degree of freedom: {words}", motion
 
 
 def looked_at(analysis: Result) -> tuple[Freedom, ...]:
@@ -55,21 +55,6 @@ def looked_at(analysis: Result) -> tuple[Freedom, ...]:
     if analysis.given.arrays.element_number.size > MOST_ELEMENTS:
         return ()
     return analysis.freedoms[:MOST_MODES]
-
-
-def _in_words(freedom: Freedom) -> str:
-    """Such as "bending at q in the local xy plane of element 1 (upper 90, ground to fold)"."""
-    data, (part, owner) = freedom.analysis.data, freedom.place
-    arrays = data.arrays
-    if freedom.is_coordinate:
-        name = coordinate_name(int(arrays.node_kind[owner]), part)
-        what = (
-            f"rotation about {name[1:]}" if name.startswith("r") else f"displacement along {name}"
-        )
-        return f"{what} of node {arrays.node_number[owner]}"
-    word = deformation_word(int(arrays.element_kind[owner]), part + 1)
-    name = harmless(data.element_names[owner])
-    return f"{word} of element {arrays.element_number[owner]}" + (f" ({name})" if name else "")
 
 
 def _note(drawing: Drawing, movement: Movement) -> str:

@@ -11,7 +11,9 @@ from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
 from .decision import decision
+from .margin import but_only, margin_line
 from .naming import (
+    coordinate_in_words,
     counted,
     counts_in_words,
     deformation_in_words,
@@ -19,7 +21,7 @@ from .naming import (
     unit_of,
     unit_of_coordinate,
 )
-from .sentences import Line, Named, Pieces, filled, sentence
+from .sentences import Line, Pieces, filled, sentence
 from .warnings import warnings_of
 
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
@@ -62,7 +64,7 @@ class VerdictInWords(NamedTuple):
 
 
 def verdict_in_words(result: Result) -> VerdictInWords:
-    """The verdict in a sentence."""
+    """The verdict in a sentence, and whether it holds within the accuracy."""
     under, over = result.under_constrained, result.over_constrained
     reasons = []
     if under:
@@ -74,7 +76,7 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
-    start = counts_in_words(under, over).capitalize()
+    start = counts_in_words(under, over).capitalize() + but_only(result)
     return VerdictInWords(start, f"{'; '.join(reasons) or none}.")
 
 
@@ -82,6 +84,7 @@ def _verdict(result: Result) -> Iterator[str]:
     if result.name:
         yield harmless(result.name)
     yield filled(sentence(str(verdict_in_words(result))))
+    yield filled(margin_line(result))
 
 
 def _counts(result: Result) -> Iterator[str]:
@@ -98,7 +101,10 @@ def _counts(result: Result) -> Iterator[str]:
 def _motions(result: Result, most: int | None) -> Iterator[str]:
     modes = (
         [
-            (Named("node", node), f" {name} {value:.4g} {unit_of_coordinate(name)}")
+            (
+                *coordinate_in_words(result, node, name),
+                f" {value:.4g} {unit_of_coordinate(name)}",
+            )
             for node, name, value in motion.largest(_PARTS + 1)
         ]
         for motion in result.motions[:most]

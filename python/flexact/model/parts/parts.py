@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
@@ -94,6 +94,26 @@ class Parts:
     def bodies(self) -> tuple[Body, ...]:
         """The rigid bodies, in the order of their first elements."""
         return bodies_of(self.data.arrays)
+
+    @cached_property
+    def links(self) -> frozenset[int]:
+        """Indices of the elements that only carry points of a body.
+
+        Rigid links, and of a body of several members those without a name of their own.
+        """
+        link = is_member(self.data.arrays.element_kind, Member.LINK)
+        made = set(np.flatnonzero(link).tolist())
+        names = self.data.element_names
+        for body in self.bodies:
+            if len(body.elements) > 1:
+                own = [part_name(names[i]) for i in body.elements]
+                given = Counter(own)
+                made.update(
+                    i
+                    for i, name in zip(body.elements, own, strict=True)
+                    if not name or given[name] > 1
+                )
+        return frozenset(made)
 
     def of_element(self, index: int) -> Part:
         """The part that an element, by its index, belongs to."""
@@ -199,10 +219,20 @@ class Parts:
 
     def at(self, position: int) -> tuple[Part, ...]:
         """The parts that end at or belong to a position node, by name."""
-        start, element = self._users
-        mine = element[start[position] : start[position + 1]].tolist()
-        found = dict.fromkeys(self.of_element(i) for i in mine)
+        found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
         return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+
+    def turning(self, orientation: int) -> tuple[Part, ...]:
+        """The parts that turn with an orientation node, by name."""
+        used = np.any(self.data.arrays.element_node[[1, 3]] == orientation + 1, axis=0)
+        found = dict.fromkeys(self.of_element(i) for i in np.flatnonzero(used).tolist())
+        return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+
+    def elements_at(self, position: int) -> list[int]:
+        """Indices of the elements that end at a position node."""
+        start, element = self._users
+        mine: list[int] = element[start[position] : start[position + 1]].tolist()
+        return mine
 
     def is_held(self, node: int) -> bool:
         """Whether a node is fixed in all that it has."""
@@ -230,8 +260,7 @@ class Parts:
 
     def name_of_point(self, position: int) -> str:
         """The name that the model gives a position node; empty without one."""
-        names: Sequence[str] = getattr(self.data, "node_names", ())
-        return harmless(names[position]).strip() if len(names) else ""
+        return harmless(self.data.node_names[position]).strip()
 
 
 def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
