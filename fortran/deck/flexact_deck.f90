@@ -46,11 +46,11 @@ contains
             call read_properties(all_statements, deck)
             call read_forms(all_statements, deck)
          end if
-         call check_model(deck%model, diagnostics)
+         names%text => text
+         names%element = deck%element_names
+         names%node = deck%node_names
+         call check_model(deck%model, names, diagnostics)
          if (.not. diagnostics%has_errors()) then
-            names%text => text
-            names%element = deck%element_names
-            names%node = deck%node_names
             call check_silent_mistakes(deck%model, names, diagnostics)
             call note_unused(all_statements, unused, diagnostics)
          end if
