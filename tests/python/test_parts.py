@@ -9,7 +9,7 @@ from reference_decks import text_of
 
 import flexact
 from flexact.core.elements import Class
-from flexact.model.parts.chains import part_name
+from flexact.model.names import part_name
 from flexact.model.parts.condensing import condensed
 from flexact.model.parts.parts import Part, PartKind, Parts, natural
 

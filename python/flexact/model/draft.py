@@ -16,6 +16,8 @@ from ..diagnostics.errors import ModelError, model_error
 from ..diagnostics.source import Source
 from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
+from .handles import Owner
+from .names import part_name
 from .properties_draft import PropertiesDraft
 
 Vector = tuple[float, float, float]
@@ -33,12 +35,14 @@ _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPEN
 class Draft:
     """Nodes and elements as lists and dictionaries, by their numbers."""
 
-    def __init__(self, planar: bool, owner: object) -> None:
+    def __init__(self, planar: bool, owner: Owner) -> None:
         """Start without nodes or elements; `owner` is what its handles are known by."""
         self.planar = planar
         self.owner = owner
+        owner.draft = self
         self.node_kind: dict[int, int] = {}
         self.node_value: dict[int, tuple[float, ...]] = {}
+        #: Names of points, by the numbers of their position nodes.
         self.node_names: dict[int, str] = {}
         self.coordinate_class: dict[tuple[int, int], int] = {}
         #: Coordinates that were named one by one, so that they must exist.
@@ -57,15 +61,22 @@ class Draft:
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
         self.rigid: set[int] = set()
-        #: Of the data that it started as.
+        #: Of the data that it started as: how many elements, and whether they had long numbers.
+        self.elements_given = 0
         self.has_long_numbers = False
         self.began_as: Source | None = None
         self.last_node = 0
         self.last_element = 0
         self._index_of: dict[int, int] | None = None
+        self._of_part: dict[str, list[int]] | None = None
+        self._of_name: dict[str, list[int]] | None = None
+        self._of_place: dict[tuple[float, ...], list[int]] | None = None
+        #: The first orientation of each point by its position node, and the other way round.
+        self.orientation_at: dict[int, int] = {}
+        self.position_of: dict[int, int] = {}
 
     @classmethod
-    def of(cls, data: ModelData, owner: object) -> Draft:
+    def of(cls, data: ModelData, owner: Owner) -> Draft:
         """The draft that gives the same arrays."""
         draft = cls(data.planar, owner)
         a = data.arrays
@@ -93,11 +104,16 @@ class Draft:
             draft.appearance = AppearanceDraft.of(data.given_appearance)
         draft.has_long_numbers = data.has_long_numbers
         draft.began_as = data.source or data.began_as
+        draft.elements_given = len(draft.kinds)
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
+        for p, op, q, oq in draft.slots:
+            for position, orientation in ((p, op), (q, oq)):
+                if position and orientation:
+                    draft.join(position, orientation)
         return draft
 
-    def add_node(self, kind: int, value: tuple[float, ...], name: str = "") -> int:
+    def add_node(self, kind: int, value: tuple[float, ...]) -> int:
         """Add a node and return its number."""
         number = self.last_node + 1
         if number > LARGEST:
@@ -105,9 +121,73 @@ class Draft:
         self.last_node = number
         self.node_kind[number] = kind
         self.node_value[number] = value
+        if self._of_place is not None and is_position(kind):
+            self._of_place.setdefault(value, []).append(number)
+        return number
+
+    def join(self, position: int, orientation: int) -> None:
+        """Say that an orientation is one of the point at a position node."""
+        self.orientation_at.setdefault(position, orientation)
+        self.position_of.setdefault(orientation, position)
+
+    def nodes_at(self, value: tuple[float, ...]) -> list[int]:
+        """Numbers of the position nodes at exactly this place, in the order they were made."""
+        if self._of_place is None:
+            self._of_place = {}
+            for number, kind in self.node_kind.items():
+                if is_position(kind):
+                    self._of_place.setdefault(self.node_value[number], []).append(number)
+        return self._of_place.get(value, [])
+
+    def part_indices(self, name: str) -> list[int]:
+        """Indices of the elements of the parts with this name, in the order they were made."""
+        return self.parts_by_name.get(name, [])
+
+    @property
+    def parts_by_name(self) -> dict[str, list[int]]:
+        """Indices of elements by the name of their part."""
+        if self._of_part is None:
+            self._of_part = {}
+            for index in sorted(self.names):
+                self._of_part.setdefault(part_name(self.names[index]), []).append(index)
+        return self._of_part
+
+    @property
+    def points_by_name(self) -> dict[str, list[int]]:
+        """Numbers of position nodes by their names."""
+        if self._of_name is None:
+            self._of_name = {}
+            for number, name in self.node_names.items():
+                self._of_name.setdefault(name, []).append(number)
+        return self._of_name
+
+    def name_node(self, number: int, name: str) -> None:
+        """Name a node, or with an empty name take its name away."""
+        if number in self.node_names:
+            self._of_name = None
+            del self.node_names[number]
         if name := one_line(name):
             self.node_names[number] = name
-        return number
+            if self._of_name is not None:
+                self._of_name.setdefault(name, []).append(number)
+
+    def name_element(self, index: int, name: str) -> None:
+        """Name an element, or with an empty name take its name away."""
+        self.names.pop(index, None)
+        made = one_line(name)
+        if made:
+            self.names[index] = made
+        self._of_part = None
+
+    def name_of(self, number: int) -> str:
+        """Name of an element by its number, empty without one or without the element."""
+        self._number_elements()
+        assert self._index_of is not None
+        return self.names.get(self._index_of.get(number, -1), "")
+
+    def changed_names_or_places(self) -> None:
+        """Forget what was found by names, numbers and places; it is found anew when asked for."""
+        self._index_of = self._of_part = self._of_name = self._of_place = None
 
     def add_orientation(self) -> int:
         """Add an unturned orientation, in the plane an angle, and return its number."""
@@ -125,23 +205,34 @@ class Draft:
         shape: Shape | None = None,
     ) -> int:
         """Add an element and return its number; `released` are part of what it is."""
-        number = self.last_element + 1
-        if number > LARGEST:
-            raise model_error("number-too-large", "the model has no element number left")
+        index = len(self.kinds)
+        classes = _classes(kind.deformations, tuple(released))
+        number = self.append_element(kind.number, slots, vector, classes)
         if name:
             name = one_line(name)
             if name:
-                self.names[len(self.kinds)] = name
+                self.names[index] = name
+                if self._of_part is not None:
+                    self._of_part.setdefault(part_name(name), []).append(index)
         if shape is not None:
-            self.appearance.give([len(self.kinds)], {"shape": shape})
+            self.appearance.give([index], {"shape": shape})
+        return number
+
+    def append_element(
+        self, kind: int, slots: tuple[int, int, int, int], vector: Vector, classes: tuple[int, ...]
+    ) -> int:
+        """Add an element without a name, by the number of its kind, and return its number."""
+        number = self.last_element + 1
+        if number > LARGEST:
+            raise model_error("number-too-large", "the model has no element number left")
         if self._index_of is not None:
             self._index_of[number] = len(self.kinds)
         self.last_element = number
         self.numbers.append(number)
-        self.kinds.append(kind.number)
+        self.kinds.append(kind)
         self.slots.append(slots)
         self.vectors.append(vector)
-        self.classes.append(_classes(kind.deformations, tuple(released)))
+        self.classes.append(classes)
         return number
 
     def give_properties(
@@ -169,39 +260,50 @@ class Draft:
 
     def index_of(self, number: int) -> int:
         """Index of the element with this number."""
-        if self._index_of is None:
-            self._index_of = {n: i for i, n in enumerate(self.numbers)}
+        self._number_elements()
+        assert self._index_of is not None
         index = self._index_of.get(number)
         if index is None:
             raise model_error("no-such-element", f"there is no element {in_short(number)}")
         return index
 
+    def _number_elements(self) -> None:
+        if self._index_of is None:
+            self._index_of = {n: i for i, n in enumerate(self.numbers)}
+
+    def element_words(self, index: int) -> str:
+        """What messages call an element."""
+        name = self.names.get(index)
+        return in_short(name) if name else f"element {self.numbers[index]}"
+
+    def node_words(self, number: int) -> str:
+        """What messages call a node."""
+        name = self.node_names.get(number)
+        return f"point {in_short(name)}" if name else f"node {number}"
+
     def deformations_of(self, index: int) -> int:
         """How many deformations an element has, a rigid one counted as a beam."""
         return sum(c != Class.NONE for c in self.classes[index])
 
-    def state_deformations(self, index: int, numbers: Iterable[int], value: Class) -> None:
-        """Give deformations (from 1) of an element a class, all or none of them.
+    def state_deformations(self, places: Iterable[tuple[int, int]], value: Class) -> None:
+        """Note that deformations (index, number from 1) are stated to have a class.
 
         Raises:
-            ModelError: the element has no such deformation, or it has another class.
+            ModelError: one of them has another class; then nothing is noted.
         """
-        name = f"element {self.numbers[index]}"
-        classes = list(self.classes[index])
-        wanted = tuple(numbers)
-        for number in wanted:
-            if not 1 <= number <= self.deformations_of(index):
-                raise model_error(
-                    "component-out-of-range",
-                    f"{name} has no deformation {in_short(number)}",
-                    f"it has 1 to {self.deformations_of(index)}",
-                )
+        wanted = tuple(places)
+        for index, number in wanted:
             before = self.stated.get((index, number), value)
             if before != value:
+                name = self.element_words(index)
                 raise _conflict(f"deformation {number} of {name}", before, value)
-            classes[number - 1] = value
+        self.stated.update((place, value) for place in wanted)
+
+    def set_deformation(self, index: int, number: int, value: Class) -> None:
+        """Set the class of a deformation, from 1, of an element."""
+        classes = list(self.classes[index])
+        classes[number - 1] = value
         self.classes[index] = tuple(classes)
-        self.stated.update(((index, number), value) for number in wanted)
 
     def declare(self, index: int, numbers: Iterable[int]) -> None:
         """Make deformations (from 1) of an element independent, whatever was said of them."""
@@ -222,7 +324,7 @@ class Draft:
             before = self.coordinate_class.get((number, axis), value)
             if before != value:
                 name = coordinate_name(self.node_kind[number], axis)
-                raise _conflict(f"coordinate {name} of node {number}", before, value)
+                raise _conflict(f"coordinate {name} of {self.node_words(number)}", before, value)
         self.coordinate_class.update((place, value) for place in wanted)
 
     def freeze(self, name: str) -> ModelData:
@@ -253,13 +355,17 @@ class Draft:
             name,
             names,
             node_names,
-            found=Problems.of([_unused(number) for number in in_vain]) if in_vain else None,
+            found=self._wrong(in_vain),
             besides=tuple(self._left_over(in_use)),
             given_appearance=self.appearance.freeze(len(self.kinds)),
             properties=self.properties.freeze(len(self.kinds), numbers),
             has_long_numbers=self.has_long_numbers,
             began_as=self.began_as,
         )
+
+    def _wrong(self, in_vain: Sequence[int]) -> Problems | None:
+        wrong = [_unused(self.node_words(number)) for number in in_vain]
+        return Problems.of(wrong) if wrong else None
 
     def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
         """Kinds, slots and classes, with the kind of every rigid element decided.
@@ -303,8 +409,7 @@ class Draft:
         points = [
             number
             for number, kind in self.node_kind.items()
-            # The orientation of a point is the number behind its position.
-            if number not in used and number + 1 not in used and is_position(kind)
+            if is_position(kind) and used.isdisjoint((number, self.orientation_at.get(number)))
         ]
         if points:
             yield _warning_of_unused(
@@ -360,10 +465,10 @@ def _warning_of_unused(message: str, hint: str) -> Diagnostic:
     return Diagnostic(Severity.WARNING, "unused-node", message, help=hint)
 
 
-def _unused(number: int) -> Diagnostic:
+def _unused(node: str) -> Diagnostic:
     return Diagnostic(
         Severity.ERROR,
         "no-such-node",
-        f"node {number} is given a class, but no element uses it",
+        f"{node} is given a class, but no element uses it",
         help="name the node in an element, or leave its class out",
     )

@@ -75,8 +75,8 @@ def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
         within: The part of which the sentence speaks; what is there is seen from it.
     """
     name = parts.name_of_point(position)
-    if name:
-        return with_article(name)
+    if name and not (within is None and _is_of_a_part(parts, position, name)):
+        return with_article(_seen_from(name, within))
     words = _without_name(parts, position, within)
     if within is None:
         return words
@@ -86,6 +86,25 @@ def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
         for end in others
     )
     return f"{words} at {point_words(parts, position)}" if same else words
+
+
+def _is_of_a_part(parts: Parts, position: int, name: str) -> bool:
+    """Whether a point on a body is called by the part that ends there: "sheet 1, stage"."""
+    head, comma, _ = name.rpartition(",")
+    here = parts.at(position)
+    return bool(
+        comma
+        and any(part.kind is PartKind.BODY for part in here)
+        and any(part.name.startswith(head) for part in here)
+    )
+
+
+def _seen_from(name: str, part: Part | None) -> str:
+    """The name of a point without that of the part of which is spoken: "sheet 1, ground"."""
+    head, comma, rest = name.rpartition(",")
+    if part is None or not comma or not rest.strip():
+        return name
+    return rest.strip() if part.name.startswith(head) else name
 
 
 def _without_name(parts: Parts, position: int, within: Part | None) -> str:

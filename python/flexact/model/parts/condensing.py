@@ -18,7 +18,8 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ..appearance import Appearance
 from ..data import ModelData
-from .chains import Chain, part_name
+from ..names import part_name
+from .chains import Chain
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,9 @@ from ...core.arrays import IntArray
 from ...core.elements import Class, Member, NodeKind
 from ...diagnostics.errors import model_error
 from ..data import ModelData
+from ..names import part_name
 from .bodies import Body, bodies_of
-from .chains import Chain, part_name
+from .chains import Chain
 from .forms import Form, forms_of, is_member
 
 
