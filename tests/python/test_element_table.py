@@ -29,7 +29,7 @@ from flexact.core.elements import (
 from flexact.core.raw import ElementKind
 from flexact.diagnostics.diagnostic import Severity
 from flexact.drawing import Form, drawing_of, resultants
-from flexact.drawing.forms import forms_of
+from flexact.model.forms import forms_of
 from flexact.model.appearance import CrossSection
 from flexact.text.deformation import deformation_word
 

@@ -6,18 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.arrays import FloatArray
-from .forms import Form
-
-#: Resultants along a member: normal force, torsion, bending in the local xz and xy planes.
-QUANTITIES = ("N", "T", "My", "Mz")
-
-#: What they are called.
-MEANINGS = {
-    "N": "normal force N, tension positive",
-    "T": "torsional moment T",
-    "My": "bending moment My in the local xz plane",
-    "Mz": "bending moment Mz in the local xy plane",
-}
+from ..model.forms import Form
 
 #: (7, 3) from the most negative value over zero to the most positive: blue, grey, red, even in
 #: lightness to both sides and told apart by colour-blind people (Moreland, Diverging Color Maps

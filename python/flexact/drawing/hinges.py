@@ -10,8 +10,8 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import Member
 from ..model.data import ModelData
+from ..model.forms import is_member
 from .colours import HINGE
-from .forms import is_member
 from .members import Elements, described
 from .places import places_of_hinges, slots_of
 

@@ -21,8 +21,8 @@ from ..core.arrays import FloatArray, ModelArrays, packed
 from ..core.elements import Class, Dual, Member, NodeKind, dual_table
 from ..model.configuration import Configuration
 from ..model.data import ModelData
+from ..model.forms import all_held, is_member
 from .chains import groups_of
-from .forms import all_held, is_member
 from .places import slots_of
 from .pose import Moving, Pose, pose_of, reference_pose
 from .rotations import matrix_of, screw_matrix

@@ -11,8 +11,8 @@ import numpy as np
 from ..base.errors import BatchError, require_kind
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
+from ..model.forms import Form
 from .drawing import Drawing
-from .forms import Form
 
 #: Azimuth and elevation [degrees] of the views that have a name.
 NAMED = {

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Pose, drawing_of
-from ..drawing.forms import forms_of
 from ..drawing.movement import scale_of
 from ..drawing.selection import select_motion
 from ..model.data import ModelData
+from ..model.forms import forms_of
 from ..result.result import Result
 from .layout import Integers, Layout, layout_of
 
@@ -173,7 +173,8 @@ class Meshes:
             values |= {f"motion_{k}": moved, f"motion_{k}_rotation": turned}
         for k, stress in enumerate(self.analysis.self_stresses[:most], start=1):
             for quantity, of_points in layout.stress(stress).items():
-                values[f"selfstress_{k}_{quantity}"] = of_points
+                name = quantity.replace("-", "_").replace(" ", "_")
+                values[f"selfstress_{k}_{name}"] = of_points
         return values
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..base.plain_text import harmless
 from ..core.elements import coordinate_name
-from ..drawing import QUANTITIES, Drawing, Movement, Moving, move, reach_of, resultants
+from ..drawing import QUANTITIES, UNITS, Drawing, Movement, Moving, move, reach_of, resultants
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..text.deformation import deformation_word
@@ -89,7 +89,7 @@ def stresses(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
     made = []
     for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
         found = resultants(frame.drawing, stress)
-        weight = {each: 1.0 if each == "N" else 1.0 / found.length for each in QUANTITIES}
+        weight = {each: 1.0 if UNITS[each] == "N" else 1.0 / found.length for each in QUANTITIES}
         sizes = {each: found.largest(each) * weight[each] for each in QUANTITIES}
         there = [each for each in QUANTITIES if sizes[each] > _NOTHING * max(sizes.values())]
         hinges = {each: found.hinges[rows, QUANTITIES.index(each)] for each in there}

@@ -9,16 +9,13 @@ import numpy as np
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..drawing import QUANTITIES, Drawing, Resultants, stations
+from ..drawing import BENDING, QUANTITIES, Drawing, Resultants, stations
 from ..drawing.colours import diverging
 from .canvas import Canvas
 from .surfaces import OUTLINE
 
-UNITS = {"N": "N", "T": "N m", "My": "N m", "Mz": "N m"}
 #: Height of the largest bending moment in a diagram, a part of the drawing's size.
 _HEIGHT = 0.08
-#: Column of the local frame along which a diagram stands off the axis.
-_OFF = {"My": 2, "Mz": 1}
 #: A diagram in the plane of a sheet is seen on it: it counts as nearer to the eye by this part
 #: and half the thickness, along the line of sight, of which the cosine is at least so large.
 _ABOVE, _OBLIQUE = 0.006, 0.25
@@ -83,7 +80,7 @@ class Stress(Frozen):
     @property
     def has_diagram(self) -> bool:
         """Whether it is a bending moment."""
-        return self.quantity in _OFF
+        return self.quantity in BENDING
 
 
 @dataclass(frozen=True)
@@ -104,13 +101,12 @@ def stress_of(values: Resultants, quantity: str | None) -> Stress:
 def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]:
     """Draw bending diagrams beside the members; where their peaks are.
 
-    The diagram stands off the axis in the plane of bending, on the side of the local axis where
-    the moment is positive.
+    The diagram stands off the axis in the plane of bending, on the side that is stretched.
     """
     if not stress.has_diagram or not stress.largest > 0.0:
         return []
     peaks: list[Peak] = []
-    column, height = _OFF[stress.quantity], _HEIGHT * drawing.size / stress.largest
+    bending, height = BENDING[stress.quantity], _HEIGHT * drawing.size / stress.largest
     for strip in stations(drawing.members, drawing.reference, PIECES, drawing.members.seen):
         value = stress.values.along(stress.quantity, strip.member, strip.at)
         rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
@@ -118,11 +114,13 @@ def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]
             continue
         at = np.concatenate(([0.0], (np.arange(PIECES) + _BESIDE) / PIECES, [1.0]))
         centre = _between(strip.centre[rows], at)
-        off = _between(strip.frame[rows][..., column], at)
-        value = stress.values.along(stress.quantity, strip.member[rows], at)
+        member = strip.member[rows]
+        way = drawing.members.across[member, bending]
+        off = _between(np.einsum("ksxd,kd->ksx", strip.frame[rows][..., 1:], way), at)
+        value = stress.values.along(stress.quantity, member, at)
         tops = centre + height * value[..., None] * off
-        colour = stress.colours(strip.member[rows], at)
-        above = _ABOVE * drawing.size + _depth(canvas, drawing, strip.member[rows], column)
+        colour = stress.colours(member, at)
+        above = _ABOVE * drawing.size + _depth(canvas, drawing, member, 1 - bending)
         _add_outlined(canvas, centre, tops, colour, above)
         for row, peak in enumerate(np.abs(value).argmax(axis=1).tolist()):
             place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
@@ -130,12 +128,13 @@ def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]
     return _to_be_named(peaks, stress.largest)
 
 
-def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, column: int) -> FloatArray:
-    """(k,) how far behind a member's surface its axis lies, where a diagram is along a column."""
-    other = 3 - column
-    normal = drawing.members.frame[member][..., other]
+def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, row: int) -> FloatArray:
+    """(k,) how far behind a member's surface its axis lies, along a direction across it."""
+    across = drawing.members.across[member, row]
+    normal = np.einsum("kxd,kd->kx", drawing.members.frame[member][..., 1:], across)
     cosine = np.maximum(np.abs(normal @ canvas.view.axes[2]), _OBLIQUE)
-    return np.asarray(drawing.members.section[member, other - 1] / 2 / cosine)
+    thick = np.sum(np.abs(across) * drawing.members.section[member], axis=1)
+    return np.asarray(thick / 2 / cosine)
 
 
 def _between(points: FloatArray, at: FloatArray) -> FloatArray:

@@ -17,6 +17,8 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
 from .outcome import Outcome
+from .resultants import shared_resultants
+from .signs import sign_of_motion, sign_of_stress
 
 #: Parts of a mode below this part of its largest are not named.
 _UNNAMED = 1.0e-9
@@ -92,9 +94,17 @@ class Motion(Frozen):
     @property
     def vector(self) -> FloatArray:
         """(n,) column of V: the dependent coordinates [m, rad], of unit norm."""
-        column = self.analysis.raw.motions.vector(self.index)
+        column: FloatArray = self.sign * self.analysis.raw.motions.vector(self.index) + 0.0
         column.flags.writeable = False
         return column
+
+    @cached_property
+    def sign(self) -> float:
+        """1 or -1: what the core's vector is multiplied by (`flexact.result.signs`)."""
+        place, value = self.analysis.raw.motions.entries(self.index)
+        node, axis = self.analysis.raw.column_label[:, place] - 1
+        weighted = value * column_weights(self.analysis, place)
+        return sign_of_motion(self.data, node, axis, weighted)
 
     @cached_property
     def displacement(self) -> FloatArray:
@@ -112,7 +122,7 @@ class Motion(Frozen):
         node, axis = self.analysis.raw.column_label[:, place] - 1
         chosen = (kinds[node] <= NodeKind.POSITION) == positions
         made = np.zeros((kinds.size, 3))
-        made[node[chosen], axis[chosen]] = value[chosen]
+        made[node[chosen], axis[chosen]] = self.sign * value[chosen]
         made.flags.writeable = False
         return made
 
@@ -127,7 +137,7 @@ class Motion(Frozen):
         node, axis = analysis.raw.column_label[:, place[order]] - 1
         numbers = analysis.data.arrays.node_number[node].tolist()
         names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
-        return list(zip(numbers, names, value[order].tolist(), strict=True))
+        return list(zip(numbers, names, (self.sign * value[order]).tolist(), strict=True))
 
     def __repr__(self) -> str:
         """Its largest parts."""
@@ -150,9 +160,39 @@ class SelfStress(Frozen):
     @property
     def vector(self) -> FloatArray:
         """(m,) column of U: stress resultants dual to the deformations, of unit norm."""
-        column = self.analysis.raw.stresses.vector(self.index)
+        column: FloatArray = self.sign * self.analysis.raw.stresses.vector(self.index) + 0.0
         column.flags.writeable = False
         return column
+
+    @cached_property
+    def sign(self) -> float:
+        """1 or -1: what the core's vector is multiplied by (`flexact.result.signs`)."""
+        element, value = self._stressed
+        length = self.analysis.characteristic_length
+        return sign_of_stress(self.analysis.data, element, value, length)
+
+    @cached_property
+    def resultants(self) -> FloatArray:
+        """(elements, 4, 2) the `flexact.result.resultants.QUANTITIES` at both ends [N, N m].
+
+        Their signs depend on geometry alone.
+        """
+        element, value = self._stressed
+        data = self.analysis.data
+        made = np.zeros((data.arrays.element_number.size, 4, 2))
+        made[element] = shared_resultants(data, element, self.sign * value)
+        made.flags.writeable = False
+        return made
+
+    @cached_property
+    def _stressed(self) -> tuple[NDArray[np.int64], FloatArray]:
+        """(k,) stressed elements, (k, 6) the core's forces [N] and moments [N m] in them."""
+        place, value = self.analysis.raw.stresses.entries(self.index)
+        element, deformation = self.analysis.raw.row_label[:, place] - 1
+        index, row = np.unique(element, return_inverse=True)
+        made = np.zeros((index.size, 6))
+        made[row, deformation] = value * row_factors(self.analysis, place)
+        return index.astype(np.int64), made
 
     @cached_property
     def forces(self) -> FloatArray:
@@ -168,12 +208,11 @@ class SelfStress(Frozen):
         return self._at_elements(moments=True)
 
     def _at_elements(self, moments: bool) -> FloatArray:
-        place, value = self.analysis.raw.stresses.entries(self.index)
-        element, deformation = self.analysis.raw.row_label[:, place] - 1
-        chosen = (row_duals(self.analysis, place) != Dual.FORCE) == moments
-        values = value * row_factors(self.analysis, place)
-        made = np.zeros((self.analysis.data.arrays.element_number.size, 6))
-        made[element[chosen], deformation[chosen]] = values[chosen]
+        element, value = self._stressed
+        kinds = self.analysis.data.arrays.element_kind
+        chosen = (dual_table()[kinds[element]] != Dual.FORCE) == moments
+        made = np.zeros((kinds.size, 6))
+        made[element] = np.where(chosen, self.sign * value + 0.0, 0.0)
         made.flags.writeable = False
         return made
 
@@ -187,7 +226,7 @@ class SelfStress(Frozen):
         order = ranked(value * row_weights(analysis, place), k)
         element, deformation = analysis.raw.row_label[:, place[order]]
         numbers = analysis.data.arrays.element_number[element - 1].tolist()
-        values = value[order] * row_factors(analysis, place[order])
+        values = self.sign * value[order] * row_factors(analysis, place[order])
         return list(zip(numbers, deformation.tolist(), values.tolist(), strict=True))
 
     def __repr__(self) -> str:
