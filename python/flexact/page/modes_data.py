@@ -10,6 +10,7 @@ from typing import Any
 from ..base.plain_text import harmless
 from ..core.elements import coordinate_name
 from ..drawing import QUANTITIES, UNITS, Drawing, Movement, Moving, move, reach_of, resultants
+from ..drawing.selection import way_of
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..text.deformation import deformation_word
@@ -46,7 +47,7 @@ def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
 
 def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
     for freedom in looked_at(analysis):
-        if (motion := freedom.motion) is not None:
+        if (motion := way_of(freedom)) is not None:
             yield "freedom", freedom.label, f"Degree of freedom: {_in_words(freedom)}", motion
 
 

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..drawing import BENDING, QUANTITIES, Drawing, Resultants, stations
+from ..drawing import BENDING, QUANTITIES, Drawing, Resultants, Strip, stations
 from ..drawing.colours import diverging
+from ..model.directions import signs_of
 from .canvas import Canvas
 from .surfaces import OUTLINE
 
@@ -51,13 +53,13 @@ class Stress(Frozen):
     def colours(self, member: np.ndarray, at: FloatArray) -> FloatArray:
         """(k, s - 1, 3) of the pieces between stations (s,) of members (k,)."""
         middle = (at[1:] + at[:-1]) / 2
-        return diverging(self._relative(self.values.along(self.quantity, member, middle)))
+        return self.colours_of(self.values.along(self.quantity, member, middle))
 
     def member_colours(self) -> FloatArray:
         """(k, 3) of the members by the larger of the values at their ends."""
         ends = self.values[self.quantity]
-        larger = np.abs(ends).argmax(axis=1)[:, None]
-        return diverging(self._relative(np.take_along_axis(ends, larger, axis=1)[:, 0]))
+        high, low = ends.max(axis=1), ends.min(axis=1)
+        return self.colours_of(np.where(high >= -low * (1.0 - _EVEN), high, low))
 
     def is_loud(self) -> np.ndarray:
         """(k,) whether a member has more than a small part of the largest value."""
@@ -65,10 +67,11 @@ class Stress(Frozen):
 
     def hinge_colours(self) -> FloatArray:
         """(h, 3) of the hinges."""
-        return diverging(self._relative(self.values.hinges[:, QUANTITIES.index(self.quantity)]))
+        return self.colours_of(self.values.hinges[:, QUANTITIES.index(self.quantity)])
 
-    def _relative(self, values: FloatArray) -> FloatArray:
-        return values / self.largest if self.largest > 0.0 else np.zeros_like(values)
+    def colours_of(self, values: FloatArray) -> FloatArray:
+        """(..., 3) of values (...)."""
+        return diverging(values / self.largest if self.largest > 0.0 else np.zeros_like(values))
 
     @property
     def pieces(self) -> int:
@@ -106,26 +109,59 @@ def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]
     if not stress.has_diagram or not stress.largest > 0.0:
         return []
     peaks: list[Peak] = []
-    bending, height = BENDING[stress.quantity], _HEIGHT * drawing.size / stress.largest
+    row_across = BENDING[stress.quantity]
+    height = _HEIGHT * drawing.size / stress.largest
     for strip in stations(drawing.members, drawing.reference, PIECES, drawing.members.seen):
         value = stress.values.along(stress.quantity, strip.member, strip.at)
         rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
         if not rows.size:
             continue
-        at = np.concatenate(([0.0], (np.arange(PIECES) + _BESIDE) / PIECES, [1.0]))
-        centre = _between(strip.centre[rows], at)
+        part = _Diagram.of(drawing, stress, strip, rows)
+        centre, value = part.centre, part.value
+        tops = centre + height * value[..., None] * part.off
         member = strip.member[rows]
-        way = drawing.members.across[member, bending]
-        off = _between(np.einsum("ksxd,kd->ksx", strip.frame[rows][..., 1:], way), at)
-        value = stress.values.along(stress.quantity, member, at)
-        tops = centre + height * value[..., None] * off
-        colour = stress.colours(member, at)
-        above = _ABOVE * drawing.size + _depth(canvas, drawing, member, 1 - bending)
+        colour = stress.colours_of((value[:, 1:] + value[:, :-1]) / 2)
+        above = _ABOVE * drawing.size + _depth(canvas, drawing, member, 1 - row_across)
         _add_outlined(canvas, centre, tops, colour, above)
-        for row, peak in enumerate(np.abs(value).argmax(axis=1).tolist()):
+        for row, peak in enumerate(_peaks(value)):
             place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
             peaks.append(Peak(place, foot, float(value[row, peak])))
     return _to_be_named(peaks, stress.largest)
+
+
+class _Diagram(NamedTuple):
+    """Diagrams from the same end, whichever is called p."""
+
+    centre: FloatArray
+    """(k, s, 3) axes [m]."""
+    off: FloatArray
+    """(k, s, 3) unit vectors to the side that a positive moment stretches."""
+    value: FloatArray
+    """(k, s) moments."""
+
+    @classmethod
+    def of(cls, drawing: Drawing, stress: Stress, strip: Strip, rows: np.ndarray) -> _Diagram:
+        """Those of some rows of a strip."""
+        member = strip.member[rows]
+        across = drawing.members.across[member, BENDING[stress.quantity]]
+        centre = strip.centre[rows][:, [0, -1]]
+        off = np.einsum("ksxd,kd->ksx", strip.frame[rows][:, [0, -1], :, 1:], across)
+        value = stress.values[stress.quantity][member]
+        at = np.concatenate(([0.0], (np.arange(PIECES) + _BESIDE) / PIECES, [1.0]))
+        turned = signs_of(centre[:, 1] - centre[:, 0]) < 0.0
+        ends = np.concatenate((centre, off, value[..., None]), axis=2)
+        ends[turned] = ends[turned, ::-1]
+        every = (1 - at)[None, :, None] * ends[:, :1] + at[None, :, None] * ends[:, 1:]
+        return cls(every[..., :3], every[..., 3:6], every[..., 6])
+
+
+def _peaks(value: FloatArray) -> list[int]:
+    """(k,) the station of the largest value; where a moment is constant the middle."""
+    size = np.abs(value)
+    first = size >= (1.0 - _EVEN) * size.max(axis=1, keepdims=True)
+    constant = first.all(axis=1)
+    made: list[int] = np.where(constant, value.shape[1] // 2, first.argmax(axis=1)).tolist()
+    return made
 
 
 def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, row: int) -> FloatArray:
@@ -135,12 +171,6 @@ def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, row: int) -> Fl
     cosine = np.maximum(np.abs(normal @ canvas.view.axes[2]), _OBLIQUE)
     thick = np.sum(np.abs(across) * drawing.members.section[member], axis=1)
     return np.asarray(thick / 2 / cosine)
-
-
-def _between(points: FloatArray, at: FloatArray) -> FloatArray:
-    """(k, s, 3) values at stations (s,) of straight members, between those at their ends."""
-    share = at[None, :, None]
-    return np.asarray((1 - share) * points[:, :1] + share * points[:, -1:])
 
 
 def _add_outlined(
