@@ -35,7 +35,7 @@ class Analysis(Result):
     @property
     def model(self) -> Model:
         """The model as it was when it was analysed: a new one each time, free to be changed."""
-        return Model.from_data(self.data)
+        return Model.from_data(self.given)
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -48,8 +48,11 @@ class Analysis(Result):
         return warnings_of(self)
 
     def dense_jacobian(self) -> FloatArray:
-        """D(c) itself, (m, n), in the model's units, eq. (11)."""
-        whole = jacobian(self.model)
+        """D(c) itself, (m, n), in the model's units, eq. (11).
+
+        A divided sheet or wire that is declared counts as one beam.
+        """
+        whole = jacobian(Model.from_data(self.data))
         row_of = {label: i for i, label in enumerate(whole.row_labels)}
         column_of = {label: i for i, label in enumerate(whole.column_labels)}
         rows = [row_of[label] for label in self.row_labels]

@@ -69,8 +69,8 @@ def _refuse_deck(analysis: Result, path: Path) -> None:
     """
     if "\0" in str(path):
         raise OutputError("a file's name cannot hold a NUL")
-    deck = analysis.data.name
-    if analysis.data.source is None or not deck or "\0" in deck:
+    deck = analysis.given.name
+    if analysis.given.source is None or not deck or "\0" in deck:
         return
     if os.path.exists(deck) and os.path.realpath(deck) == os.path.realpath(path):
         raise OutputError(f"{path} would overwrite the deck")

@@ -264,7 +264,7 @@ def test_pin_jointed_bodies_move_each_on_its_own_screw() -> None:
     fixed = np.flatnonzero(np.all(model.coordinate_classes[:, :2] == Class.FIXED, axis=1))
     assert fixed.size == 2
     for motion in analysis.motions:
-        (pose,) = moved_by_screws(motion, [0.5])
+        (pose,) = moved_by_screws(motion.analysed, [0.5])
         np.testing.assert_allclose(pose.position[fixed], model.positions[fixed], atol=1e-15)
 
 

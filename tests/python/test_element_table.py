@@ -30,7 +30,7 @@ from flexact.core.raw import ElementKind
 from flexact.diagnostics.diagnostic import Severity
 from flexact.drawing import Form, drawing_of, resultants
 from flexact.model.appearance import CrossSection
-from flexact.model.forms import forms_of
+from flexact.model.parts.forms import forms_of
 from flexact.text.deformation import deformation_word
 
 oracle_elements: Any = importlib.import_module("oracle_elements")

@@ -125,7 +125,7 @@ def test_equal_values_that_are_not_zero(method: str, number: int) -> None:
     """D(c) is the identity."""
     analysis = analyse(posts(number, ("x",)), method=method)
     assert_right(analysis, (0, 0))
-    assert analysis.parts == number
+    assert analysis.components == number
     for values in (analysis.singular_values, analysis.scaled_singular_values):
         np.testing.assert_allclose(values / values[0], 1.0, rtol=1e-15)
     assert analysis.gap.largest_zero is None

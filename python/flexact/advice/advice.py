@@ -44,27 +44,13 @@ class Deformation(NamedTuple):
 
     element: int
     """Number of the element."""
-    name: str
-    """What the element is called, empty without a name."""
-    kind: int
-    """Row of the element table, from 1."""
     number: int
     """Number of the deformation, from 1."""
-
-    @property
-    def operands(self) -> str:
-        """Numbers of the element and the deformation, as a deck names them."""
-        return f"{self.element} {self.number}"
+    operands: str
+    """Numbers of the element and the deformation, as a deck names them."""
 
 
 Part = Coordinate | Deformation
-
-
-class Statement(NamedTuple):
-    """A statement of a deck."""
-
-    keyword: str
-    operands: str
 
 
 class Advice(NamedTuple):
@@ -75,10 +61,10 @@ class Advice(NamedTuple):
     """The best first; at most twelve, or all where all belong together."""
     more: bool
     """Whether there are more parts."""
-    statements: tuple[Statement, ...] = ()
-    """What does it with the first part, in a deck."""
+    keywords: tuple[str, ...] = ()
+    """Statements of a deck of which one does it with a part; none where there is none."""
     instead: bool = False
-    """Whether the last statement takes the place of one that is there."""
+    """Whether that takes the place of a statement that is there."""
 
 
 def on_motions(result: Result) -> Iterator[Advice]:
@@ -118,10 +104,7 @@ def _some(
     step: Step, parts: Iterable[Part], keywords: tuple[str, ...] = (), instead: bool = False
 ) -> Advice:
     some = tuple(islice(parts, _MOST_PARTS + 1))
-    statements = tuple(Statement(word, some[0].operands) for word in keywords) if some else ()
-    return Advice(
-        step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, statements, instead and bool(some)
-    )
+    return Advice(step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, keywords, instead)
 
 
 def _if_any(advice: Advice) -> Iterator[Advice]:
@@ -153,7 +136,7 @@ def coordinate_of(result: Result, node: int, axis: int) -> Coordinate:
 
 
 def _deformations(result: Result, places: leverage.Deformations) -> Iterator[Deformation]:
-    arrays, names = result.data.arrays, result.data.element_names
+    numbers, given = result.data.arrays.element_number, result.given.arrays.element_number
     for index, mode in places:
-        number, kind = int(arrays.element_number[index]), int(arrays.element_kind[index])
-        yield Deformation(number, names[index], kind, mode)
+        element, own = result.condensed.in_given(index, mode)
+        yield Deformation(int(numbers[index]), mode, f"{given[element]} {own}")

@@ -12,13 +12,17 @@ Of thousands of vectors that hang together the leverage is not exact; see `subsp
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import FloatArray
 from ..core.basis import Basis
 from ..core.elements import Class, Dual, NodeKind, dual_table
-from ..result.modes import column_weights, ranked, row_weights
+from ..result.modes import column_weights, row_weights
+from ..result.order import column_key, coordinate_key, deformation_key, ranked, row_key
 from ..result.result import Result
 from ..result.sparse_basis import (
     Sparse,
@@ -31,6 +35,8 @@ from ..result.sparse_basis import (
 #: Below this leverage a row does not reach into a space.
 _NOTHING = 1.0e-7
 
+#: By what equals are sorted, of an index.
+Key = Callable[[int], Any]
 #: Index of an element from 0 and number of its deformation from 1.
 Deformations = list[tuple[int, int]]
 #: Index of a node and axis, both from 0.
@@ -42,12 +48,15 @@ def releases(result: Result) -> list[int]:
 
     Rows of independent deformations are not among them; see `driven_deformations`.
     """
-    return _largest(_leverage_of_class(result, Class.FIXED))
+    leverage = _leverage_of_class(result, Class.FIXED)
+    leverage = np.where(_is_releasable(result), leverage, 0.0)
+    return _largest(leverage, lambda row: row_key(result, row))
 
 
 def release_set(result: Result) -> list[int]:
     """Rows of D(c) that remove all self-stresses when all of them are released."""
-    return _independent_rows(result.stress_space, _is_of_class(result, Class.FIXED))
+    able = _is_of_class(result, Class.FIXED) & _is_releasable(result)
+    return _independent_rows(result.stress_space, lambda row: row_key(result, row), able)
 
 
 def driven_deformations(result: Result) -> Deformations:
@@ -55,7 +64,8 @@ def driven_deformations(result: Result) -> Deformations:
 
     To release one in place of its declaration removes a self-stress.
     """
-    rows = _largest(_leverage_of_class(result, Class.INDEPENDENT))
+    leverage = _leverage_of_class(result, Class.INDEPENDENT)
+    rows = _largest(leverage, lambda row: row_key(result, row))
     labels = result.raw.row_label[:, rows].T.tolist()
     return [(element - 1, deformation) for element, deformation in labels]
 
@@ -72,12 +82,12 @@ def supports(result: Result) -> Coordinates:
 
 def coordinates(result: Result) -> list[int]:
     """Columns of D(c) that can be fixed or made independent to remove a motion."""
-    return _largest(row_norms(result.motion_space))
+    return _largest(row_norms(result.motion_space), lambda column: column_key(result, column))
 
 
 def coordinate_set(result: Result) -> list[int]:
     """Columns of D(c) that remove all motions when all are fixed or made independent."""
-    return _independent_rows(result.motion_space)
+    return _independent_rows(result.motion_space, lambda column: column_key(result, column))
 
 
 def deformations(result: Result) -> Deformations:
@@ -98,7 +108,8 @@ def deformations(result: Result) -> Deformations:
     rates = norms_of_product(matrix._replace(value=value), result.motion_space)
     angle = dual_table()[arrays.element_kind] == Dual.MOMENT
     leverage = np.where(angle, result.characteristic_length, 1.0).ravel() * rates
-    return [(row // 6, row % 6 + 1) for row in _largest(leverage)]
+    order = _largest(leverage, lambda row: deformation_key(result, *divmod(row, 6)))
+    return [(row // 6, row % 6 + 1) for row in order]
 
 
 def _is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
@@ -108,6 +119,19 @@ def _is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
         result.data.arrays.deformation_class[deformation, element] == wanted
     )
     return is_wanted
+
+
+def _is_releasable(result: Result) -> NDArray[np.bool_]:
+    """(m,) whether a row is of a part that can be made soft: not of a link inside a body.
+
+    Where there is nothing else, all are.
+    """
+    element = result.condensed.elements[result.raw.row_label[0] - 1]
+    inside = np.zeros(result.given.arrays.element_number.size, bool)
+    inside[list(result.parts.links)] = True
+    made: NDArray[np.bool_] = ~inside[element]
+    stressed = row_norms(result.stress_space) > _NOTHING
+    return made if made[stressed].any() else np.ones_like(made)
 
 
 def _leverage_of_class(result: Result, wanted: Class) -> FloatArray:
@@ -121,7 +145,9 @@ def _with_reaction(result: Result, wanted: Class) -> Coordinates:
     able = (classes == wanted).ravel()
     if not able.any():
         return []
-    return [(place // 3, place % 3) for place in _largest(_reactions(result, able))]
+    reaction = _reactions(result, able)
+    order = _largest(reaction, lambda place: coordinate_key(result, *divmod(place, 3)))
+    return [(place // 3, place % 3) for place in order]
 
 
 def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
@@ -149,13 +175,13 @@ def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
     return np.where(reaction > _NOTHING * contributed, reaction, 0.0)
 
 
-def _largest(leverage: FloatArray) -> list[int]:
-    order = np.array(ranked(leverage, leverage.size), np.int64)
+def _largest(leverage: FloatArray, key: Key) -> list[int]:
+    order = np.array(ranked(leverage, leverage.size, key), np.int64)
     chosen: list[int] = order[leverage[order] > _NOTHING].tolist()
     return chosen
 
 
-def _independent_rows(basis: Basis, able: NDArray[np.bool_] | None = None) -> list[int]:
+def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = None) -> list[int]:
     """Rows that span the space together, each as far from the ones before as can be.
 
     Only of `able` rows, if given.
@@ -170,7 +196,7 @@ def _independent_rows(basis: Basis, able: NDArray[np.bool_] | None = None) -> li
     chosen: list[int] = []
     for _ in range(basis.vectors):
         norms = np.sqrt(np.einsum("ij,ij->i", rest, rest))
-        first = ranked(norms, 1)
+        first = ranked(norms, 1, lambda i: key(int(support[i])))
         if not first or norms[first[0]] < _NOTHING:
             break
         direction = rest[first[0]] / norms[first[0]]

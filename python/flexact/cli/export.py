@@ -20,6 +20,7 @@ from flexact.files.decks import DeckFile
 from flexact.files.outputs import plan_file, plan_files
 from flexact.mesh.cycle import ENDINGS, STEM, SUFFIX, folder_of
 from flexact.mesh.writing import mesh_writer
+from flexact.text.naming import motion_in_words
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -53,7 +54,9 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
         name = harmless(deck.name)
         if shown is None:
             complain(f"{name}: note: the mechanism does not move; displacements are zero")
-        what = "" if shown is None else f", showing {shown.words}"
+        what = ""
+        if shown is not None:
+            what = f", showing {motion_in_words(analysis, shown.number, shown.freedom)}"
         say(f"{name}: written to {harmless(str(target))}{what}")
         return Outcome(deck.name, ExitCode.ANALYSED, "written")
 

@@ -5,7 +5,7 @@ Members with their sizes, symbols, poses, shapes, resultants and views; `picture
 `page` put them down.
 """
 
-from ..model.forms import Form
+from ..model.parts.forms import Form
 from ..result.resultants import QUANTITIES
 from .drawing import Drawing, drawing_of, joints_of
 from .hinges import Hinges

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..model.parts.bodies import groups_of
 
 #: Cosine of the largest angle between two beams of one sheet.
 _IN_LINE = 0.9998
@@ -42,18 +41,3 @@ def _neighbours(nodes: np.ndarray) -> list[tuple[int, int]]:
     counts = np.diff(np.r_[starts, ends.size])
     first = starts[counts == 2].astype(np.int64)
     return list(zip(member[first].tolist(), member[first + 1].tolist(), strict=True))
-
-
-def groups_of(count: int, pairs: Iterable[tuple[int, int]]) -> np.ndarray:
-    """(count,) of each thing one of its group, the same for all of the group."""
-    owner = list(range(count))
-
-    def root(i: int) -> int:
-        while owner[i] != i:
-            owner[i] = owner[owner[i]]
-            i = owner[i]
-        return i
-
-    for i, j in pairs:
-        owner[root(i)] = root(j)
-    return np.array([root(i) for i in range(count)], dtype=np.int64)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..model.forms import Form
+from ..model.parts.forms import Form
 
 #: (7, 3) from the most negative value over zero to the most positive: blue, grey, red, even in
 #: lightness to both sides and told apart by colour-blind people (Moreland, Diverging Color Maps

@@ -10,7 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import Member
 from ..model.data import ModelData
-from ..model.forms import is_member
+from ..model.parts.forms import is_member
 from .colours import HINGE
 from .members import Elements, described
 from .places import places_of_hinges, slots_of

@@ -14,7 +14,7 @@ from ..core.arrays import FloatArray
 from ..core.elements import Member, keywords_of, planar_table
 from ..model.appearance import Appearance, CrossSection
 from ..model.data import ModelData
-from ..model.forms import Form, all_held, bending_held, forms_of, is_member
+from ..model.parts.forms import Form, all_held, bending_held, forms_of, is_member
 from .chains import chain_lengths
 from .colours import of_forms
 from .places import slots_of

@@ -11,6 +11,7 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from .drawing import Drawing
+from .inner_nodes import poses_with_inner_nodes
 from .path import follow, is_followed, moved_by_screws
 from .pose import Moving, Pose, reference_pose
 from .rotations import between, vector_of
@@ -103,14 +104,17 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
 def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
     """The poses to both sides, up to the motion times `reach`; the deviation."""
     shares = reach * np.arange(1, _STEPS + 1) / _STEPS
-    followed = is_followed(motion.data)
+    analysed = motion.analysed
+    followed = is_followed(analysed.data)
     if followed:
-        sides = [follow(motion, sign * shares, size) for sign in (-1.0, 1.0)]
+        sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
         found = [side for side in sides if side is not None and side.deviation <= _UNSEEN]
         if len(found) == len(sides):
-            return [side.poses for side in found], max(side.deviation for side in found)
-    swings = [moved_by_screws(motion, (sign * shares).tolist()) for sign in (-1.0, 1.0)]
-    return swings, np.inf if followed else np.nan
+            poses = [poses_with_inner_nodes(motion.condensed, side.poses) for side in found]
+            return poses, max(side.deviation for side in found)
+    swings = [moved_by_screws(analysed, (sign * shares).tolist()) for sign in (-1.0, 1.0)]
+    whole = [poses_with_inner_nodes(motion.condensed, swing) for swing in swings]
+    return whole, np.inf if followed else np.nan
 
 
 def _factor(drawing: Drawing, ends: list[Pose]) -> float:

@@ -18,13 +18,12 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray, ModelArrays, packed
-from ..core.elements import Class, Dual, Member, NodeKind, dual_table
+from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from ..model.forms import all_held, is_member
-from .chains import groups_of
-from .places import slots_of
-from .pose import Moving, Pose, pose_of, reference_pose
+from ..model.parts.bodies import bodies_of
+from ..result.modes import Velocities
+from .pose import Pose, pose_of, reference_pose
 from .rotations import matrix_of, screw_matrix
 
 #: More coordinates than these are not followed: each step solves a dense system.
@@ -58,7 +57,7 @@ def is_followed(data: ModelData) -> bool:
     return 0 < coordinates <= _MOST_COORDINATES
 
 
-def follow(motion: Moving, shares: FloatArray, size: float) -> Path | None:
+def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
     """The poses at shares of a motion that grow from the reference on.
 
     Args:
@@ -116,7 +115,7 @@ class _Track:
         placed = (self.arrays.node_kind <= NodeKind.POSITION)[:, None]
         return Pose(np.where(placed, pose.position + self.middle, 0.0), pose.rotation)
 
-    def scaled(self, motion: Moving) -> FloatArray:
+    def scaled(self, motion: Velocities) -> FloatArray:
         """(columns,) the motion, rotations times the size of the drawing."""
         both = (motion.displacement + motion.rotation).ravel()
         return np.asarray(both[self.columns] * self.weight)
@@ -181,7 +180,7 @@ def _about_the_middle(arrays: ModelArrays) -> tuple[ModelArrays, FloatArray]:
     return arrays._replace(node_value=value), middle
 
 
-def moved_by_screws(motion: Moving, shares: Iterable[float]) -> tuple[Pose, ...]:
+def moved_by_screws(motion: Velocities, shares: Iterable[float]) -> tuple[Pose, ...]:
     """The poses after a motion times each of `shares`.
 
     Every node of a rigid body moves on the body's screw, so that the body keeps its shape. A
@@ -192,7 +191,7 @@ def moved_by_screws(motion: Moving, shares: Iterable[float]) -> tuple[Pose, ...]
 
 
 def _moved(
-    motion: Moving, share: float, reference: Pose, centre: np.ndarray, turn: np.ndarray
+    motion: Velocities, share: float, reference: Pose, centre: np.ndarray, turn: np.ndarray
 ) -> Pose:
     moved, turned = share * motion.displacement, share * motion.rotation
     position = reference.position + moved
@@ -213,17 +212,10 @@ def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
 
     (nodes,) indices, -1 for nodes of no body.
     """
-    rigid = is_member(arrays.element_kind, Member.BEAM, Member.LINK) & all_held(arrays)
-    slots = slots_of(arrays)[rigid]
-    # Members that share a position alone turn about it.
-    body_of = groups_of(
-        arrays.node_kind.size, ((oq, op) for _, op, _, oq in slots.tolist() if oq >= 0)
-    )
     centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
-    first: dict[int, tuple[int, int]] = {}
-    for p, op, q, _ in slots.tolist():
-        body = first.setdefault(int(body_of[op]), (p, op))
-        for node in (p, q):
+    for body in bodies_of(arrays):
+        p, op = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
+        for node in body.positions:
             if centre[node] < 0:
-                centre[node], turn[node] = body
+                centre[node], turn[node] = p, op
     return centre, turn

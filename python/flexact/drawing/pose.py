@@ -12,7 +12,8 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, ModelArrays
 from ..core.elements import NodeKind
 from ..model.configuration import Configuration
-from ..model.data import ModelData
+from ..model.parts.condensing import Condensed
+from ..result.modes import Velocities
 from .rotations import matrix_of, matrix_of_euler
 
 
@@ -33,16 +34,20 @@ class Moving(Protocol):
     """A motion at the nodes: of an analysis, or of a declared degree of freedom."""
 
     @property
-    def data(self) -> ModelData:
-        """The model in which it is a motion that nothing determines."""
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one that was analysed."""
+
+    @property
+    def analysed(self) -> Velocities:
+        """The velocities of the latter's nodes; nothing determines them in its model."""
 
     @property
     def displacement(self) -> FloatArray:
-        """(nodes, 3) [m]."""
+        """(nodes, 3) of the model as given [m]."""
 
     @property
     def rotation(self) -> FloatArray:
-        """(nodes, 3) [rad]."""
+        """(nodes, 3) likewise [rad]."""
 
 
 def reference_pose(arrays: ModelArrays) -> Pose:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..model.forms import Form
+from ..model.parts.forms import Form
 from ..result.resultants import QUANTITIES
 from .drawing import Drawing
 

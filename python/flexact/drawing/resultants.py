@@ -12,7 +12,7 @@ import numpy as np
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..model.forms import Form
+from ..model.parts.forms import Form
 from ..result.modes import SelfStress
 from ..result.resultants import QUANTITIES
 from .drawing import Drawing

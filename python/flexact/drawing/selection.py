@@ -11,6 +11,7 @@ import numpy as np
 from ..base.errors import BatchError, FlexactError
 from ..base.frozen import Frozen
 from ..result.freedoms import Freedom
+from ..result.modes import Velocities
 from ..result.result import Result
 from ..result.signs import sign_of_motion
 from .pose import Moving
@@ -29,11 +30,14 @@ class Selection(Frozen):
 
     Attributes:
         motion: The motion.
-        words: Which one it is, such as "motion 1 of 2".
+        number: Which one of the motions or degrees of freedom it is, from 1.
+        freedom: The degree of freedom that it is the motion of; None of a motion that nothing
+            determines.
     """
 
     motion: Moving
-    words: str
+    number: int
+    freedom: Freedom | None = None
 
 
 def select_motion(
@@ -81,10 +85,15 @@ def way_of(freedom: Freedom) -> Moving | None:
     if motion is None or freedom.is_coordinate:
         return motion
     length = freedom.analysis.characteristic_length
-    both = motion.displacement + length * motion.rotation
+    data, moved, turned = (
+        motion.analysed.data,
+        motion.analysed.displacement,
+        motion.analysed.rotation,
+    )
+    both = moved + length * turned
     node, axis = np.nonzero(both)
-    sign = sign_of_motion(motion.data, node, axis, both[node, axis])
-    return replace(motion, displacement=sign * motion.displacement, rotation=sign * motion.rotation)
+    sign = sign_of_motion(data, node, axis, both[node, axis])
+    return replace(motion, analysed=Velocities(data, sign * moved, sign * turned))
 
 
 def require_there(number: int, count: int, what: str, plural: str) -> None:
@@ -101,9 +110,7 @@ def require_there(number: int, count: int, what: str, plural: str) -> None:
 def _of_motion(analysis: Result, number: int) -> Selection:
     count = len(analysis.motions)
     require_there(number, count, "motion", "motions")
-    return Selection(
-        analysis.motions[number - 1], f"motion {number} of {analysis.under_constrained}"
-    )
+    return Selection(analysis.motions[number - 1], number)
 
 
 def _of_freedom(analysis: Result, number: int) -> Selection:
@@ -111,5 +118,5 @@ def _of_freedom(analysis: Result, number: int) -> Selection:
     require_there(number, count, "degree of freedom", "degrees of freedom")
     chosen = analysis.freedoms[number - 1]
     if (found := way_of(chosen)) is None:
-        raise NotThereError(f"degree of freedom {number}, {chosen.label}, cannot move")
-    return Selection(found, f"degree of freedom {number}, {chosen.label}")
+        raise NotThereError(f"degree of freedom {number} cannot move: a self-stress stops it")
+    return Selection(found, number, chosen)

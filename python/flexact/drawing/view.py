@@ -11,7 +11,7 @@ import numpy as np
 from ..base.errors import BatchError, require_kind
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..model.forms import Form
+from ..model.parts.forms import Form
 from .drawing import Drawing
 
 #: Azimuth and elevation [degrees] of the views that have a name.

@@ -17,7 +17,7 @@ from ..drawing import Drawing, Pose, drawing_of
 from ..drawing.movement import scale_of
 from ..drawing.selection import select_motion
 from ..model.data import ModelData
-from ..model.forms import forms_of
+from ..model.parts.forms import forms_of
 from ..result.result import Result
 from .layout import Integers, Layout, layout_of
 
@@ -103,20 +103,20 @@ class Meshes:
         """The points and cells of an analysis, for so many meshes."""
         self.analysis = analysis
         self.count = count
-        self.small = analysis.data.arrays.element_number.size <= MOST_SURFACES
-        drawn = analysis.data.appearance.drawn
+        self.small = analysis.given.arrays.element_number.size <= MOST_SURFACES
+        drawn = analysis.given.appearance.drawn
         self.skinned = drawn if self.small else np.zeros_like(drawn)
         self.reference = self.layout(self.drawing.reference)
 
     @cached_property
     def drawn(self) -> Drawing:
         """The drawing as it is drawn."""
-        return drawing_of(self.analysis.data)
+        return drawing_of(self.analysis.given)
 
     @cached_property
     def drawing(self) -> Drawing:
         """The drawing with what is not drawn, too."""
-        data = self.analysis.data
+        data = self.analysis.given
         return self.drawn if data.appearance.drawn.all() else drawing_of(_all_drawn(data))
 
     def layout(self, pose: Pose) -> Layout:
@@ -145,7 +145,7 @@ class Meshes:
     def with_data(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
         """A mesh with these points, displacements and rotations, (n, 3) each."""
         values = {"displacement": moved, "rotation": turned, **self._of_analysis}
-        arrays, element = self.analysis.data.arrays, self.reference.element
+        arrays, element = self.analysis.given.arrays, self.reference.element
         of_cells = {
             "element": arrays.element_number.astype(np.int64),
             "kind": arrays.element_kind.astype(np.int64),
@@ -156,14 +156,14 @@ class Meshes:
             self.reference.corners,
             values,
             {name: of_elements[element] for name, of_elements in of_cells.items()},
-            self.analysis.data.element_names,
+            self.analysis.given.element_names,
             element,
         )
 
     @cached_property
     def _of_analysis(self) -> dict[str, NDArray[np.generic]]:
         """Point data that are the same in every pose."""
-        layout, numbers = self.reference, self.analysis.data.arrays.node_number
+        layout, numbers = self.reference, self.analysis.given.arrays.node_number
         node = np.zeros(len(layout.points), np.int64)
         node[: layout.node.size] = np.where(layout.node >= 0, numbers[layout.node], 0)
         values: dict[str, NDArray[np.generic]] = {"node": node}

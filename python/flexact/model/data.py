@@ -16,7 +16,8 @@ from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
 from ..diagnostics.source import Source, decode
 from .appearance import Appearance
-from .directions import directions_across
+from .parts.chains import Chain, chains_of
+from .parts.directions import directions_across
 
 #: As the core says it of a deck.
 _NOTHING = Diagnostic(
@@ -109,6 +110,11 @@ class ModelData(Frozen):
         return {number: i for i, number in enumerate(self.arrays.element_number.tolist())}
 
     @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """Rows of beams that are one sheet or wire each."""
+        return chains_of(self.arrays, self.element_names)
+
+    @cached_property
     def count(self) -> RawCount:
         """Counts by class and the size of D(c)."""
         return calls.count_model(self.packed)
@@ -120,8 +126,8 @@ class ModelData(Frozen):
 
     @cached_property
     def across(self) -> FloatArray:
-        """(elements, 2, 3) unit vectors across the elements (`flexact.model.directions`)."""
-        return directions_across(self.arrays, self.frames.frame)
+        """(elements, 2, 3) unit vectors across the elements (`flexact.model.parts.directions`)."""
+        return directions_across(self.arrays, self.frames.frame, self.chains)
 
     def require_sound(self) -> None:
         """Raise where the model cannot be analysed.

@@ -8,7 +8,8 @@ from typing import Any
 
 from ..drawing import QUANTITIES
 from ..result.freedoms import Freedom
-from ..text.sentences import Line, Named
+from ..text.naming import freedom_in_words
+from ..text.sentences import Line
 from .markup import flowing, image, text
 
 _VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right"))
@@ -138,7 +139,7 @@ def _choice(index: int, mode: dict[str, Any]) -> tuple[str, str, str]:
 def _immovable(stuck: Sequence[Freedom]) -> str:
     if not stuck:
         return ""
-    items = tuple((Named(*each.owner), f" {each.part}") for each in stuck)
+    items = tuple(map(freedom_in_words, stuck))
     line = Line(("Declared, but a self-stress stops it: ",), items)
     return f'<p class="note stuck">{flowing(line)}.</p>'
 

@@ -106,7 +106,7 @@ def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
 
 
 def _nodes(analysis: Result, frame: Frame) -> dict[str, Any]:
-    arrays, kept = analysis.data.arrays, frame.kept
+    arrays, kept = analysis.given.arrays, frame.kept
     placed = arrays.node_kind <= NodeKind.POSITION
     place = np.where(placed, np.arange(placed.size), -1)
     pairs = turned_at(arrays)
@@ -121,7 +121,7 @@ def _nodes(analysis: Result, frame: Frame) -> dict[str, Any]:
 
 def _held(analysis: Result, frame: Frame, pairs: np.ndarray) -> dict[int, str]:
     """What is fixed at position nodes, by their index in the page."""
-    arrays = analysis.data.arrays
+    arrays = analysis.given.arrays
     fixed = (arrays.coordinate_class == Class.FIXED).T
     placed = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
     names: dict[int, list[str]] = defaultdict(list)

@@ -20,12 +20,13 @@ def text(words: str) -> str:
 
 def flowing(line: Line) -> str:
     """A line of text; what it names is linked with the drawing."""
-    items = [_linked(item) + text(note) for item, note in line.listed()]
+    items = [linked(item) + text(note) for item, note in line.listed()]
     items += ["\N{HORIZONTAL ELLIPSIS}"] * line.more
-    return _linked(line.head) + "; ".join(items)
+    return linked(line.head) + "; ".join(items)
 
 
-def _linked(pieces: Pieces) -> str:
+def linked(pieces: Pieces) -> str:
+    """Words whose nodes and elements are linked with the drawing."""
     return "".join(
         link(piece.kind, piece.number, str(piece)) if isinstance(piece, Named) else text(piece)
         for piece in pieces

@@ -7,13 +7,12 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
-from ..base.plain_text import harmless
-from ..core.elements import coordinate_name
 from ..drawing import QUANTITIES, UNITS, Drawing, Movement, Moving, move, reach_of, resultants
 from ..drawing.selection import way_of
 from ..result.freedoms import Freedom
 from ..result.result import Result
-from ..text.deformation import deformation_word
+from ..text.naming import freedom_in_words
+from ..text.sentences import plain
 from .drawing_data import Frame, hinges_in
 from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES, MOST_POSES
 from .packing import floats
@@ -48,29 +47,15 @@ def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
 def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
     for freedom in looked_at(analysis):
         if (motion := way_of(freedom)) is not None:
-            yield "freedom", freedom.label, f"Degree of freedom: {_in_words(freedom)}", motion
+            words = plain(freedom_in_words(freedom))
+            yield "freedom", words, f"Degree of freedom: {words}", motion
 
 
 def looked_at(analysis: Result) -> tuple[Freedom, ...]:
     """The declared degrees of freedom whose motions are asked for."""
-    if analysis.data.arrays.element_number.size > MOST_ELEMENTS:
+    if analysis.given.arrays.element_number.size > MOST_ELEMENTS:
         return ()
     return analysis.freedoms[:MOST_MODES]
-
-
-def _in_words(freedom: Freedom) -> str:
-    """Such as "bending at q in the local xy plane of element 1 (upper 90, ground to fold)"."""
-    data, (part, owner) = freedom.analysis.data, freedom.place
-    arrays = data.arrays
-    if freedom.is_coordinate:
-        name = coordinate_name(int(arrays.node_kind[owner]), part)
-        what = (
-            f"rotation about {name[1:]}" if name.startswith("r") else f"displacement along {name}"
-        )
-        return f"{what} of node {arrays.node_number[owner]}"
-    word = deformation_word(int(arrays.element_kind[owner]), part + 1)
-    name = harmless(data.element_names[owner])
-    return f"{word} of element {arrays.element_number[owner]}" + (f" ({name})" if name else "")
 
 
 def _note(drawing: Drawing, movement: Movement) -> str:

@@ -5,10 +5,14 @@ from __future__ import annotations
 
 from ..result.modes import Motion, SelfStress
 from ..result.result import Result
-from ..text.deformation import deformation_word
-from ..text.naming import unit_of
+from ..text.naming import (
+    coordinate_in_words,
+    deformation_in_words,
+    unit_of,
+    unit_of_coordinate,
+)
 from .limits import MOST_MODES, MOST_PARTS
-from .markup import bar, link, number, row, section, table, text
+from .markup import bar, linked, number, row, section, table
 
 #: How many tables are open at first.
 _OPEN = 2
@@ -66,26 +70,24 @@ def _mode(title: str, shown_by: str, content: str, place: int) -> str:
 
 
 def _of_motion(motion: Motion) -> str:
-    parts = motion.largest(MOST_PARTS)
-    length = motion.analysis.characteristic_length
+    parts, analysis = motion.largest(MOST_PARTS), motion.analysis
+    length = analysis.characteristic_length
     sizes = [value * (length if name.startswith("r") else 1.0) for _, name, value in parts]
     rows = (
         row(
-            link("node", node, f"node {node}"),
-            text(name),
+            linked(coordinate_in_words(analysis, node, name)),
             number(value),
-            "rad" if name.startswith("r") else "m",
+            unit_of_coordinate(name),
             bar(size / _largest(sizes)),
             about=f' data-node="{node}"',
         )
         for (node, name, value), size in zip(parts, sizes, strict=True)
     )
-    return table(("node", "coordinate", "value", "unit", ""), rows, kind="parts")
+    return table(("what moves", "value", "unit", ""), rows, kind="parts")
 
 
 def _of_stress(analysis: Result, stress: SelfStress) -> str:
     parts = stress.largest(MOST_PARTS)
-    index_of, kinds = analysis.data.element_index, analysis.data.arrays.element_kind
     units = [unit_of(analysis, element, mode) for element, mode, _ in parts]
     length = analysis.characteristic_length
     sizes = [
@@ -94,8 +96,7 @@ def _of_stress(analysis: Result, stress: SelfStress) -> str:
     ]
     rows = (
         row(
-            link("element", element, f"element {element}") + _name(analysis, index_of[element]),
-            text(f"e{mode} {deformation_word(kinds[index_of[element]], mode)}"),
+            linked(deformation_in_words(analysis, element, mode)),
             number(value),
             unit.replace(" ", "\N{NO-BREAK SPACE}"),
             bar(size / _largest(sizes)),
@@ -103,12 +104,7 @@ def _of_stress(analysis: Result, stress: SelfStress) -> str:
         )
         for (element, mode, value), unit, size in zip(parts, units, sizes, strict=True)
     )
-    return table(("element", "deformation", "value", "unit", ""), rows, kind="parts")
-
-
-def _name(analysis: Result, index: int) -> str:
-    name = analysis.data.element_names[index]
-    return f'<span class="called">{text(name)}</span>' if name else ""
+    return table(("what is stressed", "value", "unit", ""), rows, kind="parts")
 
 
 def _largest(sizes: list[float]) -> float:

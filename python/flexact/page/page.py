@@ -38,7 +38,7 @@ def page(analysis: Result, still: bytes | None = None) -> str:
     data = _data(analysis)
     every = warnings_of(analysis)
     name = _file_name(analysis.name)
-    raw, is_written = deck_of_model(analysis.data)
+    raw, is_written = deck_of_model(analysis.given)
     drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
     warnings = [item for item in every if item.line == 0]
     in_deck = [item for item in every if item.line > 0]
@@ -104,7 +104,7 @@ def reason_in_words(error: Exception) -> str:
 
 
 def _data(analysis: Result) -> dict[str, Any]:
-    frame = frame_of(drawing_of(analysis.data))
+    frame = frame_of(drawing_of(analysis.given))
     tracks = Tracks(frame)
     return {
         **static_data(analysis, frame),
@@ -118,7 +118,7 @@ def _data(analysis: Result) -> dict[str, Any]:
 
 def _left_out(analysis: Result, data: dict[str, Any], stuck: int) -> Iterator[str]:
     """What of a large result is not in the drawing; `stuck` degrees of freedom do not move."""
-    members = int((analysis.data.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
+    members = int((analysis.given.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
     if members > MOST_MEMBERS:
         yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
     kinds = [movement["kind"] for movement in data["movements"]]

@@ -130,7 +130,7 @@ def _figure(
         raise ValueError(f"a phase is a number from -1 to 1, not {in_short(phase)}")
     check_packages()
     load_matplotlib()
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     subjects = subjects_of(analysis, drawing, chosen)
     seen = view_of(view, drawing)
     size = None if size is None else _checked(size)
@@ -177,7 +177,7 @@ def picture_bytes(
     with _quiet():
         load_matplotlib()
         if kind == ".gif":
-            drawing = drawing_of(analysis.data)
+            drawing = drawing_of(analysis.given)
             subject, seen = moving_subject(analysis, drawing, asked), view_of(view, drawing)
             return gif_bytes(
                 analysis, drawing, subject, seen, size=size, plain=plain, progress=progress

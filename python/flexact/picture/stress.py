@@ -12,7 +12,7 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..drawing import BENDING, QUANTITIES, Drawing, Resultants, Strip, stations
 from ..drawing.colours import diverging
-from ..model.directions import signs_of
+from ..model.parts.directions import signs_of
 from .canvas import Canvas
 from .surfaces import OUTLINE
 

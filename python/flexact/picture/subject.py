@@ -12,6 +12,7 @@ from ..base.plain_text import harmless
 from ..drawing import QUANTITIES, Drawing, Movement, move, quantity_named, resultants
 from ..drawing.selection import Selection, require_there, select_motion
 from ..result.result import Result
+from ..text.naming import motion_in_words
 from .stress import Stress, stress_of
 
 
@@ -88,7 +89,7 @@ def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subj
         return _asked_for(analysis, drawing, chosen)
     made = []
     if len(analysis.motions) or not len(analysis.self_stresses):
-        made += _moving(drawing, select_motion(analysis))
+        made += _moving(analysis, drawing, select_motion(analysis))
     if len(analysis.self_stresses):
         made.append(_stressed(analysis, drawing, 1, None))
     return made or [Subject()]
@@ -111,7 +112,7 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
                 "an animation shows one of them: a motion, a degree of freedom or a self-stress"
             )
         return made[0]
-    made = _moving(drawing, select_motion(analysis))
+    made = _moving(analysis, drawing, select_motion(analysis))
     if not made and len(analysis.self_stresses):
         made.append(_stressed(analysis, drawing, 1, None))
     return made[0] if made else Subject()
@@ -120,19 +121,20 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
 def _asked_for(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subject]:
     made = []
     if chosen.motion is not None:
-        made += _moving(drawing, select_motion(analysis, motion=chosen.motion))
+        made += _moving(analysis, drawing, select_motion(analysis, motion=chosen.motion))
     if chosen.freedom is not None:
-        made += _moving(drawing, select_motion(analysis, freedom=chosen.freedom))
+        made += _moving(analysis, drawing, select_motion(analysis, freedom=chosen.freedom))
     if chosen.is_stressed:
         number = 1 if chosen.stress is None else chosen.stress
         made.append(_stressed(analysis, drawing, number, chosen.quantity))
     return made
 
 
-def _moving(drawing: Drawing, shown: Selection | None) -> list[Subject]:
+def _moving(analysis: Result, drawing: Drawing, shown: Selection | None) -> list[Subject]:
     if shown is None:
         return []
-    return [Subject(_heading(shown.words), movement=move(drawing, shown.motion))]
+    words = motion_in_words(analysis, shown.number, shown.freedom)
+    return [Subject(_heading(words), movement=move(drawing, shown.motion))]
 
 
 def _stressed(analysis: Result, drawing: Drawing, number: int, quantity: str | None) -> Subject:

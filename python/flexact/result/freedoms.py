@@ -21,7 +21,9 @@ from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind, coordinate_name
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
+from ..model.parts.condensing import Condensed
 from .decompose import decompose
+from .modes import Velocities
 from .outcome import Asked, Outcome
 
 #: Independent velocities that depend on each other to within this part cannot be told apart.
@@ -40,14 +42,26 @@ class FreeMotion(Frozen):
     """The velocities of all nodes in a declared degree of freedom.
 
     Attributes:
-        data: The model without this declaration.
-        displacement: (nodes, 3) of each position [m]; zero rows for orientations.
-        rotation: (nodes, 3) of each orientation [rad]; zero rows for positions.
+        condensed: The model at whose nodes it is a motion, and the one that was analysed.
+        analysed: The velocities of the latter's nodes; its model is without this declaration.
     """
 
-    data: ModelData
-    displacement: FloatArray
-    rotation: FloatArray
+    condensed: Condensed
+    analysed: Velocities
+
+    @property
+    def displacement(self) -> FloatArray:
+        """(nodes, 3) of each position [m]; zero rows for orientations."""
+        return self._at_nodes[0]
+
+    @property
+    def rotation(self) -> FloatArray:
+        """(nodes, 3) of each orientation [rad]; zero rows for positions."""
+        return self._at_nodes[1]
+
+    @cached_property
+    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
+        return self.analysed.at_all_nodes(self.condensed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -104,7 +118,10 @@ class Freedom(Frozen):
             return None
         placed = (data.arrays.node_kind <= NodeKind.POSITION)[:, None]
         without = _undeclared(data, [(self.is_coordinate, *self.place)])
-        return FreeMotion(without, np.where(placed, both, 0.0), np.where(placed, 0.0, both))
+        return FreeMotion(
+            self.analysis.condensed,
+            Velocities(without, np.where(placed, both, 0.0), np.where(placed, 0.0, both)),
+        )
 
 
 class Block:

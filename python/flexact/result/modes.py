@@ -16,12 +16,12 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
+from ..model.parts.condensing import Condensed
+from .order import column_key, ranked, row_key
 from .outcome import Outcome
 from .resultants import shared_resultants
 from .signs import sign_of_motion, sign_of_stress
 
-#: Parts of a mode below this part of its largest are not named.
-_UNNAMED = 1.0e-9
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12
 
@@ -61,17 +61,28 @@ def row_weights(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
     return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)
 
 
-def ranked(weighted: FloatArray, most: int) -> list[int]:
-    """Indices of the largest entries; those of practically one size in their order."""
-    size = np.abs(weighted)
-    largest = size.max(initial=0.0)
-    if not largest > 0.0:
-        return []
-    rounded = np.round(size / largest, 9)
-    least = np.partition(rounded, -most)[-most] if 0 < most < size.size else 0.0
-    able = np.flatnonzero((rounded > _UNNAMED) & (rounded >= least))
-    chosen: list[int] = able[np.argsort(-rounded[able], kind="stable")][:most].tolist()
-    return chosen
+@dataclass(frozen=True, eq=False)
+class Velocities(Frozen):
+    """The velocities of all nodes of a model.
+
+    Attributes:
+        data: The model.
+        displacement: (nodes, 3) of each position [m]; zero rows for orientations.
+        rotation: (nodes, 3) of each orientation [rad]; zero rows for positions.
+    """
+
+    data: ModelData
+    displacement: FloatArray
+    rotation: FloatArray
+
+    def at_all_nodes(self, condensed: Condensed) -> tuple[FloatArray, FloatArray]:
+        """Displacement and rotation at the nodes of the model as it was given."""
+        if not condensed.chains:
+            return self.displacement, self.rotation
+        made = condensed.motion(self.displacement, self.rotation)
+        for array in made:
+            array.flags.writeable = False
+        return made
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,9 +98,9 @@ class Motion(Frozen):
     analysis: Outcome
 
     @property
-    def data(self) -> ModelData:
-        """The model whose coordinates it is a motion of."""
-        return self.analysis.data
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one whose coordinates it is made of."""
+        return self.analysis.condensed
 
     @property
     def vector(self) -> FloatArray:
@@ -104,27 +115,31 @@ class Motion(Frozen):
         place, value = self.analysis.raw.motions.entries(self.index)
         node, axis = self.analysis.raw.column_label[:, place] - 1
         weighted = value * column_weights(self.analysis, place)
-        return sign_of_motion(self.data, node, axis, weighted)
+        return sign_of_motion(self.analysis.data, node, axis, weighted)
 
     @cached_property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
-        return self._at_nodes(positions=True)
-
-    @cached_property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
-        return self._at_nodes(positions=False)
-
-    def _at_nodes(self, positions: bool) -> FloatArray:
+    def analysed(self) -> Velocities:
+        """The velocities of the nodes of the model as it was analysed."""
         kinds = self.analysis.data.arrays.node_kind
         place, value = self.analysis.raw.motions.entries(self.index)
         node, axis = self.analysis.raw.column_label[:, place] - 1
-        chosen = (kinds[node] <= NodeKind.POSITION) == positions
-        made = np.zeros((kinds.size, 3))
-        made[node[chosen], axis[chosen]] = self.sign * value[chosen]
-        made.flags.writeable = False
-        return made
+        both = np.zeros((2, kinds.size, 3))
+        both[(kinds[node] > NodeKind.POSITION).astype(int), node, axis] = self.sign * value
+        return Velocities(self.analysis.data, *both)
+
+    @property
+    def displacement(self) -> FloatArray:
+        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
+        return self._at_nodes[0]
+
+    @property
+    def rotation(self) -> FloatArray:
+        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
+        return self._at_nodes[1]
+
+    @cached_property
+    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
+        return self.analysed.at_all_nodes(self.condensed)
 
     def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
         """Node number, coordinate and value [m, rad] of the k largest parts.
@@ -133,7 +148,8 @@ class Motion(Frozen):
         """
         analysis = self.analysis
         place, value = analysis.raw.motions.entries(self.index)
-        order = ranked(value * column_weights(analysis, place), k)
+        weighted = value * column_weights(analysis, place)
+        order = ranked(weighted, k, lambda i: column_key(analysis, place[i]))
         node, axis = analysis.raw.column_label[:, place[order]] - 1
         numbers = analysis.data.arrays.node_number[node].tolist()
         names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
@@ -175,12 +191,12 @@ class SelfStress(Frozen):
     def resultants(self) -> FloatArray:
         """(elements, 4, 2) the `flexact.result.resultants.QUANTITIES` at both ends [N, N m].
 
-        Their signs depend on geometry alone.
+        Of the model as it was given; their signs depend on geometry alone.
         """
-        element, value = self._stressed
-        data = self.analysis.data
-        made = np.zeros((data.arrays.element_number.size, 4, 2))
-        made[element] = shared_resultants(data, element, self.sign * value)
+        value = self.forces + self.moments
+        element = np.flatnonzero(value.any(axis=1))
+        made = np.zeros((len(value), 4, 2))
+        made[element] = shared_resultants(self.analysis.given, element, value[element])
         made.flags.writeable = False
         return made
 
@@ -194,26 +210,30 @@ class SelfStress(Frozen):
         made[row, deformation] = value * row_factors(self.analysis, place)
         return index.astype(np.int64), made
 
-    @cached_property
+    @property
     def forces(self) -> FloatArray:
         """(elements, 6) by deformation, where its stress resultant is a force [N]; else zero."""
-        return self._at_elements(moments=False)
+        return self._at_elements[1]
 
-    @cached_property
+    @property
     def moments(self) -> FloatArray:
         """(elements, 6) by deformation, where it is a moment [N m]; else zero.
 
         Of a beam's torsion and bending the moment is sigma l0.
         """
-        return self._at_elements(moments=True)
+        return self._at_elements[0]
 
-    def _at_elements(self, moments: bool) -> FloatArray:
+    @cached_property
+    def _at_elements(self) -> tuple[FloatArray, FloatArray]:
         element, value = self._stressed
         kinds = self.analysis.data.arrays.element_kind
-        chosen = (dual_table()[kinds[element]] != Dual.FORCE) == moments
-        made = np.zeros((kinds.size, 6))
-        made[element] = np.where(chosen, self.sign * value + 0.0, 0.0)
-        made.flags.writeable = False
+        is_force = dual_table()[kinds[element]] == Dual.FORCE
+        both = np.zeros((2, kinds.size, 6))
+        for values, chosen in zip(both, (~is_force, is_force), strict=True):
+            values[element] = np.where(chosen, self.sign * value + 0.0, 0.0)
+        made = self.analysis.condensed.stress(*both)
+        for array in made:
+            array.flags.writeable = False
         return made
 
     def largest(self, k: int = 6) -> list[tuple[int, int, float]]:
@@ -223,7 +243,8 @@ class SelfStress(Frozen):
         """
         analysis = self.analysis
         place, value = analysis.raw.stresses.entries(self.index)
-        order = ranked(value * row_weights(analysis, place), k)
+        weighted = value * row_weights(analysis, place)
+        order = ranked(weighted, k, lambda i: row_key(analysis, place[i]))
         element, deformation = analysis.raw.row_label[:, place[order]]
         numbers = analysis.data.arrays.element_number[element - 1].tolist()
         values = self.sign * value[order] * row_factors(analysis, place[order])

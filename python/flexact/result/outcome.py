@@ -17,6 +17,8 @@ from ..core.arrays import FloatArray
 from ..core.raw import RawAnalysis, RawAssembly
 from ..model.data import ModelData
 from ..model.labels import Labels, column_labels, row_labels
+from ..model.parts.condensing import Condensed
+from ..model.parts.parts import Parts
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
 
@@ -40,15 +42,30 @@ class Outcome(Frozen):
 
     Attributes:
         name: What the deck or model is called.
-        data: The model at the time of the analysis.
+        condensed: The model at the time of the analysis, and as it was analysed.
         raw: The results as the core gives them.
         asked: The method and the tolerance that were asked for.
     """
 
     name: str
-    data: ModelData
+    condensed: Condensed
     raw: RawAnalysis
     asked: Asked = _PLAIN
+
+    @property
+    def data(self) -> ModelData:
+        """The model as it was analysed: a divided sheet or wire that is declared is one beam."""
+        return self.condensed.data
+
+    @property
+    def given(self) -> ModelData:
+        """The model as it was given, with the nodes inside its sheets and wires."""
+        return self.condensed.given
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Sheets, wires, bodies, hinges and bars of the model as it was given."""
+        return Parts(self.given)
 
     @property
     def rank(self) -> int:
@@ -121,7 +138,7 @@ class Outcome(Frozen):
         return Proof(of, raw.proven_rank, raw.primes, raw.failure)
 
     @property
-    def parts(self) -> int:
+    def components(self) -> int:
         """Number of connected components of D(c), which are decomposed one by one."""
         return self.raw.components
 

@@ -11,6 +11,7 @@ from ..base.loading import load
 from ..core.basis import Basis
 from ..core.progress import Progress
 from ..model.data import ModelData
+from ..model.parts.condensing import condensed
 from .certainty import Assessment, assess
 from .decompose import decompose
 from .freedoms import Freedom, freedoms_of
@@ -148,5 +149,7 @@ def result_of(
         ModelError: the model is wrong.
         AnalysisError: see `decompose`.
     """
-    raw = decompose(data, asked, progress)
-    return kind(data.name if name is None else name, data, raw, asked)
+    data.require_sound()
+    one = condensed(data)
+    raw = decompose(one.data, asked, progress)
+    return kind(data.name if name is None else name, one, raw, asked)

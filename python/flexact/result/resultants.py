@@ -4,9 +4,9 @@
 The normal force is positive in tension. The in-plane moment of a sheet is the bending that the
 sheet holds, positive where it stretches the edge at the side of its width direction; the
 out-of-plane moment likewise the face at the side of its normal. Those directions, and the two of
-elements that are no sheets, are those of `flexact.model.directions`. The twist moment is positive
-about the outward normal of a cut. A hinge has no direction from the one part to the other: it has
-the sizes of its forces and moments.
+elements that are no sheets, are those of `flexact.model.parts.directions`. The twist moment is
+positive about the outward normal of a cut. A hinge has no direction from the one part to the
+other: it has the sizes of its forces and moments.
 
 The moments of a beam are linear between its ends. A rigid link carries a force alone to its far
 end q, so its moments fall to zero there.
@@ -19,7 +19,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import Member, Role, role_table
 from ..model.data import ModelData
-from ..model.forms import is_member
+from ..model.parts.forms import is_member
 
 #: The quantities along an element, in their order: N, N m, N m, N m.
 QUANTITIES = ("normal force", "twist moment", "in-plane moment", "out-of-plane moment")

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import Member, NodeKind
 from ..model.data import ModelData
-from ..model.forms import is_member
+from ..model.parts.forms import is_member
 from .resultants import shared_resultants
 
 #: Parts that differ by less than this part of the largest are as large.

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from ..result.result import Result
 from ..result.verdict import Alternative, Certainty, Proof
-from .naming import counted, counts_in_words
-from .sentences import Line, Named, Piece, sentence
+from .naming import counted, counts_in_words, named_element, named_node
+from .sentences import Line, Piece, sentence
 
 #: Misalignments below this angle, or this part of the characteristic length, are reported.
 _SMALL = 0.1
@@ -104,10 +104,10 @@ def _margin(result: Result) -> Line:
         )
     ways: list[tuple[Piece, ...]] = []
     if margin.length is not None and margin.length < _SMALL * result.characteristic_length:
-        ways.append(("moving ", Named("node", margin.node or 0), f" by {margin.length:.2g} m"))
+        ways.append(("moving ", named_node(result, margin.node or 0), f" by {margin.length:.2g} m"))
     if margin.angle is not None and margin.angle < _SMALL:
         ways.append(
-            ("turning ", Named("element", margin.element or 0), f" by {margin.angle:.2g} rad")
+            ("turning ", named_element(result, margin.element or 0), f" by {margin.angle:.2g} rad")
         )
     if not ways:
         return sentence("No small misalignment of one node or element would change the verdict.")
@@ -118,7 +118,7 @@ def _margin(result: Result) -> Line:
 
 def _method(result: Result) -> Iterator[Line]:
     """How D(c) was decomposed, where somebody asked for it or the default is not plain."""
-    method, parts = result.method, result.parts
+    method, parts = result.method, result.components
     automatic = result.asked.method == "auto"
     plain = method == "svd" and (parts <= 1 or max(result.rows, result.columns) < _LARGE)
     if automatic and plain:

@@ -12,6 +12,7 @@ from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
 from .decision import decision
 from .naming import (
+    coordinate_in_words,
     counted,
     counts_in_words,
     deformation_in_words,
@@ -19,7 +20,7 @@ from .naming import (
     unit_of,
     unit_of_coordinate,
 )
-from .sentences import Line, Named, Pieces, filled, sentence
+from .sentences import Line, Pieces, filled, sentence
 from .warnings import warnings_of
 
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
@@ -98,7 +99,10 @@ def _counts(result: Result) -> Iterator[str]:
 def _motions(result: Result, most: int | None) -> Iterator[str]:
     modes = (
         [
-            (Named("node", node), f" {name} {value:.4g} {unit_of_coordinate(name)}")
+            (
+                *coordinate_in_words(result, node, name),
+                f" {value:.4g} {unit_of_coordinate(name)}",
+            )
             for node, name, value in motion.largest(_PARTS + 1)
         ]
         for motion in result.motions[:most]

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from ..advice.advice import Coordinate, Deformation, Part
-from ..base.plain_text import harmless
+from ..advice.advice import Coordinate, Part
 from ..core.elements import Dual, dual_table
-from ..result.result import Result
-from .deformation import deformation_word
-from .sentences import Named, Pieces
+from ..result.freedoms import Freedom
+from ..result.outcome import Outcome
+from .deformation import deformation_words
+from .places import part_words, place_words
+from .sentences import Named, Pieces, plain
 
 _NUMBERS = (
     *("no", "one", "two", "three", "four", "five", "six"),
@@ -16,28 +17,65 @@ _NUMBERS = (
 )
 
 
-def part_in_words(part: Part) -> Pieces:
+def part_in_words(result: Outcome, part: Part) -> Pieces:
     """A coordinate or a deformation."""
     if isinstance(part, Coordinate):
-        return (Named("node", part.node), f" {part.name}")
-    return _deformation(part)
+        return coordinate_in_words(result, part.node, part.name)
+    return deformation_in_words(result, part.element, part.number)
 
 
-def deformation_in_words(result: Result, element: int, number: int) -> Pieces:
-    """Deformation `number` of an element, both as a deck numbers them."""
-    index = result.data.element_index[element]
-    kind = int(result.data.arrays.element_kind[index])
-    return _deformation(Deformation(element, result.data.element_names[index], kind, number))
+def coordinate_in_words(result: Outcome, node: int, name: str) -> Pieces:
+    """A coordinate of a node: such as "the stage along y" or "clamp 1 about x".
+
+    Args:
+        result: The result.
+        node: Number of the node.
+        name: Such as "y" or "rx".
+    """
+    way = f" about {name[1:]}" if name.startswith("r") else f" along {name}"
+    return (named_node(result, node), way)
 
 
-def _deformation(part: Deformation) -> Pieces:
-    name = harmless(part.name)
-    called = f" ({name})" if name else ""
-    word = deformation_word(part.kind, part.number)
-    return (Named("element", part.element), f"{called} e{part.number} {word}")
+def named_node(result: Outcome, node: int) -> Named:
+    """A node by its number, and by the name of its point or what is there."""
+    parts = result.parts
+    index = parts.data.node_index[node]
+    place = parts.place_of(index)
+    words = f"node {node}" if place is None else place_words(parts, place)
+    return Named("node", node, words)
 
 
-def unit_of(result: Result, element: int, number: int) -> str:
+def named_element(result: Outcome, element: int) -> Named:
+    """An element by its number, and by the name of its part."""
+    part = result.parts.of_element(result.given.element_index[element])
+    return Named("element", element, part_words(part))
+
+
+def deformation_in_words(result: Outcome, element: int, number: int) -> Pieces:
+    """Deformation `number` of an element, both as a deck numbers them.
+
+    Such as "sheet 1: in-plane bending at its clamp".
+    """
+    word = deformation_words(result, result.data.element_index[element], number)
+    return (named_element(result, element), f": {word}")
+
+
+def freedom_in_words(freedom: Freedom) -> Pieces:
+    """A declared degree of freedom, such as "the stage along z"."""
+    result, (kind, number) = freedom.analysis, freedom.owner
+    if kind == "node":
+        return coordinate_in_words(result, number, freedom.part)
+    return deformation_in_words(result, number, freedom.place[0] + 1)
+
+
+def motion_in_words(result: Outcome, number: int, freedom: Freedom | None) -> str:
+    """Which motion it is: one that nothing determines, or that of a declared freedom."""
+    if freedom is None:
+        return f"motion {number} of {result.under_constrained}"
+    return f"degree of freedom {number}, {plain(freedom_in_words(freedom))}"
+
+
+def unit_of(result: Outcome, element: int, number: int) -> str:
     """The unit of the stress resultant of a deformation: N or N m."""
     kind = result.data.arrays.element_kind[result.data.element_index[element]]
     return "N" if dual_table()[kind, number - 1] == Dual.FORCE else "N m"

@@ -19,10 +19,12 @@ class Named(NamedTuple):
     kind: str
     """"element" or "node"."""
     number: int
+    words: str
+    """What it is called, such as "sheet 1" or "the stage"."""
 
     def __str__(self) -> str:
-        """Such as "node 5"."""
-        return f"{self.kind} {self.number}"
+        """The words."""
+        return self.words
 
 
 Piece = str | Named
@@ -35,8 +37,8 @@ class Line(NamedTuple):
 
     head: Pieces
     items: tuple[Pieces, ...] = ()
-    note: str = ""
-    """Stands behind the first item."""
+    notes: tuple[str, ...] = ()
+    """What stands behind the first items, as many as there are."""
     more: bool = False
     """Whether there are more items than these."""
 
@@ -45,9 +47,10 @@ class Line(NamedTuple):
         return self._replace(items=self.items[:most], more=self.more or len(self.items) > most)
 
     def listed(self) -> tuple[tuple[Pieces, str], ...]:
-        """The items, each with what stands behind it: the note behind the first."""
-        behind = f" {self.note}" if self.note else ""
-        return tuple((item, behind * (place == 0)) for place, item in enumerate(self.items))
+        """The items, each with what stands behind it."""
+        behind = [f" {note}" if note else "" for note in self.notes]
+        behind += [""] * (len(self.items) - len(behind))
+        return tuple(zip(self.items, behind, strict=False))
 
 
 def sentence(*pieces: Piece) -> Line:

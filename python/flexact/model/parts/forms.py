@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a member is to the eye: sheet, wire, bar, beam or rigid solid."""
+"""What a member is: sheet, wire, bar, beam or rigid solid."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from enum import IntEnum
 
 import numpy as np
 
-from ..core.arrays import IntArray, ModelArrays
-from ..core.elements import Class, Member, Role, member_table, role_table
+from ...core.arrays import IntArray, ModelArrays
+from ...core.elements import Class, Member, Role, member_table, role_table
 
 #: Roles of the bendings in each of the two local planes, xz and xy.
 _BENDINGS = ((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), (Role.BENDING_XY_P, Role.BENDING_XY_Q))
@@ -16,7 +16,7 @@ _PLANAR_BENDINGS = (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q)
 
 
 class Form(IntEnum):
-    """What a member is to the eye."""
+    """What a member is."""
 
     SHEET = 1
     """Stiff in one of its two bending planes; in the plane a beam that bends."""

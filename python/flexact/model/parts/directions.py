@@ -4,14 +4,18 @@
 Neither the sign of a local y vector, nor which end is called p, changes them. A sheet has those of
 its width and its normal; every other element an upward one, z made perpendicular to its axis (x
 where the axis is steep), and one across both. Each is turned so that its z component is positive,
-or y or x where those before are small.
+or y or x where those before are small. Those of all beams of a divided sheet or wire are turned
+together.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ..core.arrays import FloatArray, ModelArrays
+from ...core.arrays import FloatArray, ModelArrays
+from .chains import Chain
 from .forms import Form, forms_of
 
 #: Beside the largest component of a direction one below this part is small; and an axis is steep
@@ -23,25 +27,41 @@ _ORDER = [2, 1, 0]
 _UP, _ELSE = np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
 
 
-def directions_across(arrays: ModelArrays, frame: FloatArray) -> FloatArray:
+def directions_across(
+    arrays: ModelArrays, frame: FloatArray, chains: Sequence[Chain]
+) -> FloatArray:
     """(elements, 2, 3) unit vectors across each element: width and normal, or upward and sideways.
 
     Args:
         arrays: The model.
         frame: (elements, 3, 3) reference frames, columns ex, ey, ez.
+        chains: Its divided sheets and wires.
     """
     form, wide = forms_of(arrays)
-    axis = frame[..., 0]
+    axis = frame[..., 0].copy()
+    for chain in chains:
+        ends = arrays.node_value[:3, [chain.positions[0], chain.positions[-1]]].T
+        axis[list(chain.elements)] = _unit(ends[1] - ends[0])
     steep = np.abs(axis[:, 2]) > _STEEP
-    global_one = np.where(steep[:, None], _ELSE, _UP)
-    first = global_one - np.sum(global_one * axis, axis=1, keepdims=True) * axis
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    axis, first = frame[..., 0], np.where(steep[:, None], _ELSE, _UP)
+    first = _unit(first - np.sum(first * axis, axis=1, keepdims=True) * axis)
     made = np.stack((first, np.cross(axis, first)), axis=1)
     sheet = np.flatnonzero(form == Form.SHEET)
     width = wide[sheet]
     made[sheet, 0] = frame[sheet, :, width]
     made[sheet, 1] = frame[sheet, :, 3 - width]
-    return made * signs_of(made)[..., None]
+    sign = signs_of(made)
+    for chain in chains:
+        row = list(chain.elements)
+        onward = np.where(np.sum(made[row[1:]] * made[row[:-1]], axis=-1) < 0.0, -1.0, 1.0)
+        sign[row] = np.concatenate((np.ones((1, 2)), np.cumprod(onward, axis=0)))
+        sign[row] *= signs_of(np.sum(made[row] * sign[row][..., None], axis=0))
+    return made * sign[..., None]
+
+
+def _unit(vector: FloatArray) -> FloatArray:
+    made: FloatArray = vector / np.linalg.norm(vector, axis=-1, keepdims=True)
+    return made
 
 
 def signs_of(direction: FloatArray) -> FloatArray:

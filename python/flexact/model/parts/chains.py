@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sheets and wires that are divided: beams in a row, joined at nodes that join nothing else."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.arrays import FloatArray, IntArray, ModelArrays
+from ...core.elements import Class, Member, Role, member_table, role_table
+
+#: Cosine of the largest angle between neighbours in a row; between those of one name.
+_IN_ROW = 0.7071
+_OF_ONE_NAME = 0.2588
+#: A row whose ends are nearer to each other than this part of its length is no sheet.
+_STRAIGHTNESS = 0.5
+#: What tells the beams of one part from each other, at the end of their names.
+_PLACE_IN_PART = re.compile(r",?\s+(?:part\s+)?\d+\s+of\s+\d+$|,\s*\d+$")
+#: Deformation at the other end of a beam, by deformation, both from 0.
+_OTHER_END = {2: 3, 3: 2, 4: 5, 5: 4}
+_OTHER_END_IN_PLANE = {1: 2, 2: 1}
+
+
+def part_name(name: str) -> str:
+    """The name of a part from that of one of its elements: "sheet 1" of "sheet 1, 3"."""
+    return _PLACE_IN_PART.sub("", name)
+
+
+class Chain(NamedTuple):
+    """Beams in a row.
+
+    Attributes:
+        elements: Indices of the beams, from end to end.
+        reversed: Of each whether it runs against the row.
+        positions: Indices of the position nodes, one more than beams.
+        orientations: Indices of the orientation nodes, likewise.
+        classes: (beams, 6) class of each deformation in the sense of the row.
+    """
+
+    elements: tuple[int, ...]
+    reversed: tuple[bool, ...]
+    positions: tuple[int, ...]
+    orientations: tuple[int, ...]
+    classes: tuple[tuple[int, ...], ...]
+
+    @property
+    def condensed_classes(self) -> tuple[int, ...] | None:
+        """(6,) classes of the one beam that the row is; None where it is not declared as one.
+
+        Each deformation must be released in one beam at most: then the others follow from what
+        they hold or declare, and D(c) has the rank of that of one beam.
+        """
+        made = []
+        for classes in zip(*self.classes, strict=True):
+            released = classes.count(Class.DEPENDENT)
+            rest = {each for each in classes if each != Class.DEPENDENT}
+            if released > 1 or len(rest) > 1:
+                return None
+            made.append(int(Class.DEPENDENT) if released else classes[0])
+        return tuple(made)
+
+    @property
+    def surplus(self) -> tuple[tuple[int, tuple[int, ...]], ...]:
+        """Element and the deformations (from 1) to be declared so that the row is one beam.
+
+        Of each deformation that several beams release, that of the first stays released.
+        """
+        made = []
+        for place, element in enumerate(self.elements):
+            before = self.classes[:place]
+            mine = [
+                d
+                for d in range(6)
+                if self.classes[place][d] == Class.DEPENDENT
+                and any(classes[d] == Class.DEPENDENT for classes in before)
+            ]
+            if mine:
+                made.append((element, tuple(sorted(self.own(place, d + 1) for d in mine))))
+        return tuple(made)
+
+    @property
+    def is_planar(self) -> bool:
+        """Whether its beams are planar."""
+        return self.classes[0][3] == Class.NONE
+
+    def own(self, beam: int, deformation: int) -> int:
+        """What a deformation in the sense of the row is to one of its beams, both from 1."""
+        if not self.reversed[beam]:
+            return deformation
+        swap = _OTHER_END_IN_PLANE if self.is_planar else _OTHER_END
+        return swap.get(deformation - 1, deformation - 1) + 1
+
+
+def chains_of(arrays: ModelArrays, names: Sequence[str]) -> tuple[Chain, ...]:
+    """Rows of at least two beams that a designer takes for one sheet or wire.
+
+    Neighbours are alone with each other at a node of which nothing is fixed or declared, bend
+    in the same way, and lie nearly in line; those with different names do not belong together.
+    """
+    neighbours = _Neighbours(arrays, names)
+    return tuple(row for row in neighbours.rows() if _is_stretched(arrays, row))
+
+
+def _is_stretched(arrays: ModelArrays, row: Chain) -> bool:
+    place = arrays.node_value[:3, list(row.positions)].T
+    arc = float(np.linalg.norm(np.diff(place, axis=0), axis=1).sum())
+    return float(np.linalg.norm(place[-1] - place[0])) > _STRAIGHTNESS * arc
+
+
+class _Neighbours:
+    """Pairs of beams that continue each other."""
+
+    def __init__(self, arrays: ModelArrays, names: Sequence[str]) -> None:
+        self.arrays = arrays
+        self.names = names
+        self.next_of: dict[tuple[int, int], tuple[int, int]] = {}
+        for pair in self._joined():
+            if self._continue(*pair):
+                one, other = pair
+                self.next_of[one], self.next_of[other] = other, one
+
+    def _joined(self) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+        """Beam and end (0 at p, 1 at q) of both of two that are alone at a free node."""
+        a = self.arrays
+        bendable = _is_bendable(a)
+        if np.count_nonzero(bendable) < 2:
+            return
+        nodes = a.node_number.size
+        uses = np.bincount(a.element_node[a.element_node > 0] - 1, minlength=nodes)
+        free = np.all(
+            (a.coordinate_class == Class.NONE) | (a.coordinate_class == Class.DEPENDENT), axis=0
+        )
+        inner = free & (uses == 2)
+        beam = np.flatnonzero(bendable)
+        ends = a.element_node[:, beam] - 1
+        alone = np.stack([inner[ends[k]] & inner[ends[k + 1]] for k in (0, 2)])
+        end, at = np.nonzero(alone)
+        position, orientation = ends[2 * end, at], ends[2 * end + 1, at]
+        order = np.lexsort((beam[at], position))
+        position, orientation = position[order], orientation[order]
+        end, at = end[order], at[order]
+        same = np.flatnonzero(
+            (position[1:] == position[:-1]) & (orientation[1:] == orientation[:-1])
+        )
+        for k in same.tolist():
+            one = int(beam[at[k]]), int(end[k])
+            other = int(beam[at[k + 1]]), int(end[k + 1])
+            if one[0] != other[0]:
+                yield one, other
+
+    def _continue(self, one: tuple[int, int], other: tuple[int, int]) -> bool:
+        a, (i, at_i), (j, at_j) = self.arrays, one, other
+        if a.element_kind[i] != a.element_kind[j]:
+            return False
+        # In the sense of the row: i ends where j begins.
+        first, second = self.classes(i, at_i == 0), self.classes(j, at_j == 1)
+        inner = ((3, 2), (5, 4)) if a.deformation_class[3, i] else ((2, 1),)
+        if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
+            return False
+        mine, other_name = part_name(self.names[i]), part_name(self.names[j])
+        if mine and other_name and mine != other_name:
+            return False
+        limit = _OF_ONE_NAME if mine and mine == other_name else _IN_ROW
+        along = self._direction(i) * (1.0 if at_i == 1 else -1.0)
+        return bool(along @ self._direction(j) * (1.0 if at_j == 0 else -1.0) > limit)
+
+    def classes(self, element: int, turned: bool) -> tuple[int, ...]:
+        """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""
+        own: list[int] = self.arrays.deformation_class[:, element].tolist()
+        if not turned:
+            return tuple(own)
+        swap = _OTHER_END if own[3] else _OTHER_END_IN_PLANE
+        return tuple(own[swap.get(d, d)] for d in range(6))
+
+    def _direction(self, element: int) -> FloatArray:
+        p, q = self.arrays.element_node[[0, 2], element] - 1
+        way: FloatArray = self.arrays.node_value[:3, q] - self.arrays.node_value[:3, p]
+        length = float(np.linalg.norm(way))
+        return way / length if length > 0.0 else way
+
+    def rows(self) -> Iterator[Chain]:
+        """The rows, by their first beams; each from that end whose beam comes first."""
+        seen: set[int] = set()
+        for start in sorted({beam for beam, _ in self.next_of}):
+            if start in seen:
+                continue
+            beams = self._followed(start)
+            seen.update(beam for beam, _ in beams)
+            if beams[0][0] > beams[-1][0]:
+                beams = [(beam, not turned) for beam, turned in reversed(beams)]
+            yield self._row(beams)
+
+    def _followed(self, start: int) -> list[tuple[int, bool]]:
+        """Beams of the row of one of them, each with whether it is turned; a ring once."""
+        back: list[tuple[int, bool]] = []
+        here = (start, 0)
+        while here in self.next_of:
+            beam, end = self.next_of[here]
+            if beam == start:
+                # A ring has no ends: it is cut at its first beam.
+                return [(start, False), *((b, t) for b, t in reversed(back))]
+            back.append((beam, end == 0))
+            here = (beam, 1 - end)
+        made = [(start, False)]
+        made[:0] = list(reversed(back))
+        here = (start, 1)
+        while here in self.next_of:
+            beam, end = self.next_of[here]
+            made.append((beam, end == 1))
+            here = (beam, 1 - end)
+        return made
+
+    def _row(self, beams: list[tuple[int, bool]]) -> Chain:
+        nodes: IntArray = self.arrays.element_node
+        first, turned = beams[0]
+        start = 2 if turned else 0
+        positions = [int(nodes[start, first]) - 1]
+        orientations = [int(nodes[start + 1, first]) - 1]
+        for beam, against in beams:
+            end = 0 if against else 2
+            positions.append(int(nodes[end, beam]) - 1)
+            orientations.append(int(nodes[end + 1, beam]) - 1)
+        return Chain(
+            tuple(beam for beam, _ in beams),
+            tuple(against for _, against in beams),
+            tuple(positions),
+            tuple(orientations),
+            tuple(self.classes(beam, against) for beam, against in beams),
+        )
+
+
+def _is_bendable(arrays: ModelArrays) -> np.ndarray:
+    """(elements,) beams that do not hold every bending."""
+    kind = arrays.element_kind
+    beam = member_table()[kind] == Member.BEAM
+    bends = np.isin(
+        role_table()[kind],
+        (
+            *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
+            *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
+        ),
+    )
+    free: np.ndarray = np.any(bends & (arrays.deformation_class.T != Class.FIXED), axis=1)
+    made: np.ndarray = beam & free
+    return made

@@ -1,0 +1,269 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model in which each divided sheet or wire that is declared as one is one beam.
+
+What is inside such a row, straight or wavy, holds nothing and frees nothing: its deformations
+are declared. So the verdict, the singular values and the margin are those of one beam between
+the ends, whatever the number of beams and wherever their inner nodes are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...base.frozen import Frozen
+from ...core.arrays import FloatArray, IntArray, ModelArrays
+from ..appearance import Appearance
+from ..data import ModelData
+from .chains import Chain, part_name
+
+
+@dataclass(frozen=True, eq=False)
+class Condensed(Frozen):
+    """A model and the one that is analysed in its place.
+
+    Attributes:
+        given: The model as it was given.
+        data: The model that is analysed; the same object where nothing is condensed.
+        chains: The rows of beams that are one beam each in `data`.
+        nodes: (nodes of `data`,) index of each of its nodes in `given`.
+        elements: (elements of `data`,) index of each of its elements in `given`.
+    """
+
+    given: ModelData
+    data: ModelData
+    chains: tuple[Chain, ...]
+    nodes: IntArray
+    elements: IntArray
+
+    @cached_property
+    def inner(self) -> tuple[InnerNodes, ...]:
+        """The nodes inside the chains, in their order."""
+        return tuple(_inner_nodes(self.given.arrays, chain) for chain in self.chains)
+
+    def motion(
+        self, displacement: FloatArray, rotation: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """A velocity of `data`'s nodes at all nodes: cubic along each chain.
+
+        Args:
+            displacement: (nodes of `data`, 3) [m], zero for orientations.
+            rotation: (nodes of `data`, 3) [rad], zero for positions.
+
+        Returns:
+            The same for the nodes of `given`.
+        """
+        moved, turned = np.zeros((2, self.given.arrays.node_number.size, 3))
+        moved[self.nodes], turned[self.nodes] = displacement, rotation
+        for inner in self.inner:
+            ends = inner.ends
+            u, angle = moved[ends[[0, 2]]], turned[ends[[1, 3]]]
+            moved[inner.positions], turned[inner.orientations] = inner.between(u, angle)
+        return moved, turned
+
+    def stress(self, moments: FloatArray, forces: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Forces and moments of `data`'s elements at all elements: linear along each chain.
+
+        Args:
+            moments: (elements of `data`, 6) by deformation [N m].
+            forces: (elements of `data`, 6) by deformation [N].
+
+        Returns:
+            The same for the elements of `given`.
+        """
+        made = np.zeros((2, self.given.arrays.element_number.size, 6))
+        made[0][self.elements], made[1][self.elements] = moments, forces
+        for chain, inner in zip(self.chains, self.inner, strict=True):
+            index = int(np.searchsorted(self.elements, chain.elements[0]))
+            made[1][list(chain.elements)] = forces[index]
+            frame = self.data.frames.frame[index]
+            made[0][list(chain.elements)] = self._bent(chain, inner, frame, moments[index])
+        return made[0], made[1]
+
+    def _bent(
+        self, chain: Chain, inner: InnerNodes, frame: FloatArray, moments: FloatArray
+    ) -> FloatArray:
+        """(beams, 6) moments of the beams of a chain, from those of the one beam, (6,)."""
+        beams = list(chain.elements)
+        sense = np.where(chain.reversed, -1.0, 1.0)[:, None]
+        ends = np.array([0.0, *inner.share, 1.0])
+        shares = np.stack((ends[:-1], ends[1:]), axis=1)
+        shares = np.where(sense < 0.0, shares[:, ::-1], shares)
+        frames = self.given.frames.frame[beams]
+        made = np.tile(moments, (len(beams), 1))
+        # Bending about local y at p and q, and about local z; a planar beam bends about z alone.
+        planes = ((2, 1, 2),) if inner.is_planar else ((1, 2, 3), (2, 4, 5))
+        at = [
+            sum(
+                (moments[p] * (1.0 - share) + moments[q] * share)[:, None] * frame[:, axis]
+                for axis, p, q in planes
+            )
+            for share in shares.T
+        ]
+        for axis, p, q in planes:
+            for slot, vector in ((p, at[0]), (q, at[1])):
+                made[:, slot] = sense[:, 0] * np.sum(vector * frames[:, :, axis], axis=1)
+        return made
+
+    def in_given(self, element: int, deformation: int) -> tuple[int, int]:
+        """Where a deformation is in the model as given.
+
+        Args:
+            element: Index in `data`.
+            deformation: From 1.
+
+        Returns:
+            Index of the element in `given`, and the deformation from 1.
+        """
+        place = int(self.elements[element])
+        chain = next((each for each in self.chains if each.elements[0] == place), None)
+        if chain is None:
+            return place, deformation
+        at_end = deformation in ((3,) if chain.is_planar else (4, 6))
+        beam = -1 if at_end else 0
+        return chain.elements[beam], chain.own(beam, deformation)
+
+
+@dataclass(frozen=True, eq=False)
+class InnerNodes(Frozen):
+    """The nodes between the ends of a chain.
+
+    Attributes:
+        ends: (4,) indices of the nodes p, op, q, oq of the chain.
+        positions: (k,) indices of its inner position nodes.
+        orientations: (k,) likewise.
+        share: (k,) where they are along the chord, 0 at p and 1 at q.
+        chord: (3,) from p to q [m].
+        offset: (k, 3) how far they are beside the chord [m].
+        is_planar: Whether its beams are planar.
+    """
+
+    ends: IntArray
+    positions: IntArray
+    orientations: IntArray
+    share: FloatArray
+    chord: FloatArray
+    offset: FloatArray
+    is_planar: bool
+
+    def between(self, ends: FloatArray, turns: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Velocities at the inner nodes of a cubic beam between two ends.
+
+        Args:
+            ends: (2, 3) of p and q [m].
+            turns: (2, 3) of their orientations [rad].
+        """
+        t = self.share[:, None]
+        length = float(np.linalg.norm(self.chord))
+        ex = self.chord / length
+        slope = np.cross(turns, ex)
+        way, (at_p, at_q) = ends[1] - ends[0], slope
+        course = ends[0] + (3 * t**2 - 2 * t**3) * way
+        course += length * ((t - 2 * t**2 + t**3) * at_p + (t**3 - t**2) * at_q)
+        # Along the chord it is stretched evenly.
+        along = (ends[0] + t * way - course) @ ex
+        course += along[:, None] * ex
+        rate = (6 * t - 6 * t**2) * way / length
+        rate += (1 - 4 * t + 3 * t**2) * at_p + (3 * t**2 - 2 * t) * at_q
+        twist = (1 - t) * (turns[0] @ ex) + t * (turns[1] @ ex)
+        turned = np.cross(ex, rate) + twist * ex
+        return course + np.cross(turned, self.offset), turned
+
+
+def _inner_nodes(arrays: ModelArrays, chain: Chain) -> InnerNodes:
+    place = arrays.node_value[:3, list(chain.positions)].T
+    chord = place[-1] - place[0]
+    inner = place[1:-1] - place[0]
+    share = inner @ chord / (chord @ chord)
+    return InnerNodes(
+        np.array(
+            [
+                *(chain.positions[0], chain.orientations[0]),
+                *(chain.positions[-1], chain.orientations[-1]),
+            ],
+            np.int32,
+        ),
+        np.array(chain.positions[1:-1], np.int32),
+        np.array(chain.orientations[1:-1], np.int32),
+        share,
+        chord,
+        inner - share[:, None] * chord,
+        chain.is_planar,
+    )
+
+
+def condensed(data: ModelData) -> Condensed:
+    """The sound model in which each chain that is declared as one beam is one beam."""
+    arrays = data.arrays
+    every_node = np.arange(arrays.node_number.size, dtype=np.int32)
+    every_element = np.arange(arrays.element_number.size, dtype=np.int32)
+    chains = tuple(chain for chain in data.chains if chain.condensed_classes is not None)
+    if not chains:
+        return Condensed(data, data, (), every_node, every_element)
+    left_nodes, left_elements = every_node >= 0, every_element >= 0
+    element_node, classes = arrays.element_node.copy(), arrays.deformation_class.copy()
+    vector, names = arrays.element_vector.copy(), list(data.element_names)
+    for chain in chains:
+        first = chain.elements[0]
+        left_nodes[[*chain.positions[1:-1], *chain.orientations[1:-1]]] = False
+        left_elements[list(chain.elements[1:])] = False
+        element_node[:, first] = _ends(chain)
+        classes[:, first] = chain.condensed_classes or ()
+        vector[:, first] = _vector_of(data, chain)
+        names[first] = next((part_name(n) for e in chain.elements if (n := names[e])), "")
+    nodes, elements = every_node[left_nodes], every_element[left_elements]
+    place = np.zeros(arrays.node_number.size + 1, np.int32)
+    place[nodes + 1] = np.arange(1, nodes.size + 1, dtype=np.int32)
+    made = ModelArrays(
+        node_number=arrays.node_number[nodes],
+        node_kind=arrays.node_kind[nodes],
+        node_value=arrays.node_value[:, nodes],
+        coordinate_class=arrays.coordinate_class[:, nodes],
+        element_number=arrays.element_number[elements],
+        element_kind=arrays.element_kind[elements],
+        element_node=place[element_node[:, elements]],
+        element_vector=vector[:, elements],
+        deformation_class=classes[:, elements],
+    )
+    return Condensed(
+        data,
+        replace(
+            data,
+            arrays=ModelArrays._make(np.asfortranarray(each) for each in made),
+            element_names=tuple(names[i] for i in elements.tolist()),
+            found=data.problems,
+            given_appearance=_some(data.given_appearance, elements),
+        ),
+        chains,
+        nodes,
+        elements,
+    )
+
+
+def _ends(chain: Chain) -> Sequence[int]:
+    """Nodes of the one beam by slot, counted from 1."""
+    ends = [
+        *(chain.positions[0], chain.orientations[0]),
+        *(chain.positions[-1], chain.orientations[-1]),
+    ]
+    return [node + 1 for node in ends]
+
+
+def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
+    """The y vector of the one beam: the one given to all, or the mean of their local y axes."""
+    given = data.arrays.element_vector[:, list(chain.elements)].T
+    if np.all(given == given[0]):
+        return np.asarray(given[0])
+    axes: FloatArray = data.frames.frame[list(chain.elements), :, 1]
+    signs = np.where(axes @ axes[0] < 0.0, -1.0, 1.0)
+    return np.asarray(np.sum(signs[:, None] * axes, axis=0))
+
+
+def _some(appearance: Appearance | None, elements: IntArray) -> Appearance | None:
+    if appearance is None:
+        return None
+    names = appearance.__dataclass_fields__
+    return Appearance(**{name: getattr(appearance, name)[elements] for name in names})

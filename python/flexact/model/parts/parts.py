@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The parts of a mechanism as its designer names them, read off the model."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from enum import Enum
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base.plain_text import harmless, in_short
+from ...core.arrays import IntArray
+from ...core.elements import Class, Member, NodeKind
+from ...diagnostics.errors import model_error
+from ..data import ModelData
+from .bodies import Body, bodies_of
+from .chains import Chain, part_name
+from .forms import Form, forms_of, is_member
+
+
+class PartKind(str, Enum):
+    """What a part is; the word that stands for its name where it has none."""
+
+    SHEET = "sheet"
+    WIRE = "wire"
+    BAR = "bar"
+    BEAM = "beam"
+    BODY = "body"
+    HINGE = "hinge"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+_KIND_OF_FORM = {
+    Form.SHEET: PartKind.SHEET,
+    Form.WIRE: PartKind.WIRE,
+    Form.BAR: PartKind.BAR,
+    Form.BEAM: PartKind.BEAM,
+    Form.RIGID: PartKind.BODY,
+}
+
+
+class Part(NamedTuple):
+    """A sheet, wire, bar, beam, body or hinge.
+
+    Attributes:
+        kind: Which of them.
+        name: What it is called; its kind and the number of its first element where the model
+            gives no name.
+        elements: Indices of its elements in the model as given; of a divided sheet from end to
+            end.
+        ends: Indices of the position nodes at both ends, none of a body, one of a hinge.
+        number: Number of its first element.
+        is_named: Whether the model gives its name.
+    """
+
+    kind: PartKind
+    name: str
+    elements: tuple[int, ...]
+    ends: tuple[int, ...]
+    number: int
+    is_named: bool
+
+    def __str__(self) -> str:
+        """Its name."""
+        return self.name
+
+
+class Parts:
+    """The parts of a model; each is made when it is asked for."""
+
+    def __init__(self, data: ModelData) -> None:
+        """Keep the model, as it was given."""
+        self.data = data
+        self._known: dict[tuple[str, int], Part] = {}
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.all)
+
+    @cached_property
+    def all(self) -> tuple[Part, ...]:
+        """All parts, by their first elements."""
+        elements = range(self.data.arrays.element_number.size)
+        found = dict.fromkeys(self.of_element(i) for i in elements)
+        return tuple(sorted(found, key=lambda part: part.elements[0]))
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The rigid bodies, in the order of their first elements."""
+        return bodies_of(self.data.arrays)
+
+    @cached_property
+    def links(self) -> frozenset[int]:
+        """Indices of the elements that only carry points of a body.
+
+        Rigid links, and of a body of several members those without a name of their own.
+        """
+        link = is_member(self.data.arrays.element_kind, Member.LINK)
+        made = set(np.flatnonzero(link).tolist())
+        names = self.data.element_names
+        for body in self.bodies:
+            if len(body.elements) > 1:
+                own = [part_name(names[i]) for i in body.elements]
+                given = Counter(own)
+                made.update(
+                    i
+                    for i, name in zip(body.elements, own, strict=True)
+                    if not name or given[name] > 1
+                )
+        return frozenset(made)
+
+    def of_element(self, index: int) -> Part:
+        """The part that an element, by its index, belongs to."""
+        chain = self._chain_of.get(index)
+        if chain is not None:
+            return self._part("chain", chain, self._of_chain)
+        body = self._body_of_element.get(index)
+        if body is not None:
+            return self._part("body", body, self._of_body)
+        return self._part("element", index, self._alone)
+
+    def of_body(self, body: int) -> Part:
+        """The part that a body, by its index, is."""
+        return self._part("body", body, self._of_body)
+
+    def named(self, name: str) -> Part:
+        """The part of a name.
+
+        Raises:
+            ModelError: there is none, or there are several.
+        """
+        found = [part for part in self.all if part.name == name]
+        if not found:
+            raise model_error("no-such-part", f"there is no part called {in_short(name)}")
+        if len(found) > 1:
+            raise model_error(
+                "ambiguous-part",
+                f"{len(found)} parts are called {in_short(name)}",
+                "give each part a name of its own",
+            )
+        return found[0]
+
+    @cached_property
+    def form(self) -> np.ndarray:
+        """(elements,) `Form`, 0 where an element is no member."""
+        return forms_of(self.data.arrays)[0]
+
+    @cached_property
+    def wide(self) -> np.ndarray:
+        """(elements,) local axis, 1 or 2, along which a sheet is wide, else 0."""
+        return forms_of(self.data.arrays)[1]
+
+    def _part(self, kind: str, key: int, make: object) -> Part:
+        if (kind, key) not in self._known:
+            self._known[kind, key] = make(key)  # type: ignore[operator]
+        return self._known[kind, key]
+
+    def _of_chain(self, chain: int) -> Part:
+        row: Chain = self.data.chains[chain]
+        kind = _KIND_OF_FORM[Form(int(self.form[row.elements[0]]))]
+        ends = (row.positions[0], row.positions[-1])
+        return self._made(kind, row.elements, ends)
+
+    def _of_body(self, body: int) -> Part:
+        return self._made(PartKind.BODY, self.bodies[body].elements, ())
+
+    def _alone(self, index: int) -> Part:
+        arrays = self.data.arrays
+        nodes = (arrays.element_node[[0, 2], index] - 1).tolist()
+        if is_member(arrays.element_kind[[index]], Member.HINGE)[0]:
+            return self._made(PartKind.HINGE, (index,), tuple(n for n in nodes[:1] if n >= 0))
+        return self._made(_KIND_OF_FORM[Form(int(self.form[index]))], (index,), tuple(nodes))
+
+    def _made(self, kind: PartKind, elements: tuple[int, ...], ends: tuple[int, ...]) -> Part:
+        number = int(self.data.arrays.element_number[min(elements)])
+        given = Counter(
+            name for i in elements if (name := part_name(self.data.element_names[i]).strip())
+        )
+        if given:
+            # Of several names the commonest, of those the first.
+            return Part(kind, harmless(given.most_common(1)[0][0]), elements, ends, number, True)
+        return Part(kind, f"{kind} {number}", elements, ends, number, False)
+
+    @cached_property
+    def _chain_of(self) -> dict[int, int]:
+        return {i: k for k, chain in enumerate(self.data.chains) for i in chain.elements}
+
+    @cached_property
+    def _body_of_element(self) -> dict[int, int]:
+        return {i: k for k, body in enumerate(self.bodies) for i in body.elements}
+
+    # Places -----------------------------------------------------------------
+
+    @cached_property
+    def body_at(self) -> dict[int, int]:
+        """The first body that carries a position node or turns with an orientation node."""
+        made: dict[int, int] = {}
+        for k, body in enumerate(self.bodies):
+            for node in (*body.positions, *body.orientations):
+                made.setdefault(node, k)
+        return made
+
+    @cached_property
+    def _users(self) -> tuple[IntArray, IntArray]:
+        """Elements by position node that they end at: where each node's start, and they."""
+        ends = self.data.arrays.element_node[[0, 2]] - 1
+        element = np.broadcast_to(np.arange(ends.shape[1]), ends.shape)
+        used = ends >= 0
+        order = np.argsort(ends[used], kind="stable")
+        counts = np.bincount(ends[used], minlength=self.data.arrays.node_number.size)
+        start = np.concatenate([np.zeros(1, np.int64), np.cumsum(counts)])
+        return start.astype(np.int32), element[used][order].astype(np.int32)
+
+    def at(self, position: int) -> tuple[Part, ...]:
+        """The parts that end at or belong to a position node, by name."""
+        found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
+        return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+
+    def elements_at(self, position: int) -> list[int]:
+        """Indices of the elements that end at a position node."""
+        start, element = self._users
+        mine: list[int] = element[start[position] : start[position + 1]].tolist()
+        return mine
+
+    def is_held(self, node: int) -> bool:
+        """Whether a node is fixed in all that it has."""
+        classes = self.data.arrays.coordinate_class[:, node]
+        return bool(np.all((classes == Class.FIXED) | (classes == Class.NONE)))
+
+    @cached_property
+    def position_of(self) -> dict[int, int]:
+        """The position node at which an orientation node stands, of the first that names both."""
+        slots = self.data.arrays.element_node - 1
+        made: dict[int, int] = {}
+        for p, op in ((0, 1), (2, 3)):
+            both = (slots[p] >= 0) & (slots[op] >= 0)
+            for place, turned in zip(
+                slots[p][both].tolist(), slots[op][both].tolist(), strict=True
+            ):
+                made.setdefault(turned, place)
+        return made
+
+    def place_of(self, node: int) -> int | None:
+        """The position node of a node: itself, or where an orientation stands."""
+        if self.data.arrays.node_kind[node] <= NodeKind.POSITION:
+            return node
+        return self.position_of.get(node)
+
+    def name_of_point(self, position: int) -> str:
+        """The name that the model gives a position node; empty without one."""
+        names: Sequence[str] = getattr(self.data, "node_names", ())
+        return harmless(names[position]).strip() if len(names) else ""
+
+
+def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
+    """A key by which names are sorted as people do: "sheet 2" before "sheet 10"."""
+    words: list[str] = []
+    for c in name:
+        if words and words[-1][-1:].isdigit() == c.isdigit():
+            words[-1] += c
+        else:
+            words.append(c)
+    return tuple(
+        (not word.isdecimal(), int(word) if word.isdecimal() else 0, word) for word in words
+    )
+
+
+def names_of(parts: Iterable[Part]) -> tuple[str, ...]:
+    """The names of parts in their natural order, each once."""
+    return tuple(sorted({part.name for part in parts}, key=natural))

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts and points of a mechanism as sentences name them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..model.parts.parts import Part, PartKind, Parts
+
+#: Names that say themselves what they are.
+_ARTICLES = ("the ", "a ", "an ")
+#: How many parts a sentence names where several meet.
+_MOST_NAMED = 2
+#: An axis is one of x, y, z where its other components are below this.
+_ALONG = 1.0e-6
+
+
+def part_words(part: Part) -> str:
+    """Such as "sheet 1" or "the stage"."""
+    return with_article(part.name)
+
+
+def with_article(name: str) -> str:
+    """A name in a sentence: names without a number take an article, as "the stage"."""
+    plain = name[:1].islower() and len(name) > 1
+    if not plain or any(c.isdigit() for c in name) or name.startswith(_ARTICLES):
+        return name
+    return f"the {name}"
+
+
+def listed(words: Sequence[str]) -> str:
+    """Such as "a, b and c"."""
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def parts_words(parts: Sequence[Part], most: int = _MOST_NAMED) -> str:
+    """Such as "sheet 1, sheet 2 and 3 more"."""
+    words = [part_words(part) for part in parts]
+    if len(words) > most + 1:
+        words = [*words[:most], f"{len(words) - most} more"]
+    return listed(words)
+
+
+def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
+    """A point by its name, or by what is there.
+
+    Args:
+        parts: Those of the model.
+        position: Index of the position node.
+        within: The part of which the sentence speaks; what is there is seen from it.
+    """
+    name = parts.name_of_point(position)
+    if name:
+        return with_article(name)
+    words = _without_name(parts, position, within)
+    if within is None:
+        return words
+    others = [end for end in within.ends if end != position]
+    same = any(
+        not parts.name_of_point(end) and _without_name(parts, end, within) == words
+        for end in others
+    )
+    return f"{words} at {point_words(parts, position)}" if same else words
+
+
+def _without_name(parts: Parts, position: int, within: Part | None) -> str:
+    here = parts.at(position)
+    others = tuple(part for part in here if part is not within)
+    if parts.is_held(position):
+        kind = "clamp" if _is_clamped(parts, position) else "support"
+        return f"its {kind}" if within is not None else f"the {kind} of {parts_words(here)}"
+    bodies = [part for part in others if part.kind is PartKind.BODY]
+    if bodies:
+        return part_words(bodies[0])
+    if not others:
+        return "its free end" if within is not None else f"the free end of {parts_words(here)}"
+    is_fold = len(here) == 2 and all(part.kind is PartKind.SHEET for part in here)
+    kind = "fold" if is_fold else "joint"
+    shared = _shared_name(here)
+    if is_fold and shared:
+        return "the fold" if within is not None else f"the fold of {shared}"
+    if within is not None:
+        return f"its {kind} with {parts_words(others)}"
+    return f"the {kind} of {parts_words(here)}"
+
+
+def _shared_name(parts: Sequence[Part]) -> str:
+    """What the names of several parts begin with, up to a comma: "upper 90" of its leaves."""
+    heads = {part.name.rpartition(",")[0].strip() for part in parts}
+    return heads.pop() if len(heads) == 1 else ""
+
+
+def _is_clamped(parts: Parts, position: int) -> bool:
+    slots = parts.data.arrays.element_node - 1
+    turned = {
+        int(slots[k + 1, element])
+        for element in parts.elements_at(position)
+        for k in (0, 2)
+        if slots[k, element] == position
+    } - {-1}
+    return any(parts.is_held(node) for node in turned)
+
+
+def point_words(parts: Parts, position: int) -> str:
+    """Its coordinates [m], in the plane two."""
+    count = 2 if parts.data.planar else 3
+    place = parts.data.arrays.node_value[:count, position].tolist()
+    return f"({', '.join(f'{value + 0.0:.4g}' for value in place)})"
+
+
+def axis_words(axis: FloatArray) -> str:
+    """A direction without sense: "x", or its components."""
+    largest = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
+    unit = axis / np.linalg.norm(axis) * (1.0 if axis[largest] > 0.0 else -1.0)
+    if np.all(np.abs(np.delete(unit, largest)) < _ALONG):
+        return "xyz"[largest]
+    rounded = np.round(unit, 3) + 0.0
+    return f"({', '.join(f'{value:.3g}' for value in rounded)})"
