@@ -13,8 +13,8 @@ from PIL import Image
 from reference_decks import NAMES, text_of
 
 import flexact
-from flexact.core.elements import keywords_of
-from flexact.drawing import drawing_of
+from flexact.core.elements import NodeKind, keywords_of
+from flexact.drawing import drawing_of, resultants
 from flexact.mesh import to_meshio
 from flexact.model.data import ModelData
 from flexact.page.drawing_data import frame_of
@@ -119,12 +119,19 @@ def test_there_are_enough_cases() -> None:
     assert set(MODELS) <= set(CASES)
 
 
+def members_of(analysis: flexact.Analysis) -> np.ndarray:
+    drawing = drawing_of(analysis.given)
+    made = np.zeros((analysis.given.arrays.element_number.size, 4, 2))
+    made[drawing.members.index] = resultants(drawing, analysis.self_stresses[0]).members
+    return made
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_moments_do_not_depend_on_widths_or_ends(name: str) -> None:
     data = turned_once(name)
-    expected = analysis_of(data).self_stresses[0].resultants
+    expected = members_of(analysis_of(data))
     for other in variants(data, 6):
-        found = analysis_of(other).self_stresses[0].resultants
+        found = members_of(analysis_of(other))
         swapped = other.arrays.element_node[0] != data.arrays.element_node[0]
         same_ends = np.where(swapped[:, None, None], found[..., ::-1], found)
         np.testing.assert_allclose(same_ends, expected, atol=1e-9 * np.abs(expected).max())
@@ -169,7 +176,7 @@ def test_a_page_holds_the_same_at_every_place(name: str) -> None:
 
 def page_of(analysis: flexact.Analysis, as_in: ModelData) -> dict[str, Any]:
     """Values of self-stresses and the sides of their diagrams, ends as in a model."""
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     frame = frame_of(drawing)
     nodes = as_in.arrays.element_node[0, drawing.members.index] - 1
     swapped = drawing.members.nodes[:, 0] != nodes
@@ -207,3 +214,47 @@ def test_the_picture_of_another_stress_is_another() -> None:
     expected = pixels(analysis_of(data), stress=1, quantity="in-plane moment")
     other = pixels(analysis_of(data), stress=1, quantity="twist moment")
     assert (np.abs(expected - other).max(axis=2) > _SHADE).mean() > 10 * _FEW
+
+
+def test_sheets_that_fight_have_opposite_colours() -> None:
+    """README's guide: both hold the rotation of the stage about y, with opposite moments."""
+    for over, swapped in itertools.product(itertools.product((False, True), repeat=2), repeat=2):
+        data = turned(guide().data, np.array([*over, False]), np.array([*swapped, False]))
+        one, other, _ = members_of(analysis_of(data))[:, 2]
+        assert one == pytest.approx(-other, rel=1e-9)
+        assert one[0] == pytest.approx(one[1], rel=1e-9) and one[0] > 0.01
+
+
+@pytest.mark.parametrize("name", ["guide", "guide at 30 degrees", "paper/six_folded_sheets"])
+def test_rounding_decides_nothing(name: str) -> None:
+    """Places that are wrong by 1e-12 m turn no sign, wherever axes lie along global ones."""
+    data = turned_once(name)
+    expected = members_of(analysis_of(data))
+    chance = np.random.default_rng(5)
+    for _ in range(5):
+        value = data.arrays.node_value.copy(order="F")
+        placed = data.arrays.node_kind == NodeKind.POSITION
+        value[:3, placed] += 1e-12 * chance.standard_normal((3, np.count_nonzero(placed)))
+        other = replace(data, arrays=data.arrays._replace(node_value=value), source=None)
+        found = flexact.analyse(flexact.Model.from_data(other), tolerance=1e-8)
+        np.testing.assert_allclose(members_of(found), expected, atol=1e-8)
+
+
+def test_directions_across_are_what_they_are_said_to_be() -> None:
+    """By hand: sheets have width and normal to z, else y, else x; the rest up and sideways."""
+    model = flexact.Model(name="directions")
+    start = model.node(0.0, 0.0, 0.0)
+    model.fix(start)
+    cases = [
+        (model.sheet, (0.1, 0, 0), {"width": (0, 0, -1)}, (0, 0, 1), (0, 1, 0)),
+        (model.sheet, (0.1, 0, 0), {"width": (0, -1, 0)}, (0, 1, 0), (0, 0, 1)),
+        (model.sheet, (0, 0, 0.1), {"width": (-3, -0.1, 0)}, (1, 1 / 30, 0), (-1 / 30, 1, 0)),
+        (model.wire, (-0.3, 0, 0.4), {}, (0.8, 0, 0.6), (0, 1, 0)),
+        (model.wire, (0, 0, -0.1), {}, (1, 0, 0), (0, 1, 0)),
+        (model.rigid, (0, 0.1, 0), {}, (0, 0, 1), (1, 0, 0)),
+    ]
+    for make, end, more, *_ in cases:
+        make(start, model.node(*end), **more)
+    expected = np.array([[first, second] for *_, first, second in cases], float)
+    expected /= np.linalg.norm(expected, axis=-1, keepdims=True)
+    np.testing.assert_allclose(model.data.across, expected, atol=1e-14)

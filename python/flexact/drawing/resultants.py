@@ -14,7 +14,7 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..model.parts.forms import Form
 from ..result.modes import SelfStress
-from ..result.resultants import QUANTITIES
+from ..result.resultants import QUANTITIES, shared_resultants
 from .drawing import Drawing
 
 #: A quantity below this part of the largest one, moments over the length, is rounding.
@@ -80,9 +80,14 @@ class Resultants(Frozen):
 
 def resultants(drawing: Drawing, stress: SelfStress) -> Resultants:
     """The stress resultants of a self-stress along the members of a drawing."""
+    value = stress.forces + stress.moments
+    members, hinges = (
+        shared_resultants(drawing.data, index, value[index])
+        for index in (drawing.members.index, drawing.hinges.index)
+    )
     return Resultants(
-        stress.resultants[drawing.members.index],
-        stress.resultants[drawing.hinges.index, :, 0],
+        members,
+        hinges[..., 0],
         np.isin(drawing.members.form, (Form.SHEET, Form.WIRE, Form.BAR)),
         stress.analysis.characteristic_length,
     )

@@ -19,7 +19,6 @@ from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
 from .order import column_key, ranked, row_key
 from .outcome import Outcome
-from .resultants import shared_resultants
 from .signs import sign_of_motion, sign_of_stress
 
 #: How many modes of a row stand in its `repr`.
@@ -186,19 +185,6 @@ class SelfStress(Frozen):
         element, value = self._stressed
         length = self.analysis.characteristic_length
         return sign_of_stress(self.analysis.data, element, value, length)
-
-    @cached_property
-    def resultants(self) -> FloatArray:
-        """(elements, 4, 2) the `flexact.result.resultants.QUANTITIES` at both ends [N, N m].
-
-        Of the model as it was given; their signs depend on geometry alone.
-        """
-        value = self.forces + self.moments
-        element = np.flatnonzero(value.any(axis=1))
-        made = np.zeros((len(value), 4, 2))
-        made[element] = shared_resultants(self.analysis.given, element, value[element])
-        made.flags.writeable = False
-        return made
 
     @cached_property
     def _stressed(self) -> tuple[NDArray[np.int64], FloatArray]:
