@@ -93,7 +93,8 @@ class Analysis(Result):
             motion: Number of the motion that is shown, from 1; of pictures and meshes.
             freedom: Number of the declared degree of freedom that is shown, likewise.
             stress: Number of the self-stress that is shown, of pictures.
-            quantity: `N`, `T`, `My` or `Mz` of the self-stress, of pictures.
+            quantity: Of the self-stress in pictures: "normal force", "twist moment", "in-plane
+                moment" or "out-of-plane moment".
             view: From where, of pictures; see `flexact.picture.draw`.
 
         Raises:

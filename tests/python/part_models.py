@@ -26,7 +26,7 @@ class Place(NamedTuple):
     """Where a mechanism stands, how large it is, and how it is given."""
 
     scale: float = 1.0
-    turn: np.ndarray = np.eye(3)  # noqa: RUF012
+    turn: np.ndarray = np.eye(3)
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
     reverse: bool = False
     """Whether points are numbered in the other order."""
