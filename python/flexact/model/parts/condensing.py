@@ -257,9 +257,12 @@ def _ends(chain: Chain) -> Sequence[int]:
 
 
 def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
-    """The y vector of the one beam: the one given to all, or the mean of their local y axes."""
+    """The y vector of the one beam: the one given to all, or the mean of their local y axes.
+
+    Its sense means nothing.
+    """
     given = data.arrays.element_vector[:, list(chain.elements)].T
-    if np.all(given == given[0]):
+    if np.all(np.all(given == given[0], axis=1) | np.all(given == -given[0], axis=1)):
         return np.asarray(given[0])
     axes: FloatArray = data.frames.frame[list(chain.elements), :, 1]
     signs = np.where(axes @ axes[0] < 0.0, -1.0, 1.0)
