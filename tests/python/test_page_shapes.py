@@ -12,6 +12,7 @@ from reference_decks import ROOT
 import flexact
 from flexact.core.elements import NodeKind
 from flexact.drawing import QUANTITIES, Drawing, drawing_of, move, resultants, solid, stations
+from flexact.drawing.selection import way_of
 
 #: Sheets, wires, bars, rigid links, hinges; in space and in the plane; on paths and on screws.
 DECKS = (
@@ -28,7 +29,7 @@ DECKS = (
 
 def moving(analysis: flexact.Analysis) -> list[Any]:
     """What the page can move, in its order."""
-    freedoms = [freedom.motion for freedom in analysis.freedoms]
+    freedoms = map(way_of, analysis.freedoms)
     return [*analysis.motions, *(motion for motion in freedoms if motion is not None)]
 
 

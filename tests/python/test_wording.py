@@ -49,7 +49,7 @@ from flexact.text.log import log_text
 
 INPUT = ROOT / "input_decks"
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
-NOTES = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nXM 2 1\nEND\n"
+NOTES = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nXF 2 1\nEND\n"
 
 
 def deck(name: str) -> Analysis:
@@ -281,7 +281,7 @@ def test_messages_of_files(as_stored: AsStored, tmp_path: Path) -> None:
         said.append(f"OutputError: {error.value}")
     whole = read_answer(ROOT / "tests/reference/paper/twelve_trusses.json")
     assert whole.numbers["rank"] == 11
-    for text in ("", "{}", '{"format": 2}'):
+    for text in ("", "{}", '{"format": 2}', analyse(ring(3)).to_json()):
         with pytest.raises(StoredAnswerError) as wrong:
             read_answer(write(tmp_path / "answer.json", text))
         said.append(f"StoredAnswerError: {wrong.value}")
