@@ -5,6 +5,7 @@ module flexact_checks
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds, vector_optional, vector_required
    use flexact_kinds, only: wp
+   use flexact_labels, only: element_name, digits_of
    use flexact_model, only: model_t
    use flexact_slots, only: slots, is_position, node_planar_position
    use flexact_vectors, only: coincide, length_of, unit
@@ -172,23 +173,4 @@ contains
       end do
       is_consistent = .true.
    end function is_consistent
-
-   pure function element_name(model, k) result(name)
-      type(model_t), intent(in) :: model
-      integer, intent(in) :: k
-      character(len=:), allocatable :: name
-
-      name = trim(element_kinds(model%element_kind(k))%keyword)
-      ! A number that could not be read is zero.
-      if (model%element_number(k) > 0) name = name//' '//digits_of(model%element_number(k))
-   end function element_name
-
-   pure function digits_of(number) result(digits)
-      integer, intent(in) :: number
-      character(len=:), allocatable :: digits
-      character(len=12) :: room
-
-      write (room, '(i0)') number
-      digits = trim(room)
-   end function digits_of
 end module flexact_checks

@@ -165,7 +165,7 @@ def _verdicts(found: list[Outcome]) -> list[str]:
     for name, those in (("Flexact", ours), ("dgesdd and the bare peers", theirs)):
         known = [one for one in those if one.right is not None]
         wrong = [one for one in known if not one.right]
-        sure = sum(one.certainty == "certain" for one in wrong) if those is ours else ""
+        sure = sum(one.certainty == "numerically certain" for one in wrong) if those is ours else ""
         right = len(known) - len(wrong)
         lines.append(f"| {name} | {len(known)} | {right} | {len(wrong)} | {sure} |")
     return lines

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from ..core.arrays import FloatArray
 from ..core.basis import Basis
 from ..core.elements import Class, Dual, NodeKind, dual_table
-from ..result.modes import column_weights, row_weights
 from ..result.order import column_key, coordinate_key, deformation_key, ranked, row_key
 from ..result.result import Result
 from ..result.sparse_basis import (
@@ -31,6 +30,7 @@ from ..result.sparse_basis import (
     row_norms,
     support_of,
 )
+from ..result.weights import column_weights, row_weights
 
 #: Below this leverage a row does not reach into a space.
 _NOTHING = 1.0e-7

@@ -7,7 +7,7 @@ import argparse
 
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
-from flexact.cli.analysed import add_decision, read_and_analysed
+from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
 from flexact.cli.outcome import ExitCode, Outcome
@@ -44,6 +44,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "elevation of the eye in degrees, as in --view=-60,25; z is up",
     )
     add_decision(parser)
+    add_accuracy(parser)
     parser.set_defaults(run=draw_deck)
 
 

@@ -17,6 +17,8 @@ from ..drawing.colours import diverging
 from ..drawing.movement import AMPLITUDE
 from ..drawing.view import View
 from ..text.describe import verdict_in_words
+from ..text.margin import margin_in_short, margin_line
+from ..text.sentences import plain as without_links
 from .canvas import Box
 from .panel import Panel, is_simplified, paint
 from .stress import Stress
@@ -42,6 +44,8 @@ _TURNED = 0.9
 _UNMOVED, _UNTURNED = 0.005, 0.05
 #: Pieces of the bar of colours.
 _PIECES = 128
+#: Lines of the margin below the verdict; in few words where it takes more.
+_MOST_OF_MARGIN = 2
 #: After a name that is cut.
 _CUT = "..."
 #: Values nearer to each other than this are told once [px].
@@ -135,7 +139,7 @@ class _Frame:
 
 
 def _add_verdict(frame: _Frame, analysis: Result) -> float:
-    """The name and the verdict; where they end [px]."""
+    """The name, the verdict and the margin; where they end [px]."""
     left, y = 18 * frame.scale, 14 * frame.scale
     name = harmless(os.path.basename(analysis.name))
     if name:
@@ -143,8 +147,14 @@ def _add_verdict(frame: _Frame, analysis: Result) -> float:
         y += frame.line("name")
     words = str(verdict_in_words(analysis))
     for line in _balanced(words, _letters(frame, "title")):
-        frame.text(left, y, line, "title", color=analysis.verdict.colour, weight="bold")
+        frame.text(left, y, line, "title", color=analysis.colour, weight="bold")
         y += frame.line("title")
+    lines = textwrap.wrap(without_links(margin_line(analysis).head), _letters(frame, "caption"))
+    if len(lines) > _MOST_OF_MARGIN:
+        lines = [f"{margin_in_short(analysis).capitalize()}."]
+    for line in lines:
+        frame.text(left, y, line, "caption")
+        y += frame.line("caption")
     return y + 4 * frame.scale
 
 

@@ -22,8 +22,10 @@ from ..core.elements import Class, NodeKind, coordinate_name
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
+from .body_motions import Moves
 from .decompose import decompose
 from .modes import Velocities
+from .order import coordinate_key, ranked
 from .outcome import Asked, Outcome
 
 #: Independent velocities that depend on each other to within this part cannot be told apart.
@@ -38,16 +40,22 @@ _Place = tuple[bool, int, int]
 
 
 @dataclass(frozen=True, eq=False)
-class FreeMotion(Frozen):
+class FreeMotion(Moves, Frozen):
     """The velocities of all nodes in a declared degree of freedom.
 
     Attributes:
-        condensed: The model at whose nodes it is a motion, and the one that was analysed.
-        analysed: The velocities of the latter's nodes; its model is without this declaration.
+        analysis: The analysis that it belongs to.
+        analysed: The velocities of the nodes of the model as it was analysed; its model is
+            without this declaration.
     """
 
-    condensed: Condensed
+    analysis: Outcome
     analysed: Velocities
+
+    @property
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one that was analysed."""
+        return self.analysis.condensed
 
     @property
     def displacement(self) -> FloatArray:
@@ -119,9 +127,39 @@ class Freedom(Frozen):
         placed = (data.arrays.node_kind <= NodeKind.POSITION)[:, None]
         without = _undeclared(data, [(self.is_coordinate, *self.place)])
         return FreeMotion(
-            self.analysis.condensed,
+            self.analysis,
             Velocities(without, np.where(placed, both, 0.0), np.where(placed, 0.0, both)),
         )
+
+    def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
+        """Node number, coordinate and value [m, rad] of the k largest parts of its motion.
+
+        Rotations are compared with displacements by the characteristic length; empty where
+        the mechanism cannot move so.
+
+        Raises:
+            AnalysisError: the motion cannot be found.
+        """
+        if self.motion is None:
+            return []
+        motion = self.motion.analysed
+        arrays, length = self.analysis.data.arrays, self.analysis.characteristic_length
+        sizes = (motion.displacement + length * motion.rotation).reshape(-1)
+        values = (motion.displacement + motion.rotation).reshape(-1)
+        return [
+            (
+                int(arrays.node_number[place // 3]),
+                coordinate_name(int(arrays.node_kind[place // 3]), place % 3),
+                float(values[place]),
+            )
+            for place in ranked(
+                sizes, k, lambda place: coordinate_key(self.analysis, *divmod(place, 3))
+            )
+        ]
+
+    def __repr__(self) -> str:
+        """Such as "<Freedom node 1 z>"."""
+        return f"<Freedom {self.label}>"
 
 
 class Block:

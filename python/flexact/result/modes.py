@@ -10,54 +10,20 @@ from operator import eq
 from typing import Generic, TypeVar, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..base.frozen import Frozen
-from ..core.arrays import FloatArray, IntArray
-from ..core.elements import Dual, NodeKind, coordinate_name, dual_table
+from ..core.arrays import FloatArray
+from ..core.elements import Dual, NodeKind, coordinate_name
 from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
+from .body_motions import Moves
 from .order import column_key, ranked, row_key
-from .outcome import Outcome
-from .signs import sign_of_motion, sign_of_stress
+from .part_stresses import Conflict, Load, PartStress, Pressing
+from .spaces import Spaces
+from .weights import column_weights, row_duals, row_factors, row_weights
 
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12
-
-
-#: Rows or columns of D(c): all of them, or those of an array.
-Places = IntArray | slice
-_ALL = slice(None)
-
-
-def column_weights(analysis: Outcome, columns: Places = _ALL) -> FloatArray:
-    """(columns,) 1 for a displacement, the characteristic length for a rotation."""
-    kinds = analysis.data.arrays.node_kind[analysis.raw.column_label[0, columns] - 1]
-    return np.where(kinds <= NodeKind.POSITION, 1.0, analysis.characteristic_length)
-
-
-def row_duals(analysis: Outcome, rows: Places = _ALL) -> NDArray[np.int32]:
-    """(rows,) `Dual` of rows of D(c)."""
-    element, deformation = analysis.raw.row_label[:, rows] - 1
-    table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
-    return table
-
-
-def row_factors(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
-    """(rows,) what makes a force or a moment of a stress resultant: 1, or l0 [m]."""
-    over_length = row_duals(analysis, rows) == Dual.MOMENT_OVER_LENGTH
-    return np.where(
-        over_length, analysis.data.frames.length[analysis.raw.row_label[0, rows] - 1], 1.0
-    )
-
-
-def row_weights(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
-    """(rows,) what makes a stress resultant comparable with a force.
-
-    A moment is divided by the characteristic length.
-    """
-    moment = row_duals(analysis, rows) != Dual.FORCE
-    return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +51,7 @@ class Velocities(Frozen):
 
 
 @dataclass(frozen=True, repr=False)
-class Motion(Frozen):
+class Motion(Moves, Frozen):
     """A kinematically indeterminate motion: velocities that nothing determines.
 
     Attributes:
@@ -94,7 +60,7 @@ class Motion(Frozen):
     """
 
     index: int
-    analysis: Outcome
+    analysis: Spaces
 
     @property
     def condensed(self) -> Condensed:
@@ -103,27 +69,19 @@ class Motion(Frozen):
 
     @property
     def vector(self) -> FloatArray:
-        """(n,) column of V: the dependent coordinates [m, rad], of unit norm."""
-        column: FloatArray = self.sign * self.analysis.raw.motions.vector(self.index) + 0.0
+        """(n,) the dependent coordinates [m, rad]; the largest is one."""
+        column = self.analysis.motion_basis.vector(self.index)
         column.flags.writeable = False
         return column
-
-    @cached_property
-    def sign(self) -> float:
-        """1 or -1: what the core's vector is multiplied by (`flexact.result.signs`)."""
-        place, value = self.analysis.raw.motions.entries(self.index)
-        node, axis = self.analysis.raw.column_label[:, place] - 1
-        weighted = value * column_weights(self.analysis, place)
-        return sign_of_motion(self.analysis.data, node, axis, weighted)
 
     @cached_property
     def analysed(self) -> Velocities:
         """The velocities of the nodes of the model as it was analysed."""
         kinds = self.analysis.data.arrays.node_kind
-        place, value = self.analysis.raw.motions.entries(self.index)
+        place, value = self.analysis.motion_basis.entries(self.index)
         node, axis = self.analysis.raw.column_label[:, place] - 1
         both = np.zeros((2, kinds.size, 3))
-        both[(kinds[node] > NodeKind.POSITION).astype(int), node, axis] = self.sign * value
+        both[(kinds[node] > NodeKind.POSITION).astype(int), node, axis] = value
         return Velocities(self.analysis.data, *both)
 
     @property
@@ -146,13 +104,13 @@ class Motion(Frozen):
         Rotations are compared with displacements by the characteristic length.
         """
         analysis = self.analysis
-        place, value = analysis.raw.motions.entries(self.index)
+        place, value = analysis.motion_basis.entries(self.index)
         weighted = value * column_weights(analysis, place)
-        order = ranked(weighted, k, lambda i: column_key(analysis, place[i]))
+        order = ranked(weighted, k, lambda i: column_key(analysis, int(place[i])))
         node, axis = analysis.raw.column_label[:, place[order]] - 1
         numbers = analysis.data.arrays.node_number[node].tolist()
         names = map(coordinate_name, analysis.data.arrays.node_kind[node].tolist(), axis.tolist())
-        return list(zip(numbers, names, (self.sign * value[order]).tolist(), strict=True))
+        return list(zip(numbers, names, value[order].tolist(), strict=True))
 
     def __repr__(self) -> str:
         """Its largest parts."""
@@ -170,31 +128,14 @@ class SelfStress(Frozen):
     """
 
     index: int
-    analysis: Outcome
+    analysis: Spaces
 
     @property
     def vector(self) -> FloatArray:
-        """(m,) column of U: stress resultants dual to the deformations, of unit norm."""
-        column: FloatArray = self.sign * self.analysis.raw.stresses.vector(self.index) + 0.0
+        """(m,) stress resultants dual to the deformations; the largest force or moment is one."""
+        column = self.analysis.stress_basis.vector(self.index)
         column.flags.writeable = False
         return column
-
-    @cached_property
-    def sign(self) -> float:
-        """1 or -1: what the core's vector is multiplied by (`flexact.result.signs`)."""
-        element, value = self._stressed
-        length = self.analysis.characteristic_length
-        return sign_of_stress(self.analysis.data, element, value, length)
-
-    @cached_property
-    def _stressed(self) -> tuple[NDArray[np.int64], FloatArray]:
-        """(k,) stressed elements, (k, 6) the core's forces [N] and moments [N m] in them."""
-        place, value = self.analysis.raw.stresses.entries(self.index)
-        element, deformation = self.analysis.raw.row_label[:, place] - 1
-        index, row = np.unique(element, return_inverse=True)
-        made = np.zeros((index.size, 6))
-        made[row, deformation] = value * row_factors(self.analysis, place)
-        return index.astype(np.int64), made
 
     @property
     def forces(self) -> FloatArray:
@@ -211,16 +152,40 @@ class SelfStress(Frozen):
 
     @cached_property
     def _at_elements(self) -> tuple[FloatArray, FloatArray]:
-        element, value = self._stressed
-        kinds = self.analysis.data.arrays.element_kind
-        is_force = dual_table()[kinds[element]] == Dual.FORCE
-        both = np.zeros((2, kinds.size, 6))
-        for values, chosen in zip(both, (~is_force, is_force), strict=True):
-            values[element] = np.where(chosen, self.sign * value + 0.0, 0.0)
+        place, value = self.analysis.stress_basis.entries(self.index)
+        element, deformation = self.analysis.raw.row_label[:, place] - 1
+        is_force = (row_duals(self.analysis, place) == Dual.FORCE).astype(int)
+        both = np.zeros((2, self.analysis.data.arrays.element_number.size, 6))
+        both[is_force, element, deformation] = value * row_factors(self.analysis, place)
         made = self.analysis.condensed.stress(*both)
         for array in made:
             array.flags.writeable = False
         return made
+
+    @cached_property
+    def _pressing(self) -> Pressing:
+        return Pressing(self.analysis, self.vector)
+
+    @property
+    def parts(self) -> tuple[PartStress, ...]:
+        """The flexible parts that carry something: the largest first, of equal ones by name."""
+        return self._pressing.parts
+
+    @property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """Bodies on which parts press, then joints, with what each part exerts on them."""
+        return self._pressing.conflicts
+
+    def of(self, part: object) -> PartStress:
+        """The stress resultants of a part; see `flexact.result.part_stresses.Pressing.of`."""
+        return self._pressing.of(part)
+
+    def on(self, body: object) -> tuple[Load, ...]:
+        """What each part exerts on a body or point, in balance.
+
+        See `flexact.result.part_stresses.Pressing.on`.
+        """
+        return self._pressing.on(body)
 
     def largest(self, k: int = 6) -> list[tuple[int, int, float]]:
         """Element number, deformation and force [N] or moment [N m] of the k largest parts.
@@ -228,12 +193,12 @@ class SelfStress(Frozen):
         Moments are compared with forces by the characteristic length.
         """
         analysis = self.analysis
-        place, value = analysis.raw.stresses.entries(self.index)
+        place, value = analysis.stress_basis.entries(self.index)
         weighted = value * row_weights(analysis, place)
-        order = ranked(weighted, k, lambda i: row_key(analysis, place[i]))
+        order = ranked(weighted, k, lambda i: row_key(analysis, int(place[i])))
         element, deformation = analysis.raw.row_label[:, place[order]]
         numbers = analysis.data.arrays.element_number[element - 1].tolist()
-        values = self.sign * value[order] * row_factors(analysis, place[order])
+        values = value[order] * row_factors(analysis, place[order])
         return list(zip(numbers, deformation.tolist(), values.tolist(), strict=True))
 
     def __repr__(self) -> str:
@@ -255,7 +220,7 @@ class Modes(Frozen, Sequence[Mode], Generic[Mode]):
     """
 
     kind: type[Mode]
-    analysis: Outcome
+    analysis: Spaces
 
     def __len__(self) -> int:
         """How many are given: all, or, where there are very many, the first."""

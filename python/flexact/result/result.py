@@ -8,27 +8,27 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from ..base.loading import load
-from ..core.basis import Basis
 from ..core.progress import Progress
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
+from ..model.parts.declaring import declared
 from .certainty import Assessment, assess
 from .decompose import decompose
 from .freedoms import Freedom, freedoms_of
 from .margin import least, margins
-from .modes import Modes, Motion, SelfStress, column_weights, row_weights
-from .outcome import Asked, Outcome
+from .modes import Modes, Motion, SelfStress
+from .outcome import Asked
 from .rank_evidence import Evidence
 from .sensitivity import Pair
-from .sparse_basis import orthonormal
-from .verdict import Alternative, Certainty, Margin, Nearly
+from .spaces import Spaces
+from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Outcome):
+class Result(Spaces):
     """The result of an analysis, in the reference configuration."""
 
     @property
@@ -62,6 +62,18 @@ class Result(Outcome):
     def freedoms(self) -> tuple[Freedom, ...]:
         """The declared degrees of freedom, with the motion of each (`flexact.result.freedoms`)."""
         return freedoms_of(self)
+
+    @cached_property
+    def with_internal_declared(self) -> Result | None:
+        """The result with each divided sheet or wire as one beam; None where there is none.
+
+        Where divided sheets and wires are not declared so, their internal motions are among
+        the `motions`, and a bend by as little as rounding keeps them from passing on moments.
+        """
+        whole = declared(self.given)
+        if whole is self.given:
+            return None
+        return result_of(whole, self.asked, self.name)
 
     @cached_property
     def evidence(self) -> Evidence:
@@ -113,15 +125,17 @@ class Result(Outcome):
         """The smallest misalignment that would change the verdict: a length and an angle."""
         return least(self.margins)
 
-    @cached_property
-    def motion_space(self) -> Basis:
-        """Orthonormal basis of the motions, rotations in lengths."""
-        return orthonormal(self.raw.motions, column_weights(self))
+    @property
+    def is_marginal(self) -> bool:
+        """Whether the margin is smaller than the accuracy; False where none was given."""
+        return self.accuracy is not None and any(self.accuracy.exceeds(self.margin))
 
-    @cached_property
-    def stress_space(self) -> Basis:
-        """Orthonormal basis of the self-stresses, moments in forces."""
-        return orthonormal(self.raw.stresses, row_weights(self))
+    @property
+    def colour(self) -> str:
+        """Of the verdict, as #rrggbb; amber where exactly constrained is only marginal."""
+        if self.verdict is Verdict.EXACT and self.is_marginal:
+            return MARGINAL_COLOUR
+        return self.verdict.colour
 
 
 Found = TypeVar("Found", bound=Result)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -11,22 +10,16 @@ import numpy as np
 
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ...core.elements import Class, Member, Role, member_table, role_table
+from ..names import part_name
 
 #: Cosine of the largest angle between neighbours in a row; between those of one name.
 _IN_ROW = 0.7071
 _OF_ONE_NAME = 0.2588
 #: A row whose ends are nearer to each other than this part of its length is no sheet.
 _STRAIGHTNESS = 0.5
-#: What tells the beams of one part from each other, at the end of their names.
-_PLACE_IN_PART = re.compile(r",?\s+(?:part\s+)?\d+\s+of\s+\d+$|,\s*\d+$")
 #: Deformation at the other end of a beam, by deformation, both from 0.
 _OTHER_END = {2: 3, 3: 2, 4: 5, 5: 4}
 _OTHER_END_IN_PLANE = {1: 2, 2: 1}
-
-
-def part_name(name: str) -> str:
-    """The name of a part from that of one of its elements: "sheet 1" of "sheet 1, 3"."""
-    return _PLACE_IN_PART.sub("", name)
 
 
 class Chain(NamedTuple):

@@ -18,7 +18,8 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ..appearance import Appearance
 from ..data import ModelData
-from .chains import Chain, part_name
+from ..names import part_name
+from .chains import Chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +28,8 @@ class Condensed(Frozen):
 
     Attributes:
         given: The model as it was given.
-        data: The model that is analysed; the same object where nothing is condensed.
+        data: The model that is analysed, without stiffness and mass; the same object where
+            nothing is condensed.
         chains: The rows of beams that are one beam each in `data`.
         nodes: (nodes of `data`,) index of each of its nodes in `given`.
         elements: (elements of `data`,) index of each of its elements in `given`.
@@ -235,7 +237,9 @@ def condensed(data: ModelData) -> Condensed:
             arrays=ModelArrays._make(np.asfortranarray(each) for each in made),
             element_names=tuple(names[i] for i in elements.tolist()),
             found=data.problems,
+            node_names=tuple(data.node_names[i] for i in nodes.tolist()),
             given_appearance=_some(data.given_appearance, elements),
+            properties=None,
         ),
         chains,
         nodes,

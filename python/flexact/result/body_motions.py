@@ -1,0 +1,306 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A motion of a mechanism as its designer sees it: what each body does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ..base.frozen import Frozen
+from ..core.arrays import FloatArray
+from ..diagnostics.errors import model_error
+from ..model.parts.parts import Part, PartKind, natural
+from .carriers import Carriers, Joint
+from .handles import part_of, position_of
+from .outcome import Outcome
+from .screws import ROUNDING, Screw, screw_of
+
+
+class NodeMotion(NamedTuple):
+    """What a point does."""
+
+    displacement: FloatArray
+    """(3,) [m]."""
+    rotation: FloatArray | None
+    """(3,) [rad]; None where the point has no orientation, or several."""
+
+
+class BodyMotion(NamedTuple):
+    """Bodies and joints that move as one."""
+
+    bodies: tuple[Part, ...]
+    """The bodies, by name; none where joints alone move so."""
+    joints: tuple[Joint, ...]
+    """Points that belong to no body and move with them."""
+    screw: Screw
+    """How they move."""
+
+    @property
+    def is_joint(self) -> bool:
+        """Whether no real body is among them."""
+        return not self.bodies
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the bodies; without bodies of the joints."""
+        return tuple(str(each) for each in self.bodies or self.joints)
+
+    def __str__(self) -> str:
+        """In words."""
+        together = "" if len(self.names) == 1 else " (together)"
+        return f"{', '.join(self.names)}{together} {self.screw}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Moving(Frozen):
+    """What moves in a motion; each answer is found when it is asked for.
+
+    Attributes:
+        outcome: The analysis.
+        displacement: (nodes as given, 3) [m].
+        rotation: (nodes as given, 3) [rad].
+    """
+
+    outcome: Outcome
+    displacement: FloatArray
+    rotation: FloatArray
+
+    @cached_property
+    def bodies(self) -> tuple[BodyMotion, ...]:
+        """Bodies and joints that move, those that move as one together; bodies first, by name."""
+        groups: list[list[_Item]] = []
+        for item in self._items:
+            if item.screw:
+                same = next((group for group in groups if self._is_same(group[0], item)), None)
+                if same is None:
+                    groups.append([item])
+                else:
+                    same.append(item)
+        made = [
+            BodyMotion(
+                tuple(item.body for item in group if item.body is not None),
+                tuple(item.joint for item in group if item.joint is not None),
+                self._screw_of_all(group),
+            )
+            for group in groups
+        ]
+        return tuple(sorted(made, key=lambda one: one.is_joint))
+
+    def of(self, body: object) -> Screw:
+        """The screw of a body; one that does not move is of the kind `NONE`.
+
+        Args:
+            body: Its name, its part, what the model handed out for it, or its index among
+                `analysis.parts.bodies`.
+
+        Raises:
+            ModelError: there is no such body, or it is none.
+        """
+        bodies = self._carriers.bodies
+        if isinstance(body, int) and not isinstance(body, bool):
+            if not 0 <= body < len(bodies):
+                raise model_error("no-such-part", f"there is no body {body} of {len(bodies)}")
+            return self._of_body(body)
+        part = part_of(self.outcome.parts, body)
+        if part.kind is not PartKind.BODY:
+            raise model_error(
+                "no-body",
+                f"{part.name} is no body but a {part.kind}",
+                f"ask for one of {', '.join(each.name for each in bodies)}" if bodies else "",
+            )
+        return self._of_body(bodies.index(part))
+
+    def at(self, point: object) -> NodeMotion:
+        """Displacement and rotation of a point.
+
+        Args:
+            point: Its name, the number of its position node, or what the model handed out.
+
+        Raises:
+            ModelError: there is no such point.
+        """
+        position = position_of(self.outcome.parts, point)
+        orientation = getattr(point, "orientation", None)
+        if orientation is not None:
+            node = self.outcome.given.node_index.get(orientation)
+        else:
+            own = [
+                node for node, place in self.outcome.parts.position_of.items() if place == position
+            ]
+            node = own[0] if len(own) == 1 else None
+        return NodeMotion(
+            self.displacement[position], None if node is None else self.rotation[node]
+        )
+
+    @property
+    def is_internal(self) -> bool:
+        """Whether nothing moves but what is inside of sheets and wires."""
+        return not self.bodies and bool(self.internal_to)
+
+    @cached_property
+    def internal_to(self) -> tuple[Part, ...]:
+        """The sheets and wires inside of which something moves, by name."""
+        return tuple(
+            inside.part
+            for inside in self._carriers.insides
+            if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
+        )
+
+    # What it is made of -----------------------------------------------------
+
+    @cached_property
+    def _carriers(self) -> Carriers:
+        return Carriers(self.outcome.parts)
+
+    @property
+    def _length(self) -> float:
+        return self.outcome.characteristic_length
+
+    @cached_property
+    def _size(self) -> FloatArray:
+        """(nodes,) how much each node moves, rotations as lengths."""
+        moved, turned = (np.linalg.norm(v, axis=1) for v in (self.displacement, self.rotation))
+        made: FloatArray = moved + self._length * turned
+        return made
+
+    @cached_property
+    def rounding(self) -> float:
+        """What part of the motion may be rounding: 1e-9, or more where D(c) is nearly singular.
+
+        A null vector is off by the noise over the gap (Wedin 1972; Stewart and Sun, *Matrix
+        Perturbation Theory*, 1990, theorem V.4.4), at most.
+        """
+        above = self.outcome.gap.smallest_nonzero
+        return (
+            max(ROUNDING, min(1.0e-3, 10.0 * self.outcome.raw.noise / above))
+            if above
+            else (ROUNDING)
+        )
+
+    @cached_property
+    def _rest(self) -> float:
+        return self.rounding * float(self._size.max(initial=0.0))
+
+    @cached_property
+    def _items(self) -> tuple[_Item, ...]:
+        carriers = self._carriers
+        order = sorted(range(len(carriers.bodies)), key=self._key_of_body)
+        made = [_Item(self._of_body(k), carriers.bodies[k], None) for k in order]
+        joints = [_Item(self._of_joint(joint), None, joint) for joint in carriers.joints]
+        joints.sort(key=lambda item: item.joint is not None and item.joint.orientation is None)
+        return (*made, *joints)
+
+    def _key_of_body(self, body: int) -> tuple[object, ...]:
+        part = self._carriers.bodies[body]
+        name = natural(part.name) if part.is_named else ()
+        return name, tuple(np.round(self._of_body(body).centre / self._length, 9).tolist())
+
+    def _of_body(self, body: int) -> Screw:
+        """Of the mean velocity, which is that of the mean of its points."""
+        nodes = self.outcome.parts.bodies[body]
+        places = self.outcome.given.arrays.node_value[:3, list(nodes.positions)]
+        return self._screw(
+            self.rotation[list(nodes.orientations)].mean(axis=0),
+            self.displacement[list(nodes.positions)].mean(axis=0),
+            places.mean(axis=1),
+        )
+
+    def _of_joint(self, joint: Joint) -> Screw:
+        place = self._carriers.place_of(joint)
+        none = np.zeros(3)
+        return self._screw(
+            none if joint.orientation is None else self.rotation[joint.orientation],
+            none if joint.position is None else self.displacement[joint.position],
+            none if place is None else place,
+        )
+
+    def _screw(self, rotation: FloatArray, velocity: FloatArray, centre: FloatArray) -> Screw:
+        return screw_of(
+            *(rotation, velocity, centre, self._length),
+            rest=self._rest,
+            rounding=self.rounding,
+        )
+
+    def _is_same(self, one: _Item, other: _Item) -> bool:
+        """Whether two move as one body would."""
+        far = 1.0 + float(np.linalg.norm(one.screw.centre - other.screw.centre)) / self._length
+        limit = 10.0 * self._rest * far
+        joint = other.joint
+        if joint is None or joint.position is not None:
+            off = one.screw.at(other.screw.centre) - other.screw.velocity
+            if np.linalg.norm(off) > limit:
+                return False
+        if joint is not None and joint.orientation is None:
+            return True
+        if one.joint is not None and one.joint.orientation is None:
+            return False
+        turned = one.screw.rotation - other.screw.rotation
+        return bool(np.linalg.norm(turned) * self._length <= limit)
+
+    def _screw_of_all(self, items: Sequence[_Item]) -> Screw:
+        """Of several that move as one, about the middle of all."""
+        bodies = [item.screw for item in items if item.body is not None]
+        screws = bodies or [item.screw for item in items]
+        if len(screws) == 1:
+            return screws[0]
+        centre = np.mean([screw.centre for screw in screws], axis=0)
+        return self._screw(
+            np.mean([screw.rotation for screw in screws], axis=0),
+            np.mean([screw.at(centre) for screw in screws], axis=0),
+            centre,
+        )
+
+
+class _Item(NamedTuple):
+    """A body or a joint, and how it moves."""
+
+    screw: Screw
+    body: Part | None
+    joint: Joint | None
+
+
+class Moves:
+    """What motions have in common: the velocities of all nodes, and of what they are made of."""
+
+    analysis: Outcome
+
+    @property
+    def displacement(self) -> FloatArray:
+        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
+        raise NotImplementedError
+
+    @property
+    def rotation(self) -> FloatArray:
+        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
+        raise NotImplementedError
+
+    @cached_property
+    def _moving(self) -> Moving:
+        return Moving(self.analysis, self.displacement, self.rotation)
+
+    @property
+    def bodies(self) -> tuple[BodyMotion, ...]:
+        """Bodies and joints that move, those that move as one together; bodies first, by name."""
+        return self._moving.bodies
+
+    def of(self, body: object) -> Screw:
+        """The screw of a body; see `flexact.result.body_motions.Moving.of`."""
+        return self._moving.of(body)
+
+    def at(self, point: object) -> NodeMotion:
+        """Displacement and rotation of a point; see `flexact.result.body_motions.Moving.at`."""
+        return self._moving.at(point)
+
+    @property
+    def is_internal(self) -> bool:
+        """Whether nothing moves but what is inside of sheets and wires."""
+        return self._moving.is_internal
+
+    @property
+    def internal_to(self) -> tuple[Part, ...]:
+        """The sheets and wires inside of which something moves, by name."""
+        return self._moving.internal_to

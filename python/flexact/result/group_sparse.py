@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bases of a space whose vectors reach as few groups of rows as can be.
+
+The vectors that are zero in some groups are a subspace, a flat. A basis whose vectors cost least
+in all is found greedily, as in any matroid: from the cheapest flat on, what is not spanned yet is
+added (Coleman and Pothen, SIAM J. Algebraic Discrete Methods 7, 1986). All flats are looked at
+where they are not too many; else those to which a descent in the sum of the groups' norms leads.
+Either way the vectors are independent and span the space: that is made sure of at the end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.arrays import BoolArray, FloatArray
+
+#: A group with less of a unit vector than this has nothing of it.
+_NOTHING = 1.0e-9
+#: A vector that has less than this outside what is spanned already is not taken for a new one.
+_NEW = 1.0e-3
+#: A group that has all of a vector but this is looked at as one that may have it alone.
+_ALL_BUT = 1.0e-6
+#: Subspaces that are cut to find all flats of one component.
+_MOST_CUTS = 3_000
+#: Components of more dimensions than this are left as they are.
+_MOST_DIMENSIONS = 24
+#: Steps of the descent, and groups from which one starts.
+_STEPS = 12
+_MOST_STARTS = 60
+
+Groups = Sequence[NDArray[np.integer]]
+Cost = tuple[int, ...]
+#: What makes a basis of a space, (rows, k) columns, that a choice of groups leaves: (rows, k).
+Refine = Callable[[FloatArray], FloatArray]
+
+
+class Piece(NamedTuple):
+    """Vectors that reach the same groups."""
+
+    cost: Cost
+    """The sum of the costs of these groups."""
+    support: tuple[int, ...]
+    """Which groups they are."""
+    vectors: FloatArray
+    """(rows, d)."""
+
+
+class _Flat(NamedTuple):
+    """The vectors that are zero in some groups: (k, d) coefficients."""
+
+    zero: int
+    """These groups, a bit each."""
+    vectors: FloatArray
+
+
+def pieces_of(
+    space: FloatArray, groups: Groups, costs: Sequence[Cost], refine: Refine
+) -> list[Piece]:
+    """A basis of a space, the cheapest vectors first.
+
+    Args:
+        space: (rows, k) independent columns.
+        groups: Rows of each group; what no group has is not paid for.
+        costs: Of each group; of equal costs the groups that come first are taken.
+        refine: Chooses among the vectors that reach the same groups.
+
+    Returns:
+        Together k columns, in pieces of one support each; those that reach no group first.
+    """
+    unseen, seen = _by_what_is_seen(space, groups)
+    nothing: Cost = tuple(0 for _ in costs[0]) if costs else ()
+    made = [Piece(nothing, (), refine(unseen))] if unseen.shape[1] else []
+    if not seen.shape[1]:
+        return made
+    # Coefficients in which the rows of all groups together are orthonormal.
+    stacked = np.concatenate([seen[group] for group in groups])
+    change = np.linalg.inv(np.linalg.qr(stacked)[1])
+    blocks = [_reduced(seen[group] @ change) for group in groups]
+    search = _Search(blocks, costs, lambda given: refine(seen @ (change @ given)), seen @ change)
+    return made + sorted(search.pieces(), key=lambda piece: piece[:2])
+
+
+def columns_of(pieces: Sequence[Piece], rows: int) -> FloatArray:
+    """All vectors side by side."""
+    return np.concatenate([np.zeros((rows, 0)), *(piece.vectors for piece in pieces)], axis=1)
+
+
+def null_of(matrix: FloatArray) -> FloatArray:
+    """(k, d) orthonormal columns that a matrix (rows, k) of about unit size sends to zero."""
+    rows, k = matrix.shape
+    if not rows:
+        return np.eye(k)
+    _, values, right = np.linalg.svd(matrix, full_matrices=True)
+    rank = int(np.count_nonzero(values > _NOTHING))
+    made: FloatArray = right[rank:].T
+    return made
+
+
+def rest_of(columns: FloatArray) -> FloatArray:
+    """(k, d) orthonormal columns across independent ones, (k, c)."""
+    made: FloatArray = np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
+    return made
+
+
+def classes_of_rows(space: FloatArray) -> list[NDArray[np.integer]]:
+    """Rows that are parallel to each other, class by class in the order of their first rows.
+
+    Rows that are zero are in none.
+    """
+    size = np.linalg.norm(space, axis=1)
+    there = np.flatnonzero(size > _NOTHING * size.max(initial=0.0))
+    unit = space[there] / size[there, None]
+    left = np.ones(there.size, bool)
+    made = []
+    for k in range(there.size):
+        if left[k]:
+            off = unit - np.outer(unit @ unit[k], unit[k])
+            mine = left & (np.linalg.norm(off, axis=1) < 1.0e3 * _NOTHING)
+            left &= ~mine
+            made.append(there[mine])
+    return made
+
+
+def _by_what_is_seen(space: FloatArray, groups: Groups) -> tuple[FloatArray, FloatArray]:
+    """The vectors of a space that no group has, and those across them."""
+    every = np.concatenate([np.zeros(0, int), *groups])
+    orthonormal = np.linalg.qr(space)[0]
+    unseen = null_of(np.linalg.qr(orthonormal[every])[1])
+    return orthonormal @ unseen, orthonormal @ rest_of(unseen)
+
+
+def _reduced(block: FloatArray) -> FloatArray:
+    """A matrix of few rows with the same product with its transpose."""
+    _, values, right = np.linalg.svd(block, full_matrices=False)
+    made: FloatArray = (values[:, None] * right)[values > _NOTHING]
+    return made
+
+
+class _Search:
+    """The search in coefficients of k vectors whose groups together are orthonormal."""
+
+    def __init__(
+        self,
+        blocks: list[FloatArray],
+        costs: Sequence[Cost],
+        refine: Refine,
+        space: FloatArray,
+    ) -> None:
+        """Keep (r, k) blocks of the groups; `refine` takes coefficients, (k, d)."""
+        self.blocks = blocks
+        self.costs = costs
+        self.refine = refine
+        self.space = space
+
+    def pieces(self) -> Iterator[Piece]:
+        """Vectors that one group has alone, then those of each component of the rest."""
+        size = self.space.shape[1]
+        alone = [np.zeros((size, 0))]
+        for i, block in enumerate(self.blocks):
+            if not block.size or np.linalg.norm(block, 2) < 1.0 - _ALL_BUT:
+                continue
+            others = [other for k, other in enumerate(self.blocks) if k != i]
+            mine = null_of(np.concatenate([np.zeros((0, size)), *others]))
+            if mine.shape[1]:
+                alone.append(mine)
+                yield Piece(self.costs[i], (i,), self.refine(mine))
+        rest = rest_of(np.concatenate(alone, axis=1))
+        if rest.shape[1]:
+            yield from self._of_components(rest)
+
+    def _of_components(self, rest: FloatArray) -> Iterator[Piece]:
+        blocks = [_reduced(block @ rest) for block in self.blocks]
+        for members in _components(blocks):
+            _, values, right = np.linalg.svd(np.concatenate([blocks[i] for i in members]))
+            within = rest @ right[: int(np.count_nonzero(values > 0.5))].T
+            yield from self._of_component(members, within)
+
+    def _of_component(self, members: list[int], within: FloatArray) -> Iterator[Piece]:
+        """The greedy choice; `within` (k, d) are the vectors of the component."""
+        d = within.shape[1]
+        blocks = [_reduced(self.blocks[i] @ within) for i in members]
+        spanned = np.zeros((d, 0))
+        for support, flat in self._cheapest_first(members, blocks, d):
+            if not np.linalg.norm(_off(flat.vectors, spanned)) > _NEW:
+                continue
+            refined = self.refine(within @ flat.vectors)
+            coefficients = np.linalg.lstsq(self.space @ within, refined, rcond=None)[0]
+            chosen = []
+            for k, new in enumerate((coefficients / np.linalg.norm(coefficients, axis=0)).T):
+                off = _off(new[:, None], spanned)
+                if np.linalg.norm(off) > _NEW:
+                    spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
+                    chosen.append(k)
+            if chosen:
+                yield Piece(self._cost(support), support, refined[:, chosen])
+            if spanned.shape[1] == d:
+                return
+        left = within @ rest_of(spanned)
+        yield Piece(self._cost(members), tuple(members), self.space @ left)
+
+    def _cheapest_first(
+        self, members: list[int], blocks: list[FloatArray], d: int
+    ) -> list[tuple[tuple[int, ...], _Flat]]:
+        if d > _MOST_DIMENSIONS:
+            return []
+        whole = _Flat(0, np.eye(d))
+        flats = [whole] if d == 1 else _all_flats(blocks, d) or [*_by_descent(blocks, d), whole]
+        supports = [
+            tuple(i for k, i in enumerate(members) if not flat.zero >> k & 1) for flat in flats
+        ]
+        order = sorted(range(len(flats)), key=lambda n: (self._cost(supports[n]), supports[n]))
+        return [(supports[n], flats[n]) for n in order]
+
+    def _cost(self, support: Sequence[int]) -> Cost:
+        return tuple(map(sum, zip(*(self.costs[i] for i in support), strict=True)))
+
+
+def _off(vectors: FloatArray, spanned: FloatArray) -> FloatArray:
+    """What of some vectors is outside of what orthonormal ones span."""
+    off = vectors - spanned @ (spanned.T @ vectors)
+    made: FloatArray = off - spanned @ (spanned.T @ off)
+    return made
+
+
+def _components(blocks: list[FloatArray]) -> list[list[int]]:
+    """Groups that vectors join, as the projector on the space shows; those without rows in none."""
+    there = [i for i, block in enumerate(blocks) if block.size]
+    if not there:
+        return []
+    stacked = np.concatenate([blocks[i] for i in there])
+    start = np.cumsum([0, *(len(blocks[i]) for i in there[:-1])])
+    square = np.add.reduceat((stacked @ stacked.T) ** 2, start, axis=0)
+    joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * _NOTHING
+    left: BoolArray = np.ones(len(there), bool)
+    made = []
+    while left.any():
+        mine = np.zeros(len(there), bool)
+        mine[np.argmax(left)] = True
+        while True:
+            more = joined[mine].any(axis=0)
+            if np.array_equal(more | mine, mine):
+                break
+            mine |= more
+        left &= ~mine
+        made.append([there[k] for k in np.flatnonzero(mine)])
+    return made
+
+
+def _zero_in(blocks: list[FloatArray], vectors: FloatArray) -> int:
+    """The groups in which vectors are zero, a bit each."""
+    return sum(
+        1 << i
+        for i, block in enumerate(blocks)
+        if not block.size or np.linalg.norm(block @ vectors) < 10.0 * _NOTHING
+    )
+
+
+def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
+    """Every flat once, the whole space first; None where they are too many.
+
+    Each is cut out of another by the first group in which it is zero and that one is not; that
+    this is the first, and later than those before, tells it from its repetitions (Ganter 1984).
+    """
+    whole = _Flat(_zero_in(blocks, np.eye(d)), np.eye(d))
+    made, cuts = [whole], 0
+    open_flats = [(whole, -1)]
+    while open_flats:
+        flat, last = open_flats.pop()
+        for i in range(last + 1, len(blocks)):
+            if flat.zero >> i & 1:
+                continue
+            cuts += 1
+            if cuts > _MOST_CUTS:
+                return None
+            left = null_of(blocks[i] @ flat.vectors)
+            if not left.shape[1]:
+                continue
+            vectors = flat.vectors @ left
+            zero = _zero_in(blocks, vectors)
+            new = zero & ~flat.zero
+            if new & -new == 1 << i:
+                made.append(_Flat(zero, vectors))
+                open_flats.append((made[-1], i))
+    return made
+
+
+def _by_descent(blocks: list[FloatArray], d: int) -> Iterator[_Flat]:
+    """Flats that cannot be made smaller, one for each direction of the first groups.
+
+    From a vector with a small sum of the groups' norms, found by weighted least squares again
+    and again, the groups are made zero as long as the one that it starts from is not.
+    """
+    for i in range(min(len(blocks), _MOST_STARTS)):
+        for row in blocks[i]:
+            vector = row / np.linalg.norm(row)
+            for _ in range(_STEPS):
+                norms = np.array([np.linalg.norm(block @ vector) for block in blocks])
+                weights = 1.0 / np.maximum(norms, 1.0e-8 * norms.max(initial=0.0))
+                matrix = np.concatenate(
+                    [w**0.5 * block for w, block in zip(weights, blocks, strict=True)]
+                )
+                vector = np.linalg.lstsq(matrix.T @ matrix, row, rcond=None)[0]
+                vector = vector / np.linalg.norm(vector)
+            yield _descended(blocks, i, vector, d)
+
+
+def _descended(blocks: list[FloatArray], start: int, vector: FloatArray, d: int) -> _Flat:
+    norms = np.array([np.linalg.norm(block @ vector) for block in blocks])
+    rounded = np.round(norms / norms.max(), 6)
+    # The smallest first; of equal ones the last, so that those that come first are kept.
+    order = np.lexsort((-np.arange(norms.size), rounded))
+    vectors = np.eye(d)
+    for i in order.tolist():
+        if i == start or not blocks[i].size:
+            continue
+        left = vectors @ null_of(blocks[i] @ vectors)
+        if left.shape[1] and np.linalg.norm(blocks[start] @ left) > _NEW:
+            vectors = left
+    return _Flat(_zero_in(blocks, vectors), vectors)

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The null spaces of D(c) and of its transpose, as spaces and in vectors that can be read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from ..core.basis import Basis
+from .mode_basis import motion_basis, stress_basis
+from .outcome import Outcome
+from .sparse_basis import orthonormal
+from .weights import column_weights, row_weights
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Spaces(Outcome):
+    """An outcome with bases of its null spaces; each is made when it is asked for."""
+
+    @cached_property
+    def motion_space(self) -> Basis:
+        """Orthonormal basis of the motions, rotations in lengths."""
+        return orthonormal(self.raw.motions, column_weights(self))
+
+    @cached_property
+    def stress_space(self) -> Basis:
+        """Orthonormal basis of the self-stresses, moments in forces."""
+        return orthonormal(self.raw.stresses, row_weights(self))
+
+    @cached_property
+    def motion_basis(self) -> Basis:
+        """The motions as they are told, [m] and [rad]: sparse over bodies, not orthogonal.
+
+        The largest entry of each is 1, rotations compared by the characteristic length. Of
+        large spaces they are those of the core, scaled (`flexact.result.mode_basis`).
+        """
+        return motion_basis(self, self.motion_space)
+
+    @cached_property
+    def stress_basis(self) -> Basis:
+        """The self-stresses as they are told: sparse over parts, the largest force or moment 1."""
+        return stress_basis(self, self.stress_space)
