@@ -83,12 +83,13 @@ contains
       call add(self, severity_warning, code, place, message, label, help, other)
    end subroutine add_warning
 
-   !> Add a note: something that was read and not used.
-   subroutine add_note(self, code, place, message, label, help)
+   !> Add a note: something that was read and not used, or that is often meant.
+   subroutine add_note(self, code, place, message, label, help, other)
       class(diagnostics_t), intent(inout) :: self
       character(len=*), intent(in) :: code, message, label, help
       type(span_t), intent(in) :: place
-      call add(self, severity_note, code, place, message, label, help)
+      type(span_t), intent(in), optional :: other
+      call add(self, severity_note, code, place, message, label, help, other)
    end subroutine add_note
 
    subroutine add(self, severity, code, place, message, label, help, other, words)

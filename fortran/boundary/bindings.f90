@@ -51,15 +51,15 @@ subroutine describe_names(n, enumeration, names, first, count)
    end do
 end subroutine describe_names
 
-! Read a deck. sizes: as give_deck says; only where the deck says how elements are
-! drawn choice and value are filled. name: first and last place of each element's name.
+! Read a deck; name, choice, value and sizes are as give_deck says.
 subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements, vectors, &
                      name, choice, value, sizes, diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_deck, only: read_text => read_deck
    use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: diagnostics_t
-   use flexact_exchange, only: to_text, give_diagnostics, give_appearance, give_deck
+   use flexact_deck_exchange, only: give_deck
+   use flexact_exchange, only: to_text, give_diagnostics
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: n
@@ -67,9 +67,9 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    integer(c_int), intent(in) :: most_nodes, most_elements
    integer(c_int), intent(inout) :: nodes(5, most_nodes), elements(12, most_elements)
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
-   integer(c_int), intent(inout) :: name(2, most_elements), choice(2, most_elements)
-   real(c_double), intent(inout) :: value(9, most_elements)
-   integer(c_int), intent(out) :: sizes(6)
+   integer(c_int), intent(inout) :: name(2, most_elements + most_nodes), choice(2, most_elements)
+   real(c_double), intent(inout) :: value(11, 2*most_elements + most_nodes)
+   integer(c_int), intent(out) :: sizes(7)
    integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
@@ -80,35 +80,33 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    call to_text(text, letters)
    call read_text(letters, deck, unused, diagnostics)
    call give_diagnostics(letters, diagnostics, diag_count, diag_number, diag_text)
-   sizes = [0, 0, 0, unused, 0, 0]
-   if (diagnostics%has_errors()) return
-   call give_deck(deck, nodes, places, elements, vectors, name, sizes)
-   if (allocated(deck%appearance)) call give_appearance(deck%appearance, choice(:, :sizes(2)), value(:, :sizes(2)))
+   sizes = [0, 0, 0, unused, 0, 0, 0]
+   if (.not. diagnostics%has_errors()) call give_deck(deck, nodes, places, elements, vectors, name, choice, value, sizes)
 end subroutine read_deck
 
-! Check a model that was made without a deck.
-subroutine check_model(nn, ne, nodes, places, elements, vectors, diag_count, diag_number, diag_text)
+! Check a model that was made without a deck. name: where in the text the names of the
+! elements stand, then those of the nodes.
+subroutine check_model(n, text, nn, ne, nodes, places, elements, vectors, name, diag_count, diag_number, diag_text)
    use iso_c_binding
-   use flexact_checks, only: check => check_model, is_consistent
-   use flexact_diagnostics, only: diagnostics_t, span_t
-   use flexact_exchange, only: unpack_model, give_diagnostics
+   use flexact_diagnostics, only: diagnostics_t
+   use flexact_exchange, only: unpack_model, give_diagnostics, to_text
    use flexact_model, only: model_t
+   use flexact_model_check, only: check => check_made_model
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne)
+   integer(c_int), intent(in) :: n
+   integer(c_signed_char), intent(in) :: text(n)
+   integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne), name(2, ne + nn)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
    integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
+   character(len=:), allocatable :: letters
    type(model_t) :: model
    type(diagnostics_t) :: diagnostics
 
+   call to_text(text, letters)
    call unpack_model(nodes, places, elements, vectors, model)
-   if (is_consistent(model)) then
-      call check(model, diagnostics)
-   else
-      call diagnostics%error('inconsistent-model', span_t(), 'the arrays of the model do not fit together', '', &
-                             'give every element nodes of the kinds that it joins')
-   end if
+   call check(model, letters, name, diagnostics)
    call give_diagnostics('', diagnostics, diag_count, diag_number, diag_text)
 end subroutine check_model
 

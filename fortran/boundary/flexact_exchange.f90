@@ -4,16 +4,13 @@ module flexact_exchange
    use, intrinsic :: iso_c_binding, only: c_signed_char
    use flexact_sparse_basis, only: sparse_basis_t
    use flexact_deck, only: locate
-   use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: span_t, diagnostics_t, most_shown
    use flexact_kinds, only: wp
-   use flexact_appearance, only: appearance_t
    use flexact_model, only: model_t
    use flexact_partition, only: class_count_t
-   use flexact_slots, only: node_position, node_orientation
    implicit none
    private
-   public :: to_text, from_text, counts_of, unpack_model, give_deck, give_diagnostics, give_basis, give_appearance
+   public :: to_text, from_text, counts_of, unpack_model, give_diagnostics, give_basis
 
 contains
 
@@ -60,45 +57,8 @@ contains
       model%deformation_class = elements(7:12, :)
       model%element_vector = vectors
       allocate (model%element_origin(model%elements), source=0)
+      allocate (model%node_origin(model%nodes), source=0)
    end subroutine unpack_model
-
-   !> The other way round; there is room for the model.
-   pure subroutine pack_model(model, nodes, places, elements, vectors)
-      type(model_t), intent(in) :: model
-      integer, intent(inout) :: nodes(:, :), elements(:, :)
-      real(wp), intent(inout) :: places(:, :), vectors(:, :)
-
-      associate (nn => model%nodes, ne => model%elements)
-         nodes(1, :nn) = model%node_number
-         nodes(2, :nn) = model%node_kind
-         nodes(3:5, :nn) = model%coordinate_class
-         places(:, :nn) = model%node_value
-         elements(1, :ne) = model%element_number
-         elements(2, :ne) = model%element_kind
-         elements(3:6, :ne) = model%element_node
-         elements(7:12, :ne) = model%deformation_class
-         vectors(:, :ne) = model%element_vector
-      end associate
-   end subroutine pack_model
-
-   !> What a deck holds; there is room for it. sizes: nodes, elements, 1 for a planar model,
-   !> one that stays, 1 where the deck says how elements are drawn, and where it has more
-   !> digits than its numbers hold.
-   pure subroutine give_deck(deck, nodes, places, elements, vectors, name, sizes)
-      type(deck_model_t), intent(in) :: deck
-      integer, intent(inout) :: nodes(:, :), elements(:, :), name(:, :), sizes(:)
-      real(wp), intent(inout) :: places(:, :), vectors(:, :)
-
-      associate (model => deck%model, ne => deck%model%elements)
-         call pack_model(model, nodes, places, elements, vectors)
-         sizes(:2) = [model%nodes, ne]
-         sizes(3) = merge(0, 1, any(model%node_kind == node_position .or. model%node_kind == node_orientation))
-         sizes(5) = merge(1, 0, allocated(deck%appearance))
-         sizes(6) = merge(1, 0, deck%has_long_numbers)
-         name(1, :ne) = deck%element_names%first
-         name(2, :ne) = deck%element_names%last
-      end associate
-   end subroutine give_deck
 
    !> Append the vectors of a basis, whose places lie behind `before` others; only
    !> as many as fit. start(k): where vector k begins, from 0.
@@ -128,21 +88,6 @@ contains
       integer :: numbers(4)
       numbers = [counts%total, counts%fixed, counts%dependent, counts%independent]
    end function counts_of
-
-   !> How elements are drawn, as arrays. choice: kind of cross-section, 1 where
-   !> drawn. value: dimensions, colour, colour of edges, opacity.
-   pure subroutine give_appearance(appearance, choice, value)
-      type(appearance_t), intent(in) :: appearance
-      integer, intent(inout) :: choice(:, :)
-      real(wp), intent(inout) :: value(:, :)
-
-      choice(1, :) = appearance%cross_section
-      choice(2, :) = merge(1, 0, appearance%drawn)
-      value(1:2, :) = appearance%dimensions
-      value(3:5, :) = appearance%colour
-      value(6:8, :) = appearance%edge_colour
-      value(9, :) = appearance%opacity
-   end subroutine give_appearance
 
    !> Diagnostics as arrays. count: errors, warnings, notes, shown. number:
    !> severity, line, first and last column, the same three of the other place,

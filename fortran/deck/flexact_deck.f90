@@ -7,9 +7,12 @@ module flexact_deck
    use flexact_deck_forms, only: read_forms, note_unused
    use flexact_deck_picture, only: read_picture
    use flexact_deck_model, only: deck_model_t
+   use flexact_deck_properties, only: read_properties
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
+   use flexact_labels, only: names_t
    use flexact_lexer, only: operand_span
+   use flexact_silent_mistakes, only: check_silent_mistakes
    use flexact_statement, only: statement_t, read_statements, find_unreadable
    implicit none
    private
@@ -25,6 +28,7 @@ contains
       integer, intent(out) :: unused
       type(diagnostics_t), target, intent(inout) :: diagnostics
       type(statement_t), allocatable :: statements(:)
+      type(names_t) :: names
       integer :: count
 
       unused = 0
@@ -39,10 +43,17 @@ contains
             call read_values(all_statements, deck)
             call read_classes(all_statements, deck)
             call read_picture(all_statements, deck)
+            call read_properties(all_statements, deck)
             call read_forms(all_statements, deck)
          end if
-         call check_model(deck%model, diagnostics)
-         if (.not. diagnostics%has_errors()) call note_unused(all_statements, unused, diagnostics)
+         names%text => text
+         names%element = deck%element_names
+         names%node = deck%node_names
+         call check_model(deck%model, names, diagnostics)
+         if (.not. diagnostics%has_errors()) then
+            call check_silent_mistakes(deck%model, names, diagnostics)
+            call note_unused(all_statements, unused, diagnostics)
+         end if
       end associate
       deck%text => null()
       deck%diagnostics => null()
@@ -76,15 +87,21 @@ contains
 
       do i = 1, diagnostics%kept
          associate (item => diagnostics%item(i))
-            if (item%place%first == 0 .or. item%place%last > 0) cycle
-            if (item%words(1) > 0) then
-               item%place = operand_span(text, item%place%first, item%words(1), item%words(2))
-            else
-               item%place = operand_span(text, item%place%first, 1, huge(1) - 1)
-            end if
+            if (item%words(1) == 0) item%words = [1, huge(1) - 1]
+            call narrow(text, item%words, item%place)
+            call narrow(text, [1, huge(1) - 1], item%other)
          end associate
       end do
    end subroutine narrow_places
+
+   !> From where a statement starts to these words of it.
+   pure subroutine narrow(text, words, place)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: words(2)
+      type(span_t), intent(inout) :: place
+
+      if (place%first > 0 .and. place%last == 0) place = operand_span(text, place%first, words(1), words(2))
+   end subroutine narrow
 
    !> The line and the column, both from 1, of a position in the text.
    pure subroutine locate(text, position, line, column)

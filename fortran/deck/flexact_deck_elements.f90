@@ -174,6 +174,8 @@ contains
          allocate (model%node_kind(model%nodes), source=0)
          allocate (model%node_value(4, model%nodes), source=0.0_wp)
          allocate (model%coordinate_class(3, model%nodes), source=class_none)
+         allocate (model%node_origin(model%nodes), source=0)
+         allocate (deck%node_names(model%nodes))
          first_user = 0
          do k = 1, model%elements
             do slot = 1, slots

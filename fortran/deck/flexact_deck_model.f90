@@ -7,6 +7,7 @@ module flexact_deck_model
    use flexact_model, only: model_t
    use flexact_numbering, only: numbering_t
    use flexact_operands, only: operands_t
+   use flexact_properties, only: properties_t
    implicit none
    private
    public :: deck_model_t, take_node, take_element
@@ -22,6 +23,8 @@ module flexact_deck_model
       integer, allocatable :: element_of(:)
       !> Name of each element, as a place in the text.
       type(span_t), allocatable :: element_names(:)
+      !> Name of each node, likewise: the comment of its X statement.
+      type(span_t), allocatable :: node_names(:)
       !> Numbers in element statements that could not be read: nodes or elements
       !> perhaps, so that it is not reported that they do not exist.
       type(numbering_t) :: excused
@@ -29,6 +32,8 @@ module flexact_deck_model
       logical :: has_long_numbers = .false.
       !> How the elements are to be drawn, where the deck says something about it.
       type(appearance_t), allocatable :: appearance
+      !> Stiffness and mass, where the deck says something about them.
+      type(properties_t), allocatable :: properties
    end type deck_model_t
 
 contains

@@ -24,8 +24,8 @@ module flexact_deck_values
 
 contains
 
-   !> Give the nodes the values that the X statements state; of two for one
-   !> node the last counts.
+   !> Give the nodes the values that the X statements state, and their comments as
+   !> names; of two for one node the last counts.
    subroutine read_values(statements, deck)
       type(statement_t), intent(in) :: statements(:)
       type(deck_model_t), intent(inout) :: deck
@@ -49,6 +49,8 @@ contains
                                               'remove one of the two statements', stated(node))
          end if
          stated(node) = operands%word
+         deck%model%node_origin(node) = statements(i)%keyword%first
+         if (statements(i)%comment%first > 0) deck%node_names(node) = statements(i)%comment
          call read_value(operands, deck%model%node_kind(node), deck%model%node_value(:, node))
          if (is_position(deck%model%node_kind(node)) .and. .not. operands%is_short) deck%has_long_numbers = .true.
          ! Not known: what is measured with it is not reported as well.

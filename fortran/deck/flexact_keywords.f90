@@ -10,7 +10,8 @@ module flexact_keywords
    private
    public :: keyword_t, keywords, find_keyword, nearest_keyword, edit_distance
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
-   public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture
+   public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture, &
+             role_property
 
    integer, parameter :: block_kinematics = 1
    integer, parameter :: block_dynamics = 2
@@ -21,8 +22,8 @@ module flexact_keywords
 
    !> What a statement does: makes an element; gives a node its value; gives a
    !> coordinate or a deformation its class; is read for its form alone; is
-   !> known, and outside what Flexact covers; is not known at all; or says how
-   !> elements are drawn.
+   !> known, and outside what Flexact covers; is not known at all; says how
+   !> elements are drawn; or gives a stiffness or a mass.
    integer, parameter :: role_element = 1
    integer, parameter :: role_value = 2
    integer, parameter :: role_coordinate = 3
@@ -31,6 +32,7 @@ module flexact_keywords
    integer, parameter :: role_uncovered = 6
    integer, parameter :: role_unknown = 7
    integer, parameter :: role_picture = 8
+   integer, parameter :: role_property = 9
 
    type :: keyword_t
       character(len=13) :: name
@@ -48,6 +50,7 @@ module flexact_keywords
    integer, parameter :: pic = block_picture
    integer, parameter :: form = role_form
    integer, parameter :: draw = role_picture
+   integer, parameter :: give = role_property
    integer, parameter :: no = role_uncovered
 
    type(keyword_t), parameter :: keywords(*) = [ &
@@ -64,14 +67,14 @@ module flexact_keywords
                                  keyword_t('WHEEL', kin, no, 'w', 0, any_number), &
                                  keyword_t('PLWHEEL', kin, no, 'w', 0, any_number), &
                                  keyword_t('ENHC', kin, no, 'w', 0, any_number), &
-                                 keyword_t('EM', dyn, form, 'er', 2, any_number), &
-                                 keyword_t('EMASS', dyn, form, 'er', 2, any_number), &
-                                 keyword_t('ESTIFF', dyn, form, 'er', 2, any_number), &
+                                 keyword_t('EM', dyn, give, 'er', 2, any_number), &
+                                 keyword_t('EMASS', dyn, give, 'er', 2, any_number), &
+                                 keyword_t('ESTIFF', dyn, give, 'er', 2, any_number), &
                                  keyword_t('EDAMP', dyn, form, 'er', 2, any_number), &
                                  keyword_t('EDAMPP', dyn, form, 'er', 2, any_number), &
                                  keyword_t('ESIG', dyn, form, 'er', 2, any_number), &
-                                 keyword_t('XM', dyn, form, 'nr', 2, any_number), &
-                                 keyword_t('MASS', dyn, form, 'nr', 2, any_number), &
+                                 keyword_t('XM', dyn, give, 'nr', 2, any_number), &
+                                 keyword_t('MASS', dyn, give, 'nr', 2, any_number), &
                                  keyword_t('XF', dyn, form, 'nr', 2, any_number), &
                                  keyword_t('FORCE', dyn, form, 'nr', 2, any_number), &
                                  keyword_t('DELXF', dyn, form, 'nr', 2, any_number), &

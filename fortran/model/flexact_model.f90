@@ -25,6 +25,8 @@ module flexact_model
       integer, allocatable :: node_number(:)
       integer, allocatable :: node_kind(:)
       real(wp), allocatable :: node_value(:, :)
+      !> Where the node's X statement starts in the deck's text; 0 without one.
+      integer, allocatable :: node_origin(:)
       !> Class of each axis of each node, (3, nodes).
       integer, allocatable :: coordinate_class(:, :)
       !> Element: number in the deck, kind (a row of the element table), node

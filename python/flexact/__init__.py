@@ -20,8 +20,18 @@ if TYPE_CHECKING:
     from .diagnostics.diagnostic import Diagnostic, Place, Severity
     from .diagnostics.errors import DeckError, ModelError
     from .model.configuration import Configuration
-    from .model.handles import Element, Node, Sheet
+    from .model.handles import (
+        Assembly,
+        Body,
+        Element,
+        FoldedSheet,
+        Node,
+        Notch,
+        Sheet,
+        Wire,
+    )
     from .model.jacobian import Jacobian, deformations, jacobian
+    from .model.material import Material
     from .model.model import Model
     from .result.decompose import AnalysisError
     from .result.exact import ExactBases
@@ -49,7 +59,10 @@ _HOMES = {
     "diagnostics.errors": ("DeckError", "ModelError"),
     "model.configuration": ("Configuration",),
     "model.jacobian": ("Jacobian", "deformations", "jacobian"),
-    "model.handles": ("Element", "Node", "Sheet"),
+    "model.handles": (
+        *("Assembly", "Body", "Element", "FoldedSheet", "Node", "Notch", "Sheet", "Wire"),
+    ),
+    "model.material": ("Material",),
     "model.model": ("Model",),
     "result.decompose": ("AnalysisError",),
     "result.exact": ("ExactBases",),
@@ -65,6 +78,8 @@ __all__ = [
     "Alternative",
     "Analysis",
     "AnalysisError",
+    "Assembly",
+    "Body",
     "Certainty",
     "ClassCounts",
     "Configuration",
@@ -74,20 +89,24 @@ __all__ = [
     "Element",
     "ExactBases",
     "FlexactError",
+    "FoldedSheet",
     "Gap",
     "Jacobian",
     "Margin",
+    "Material",
     "Model",
     "ModelError",
     "Motion",
     "Nearly",
     "Node",
+    "Notch",
     "Place",
     "Proof",
     "SelfStress",
     "Severity",
     "Sheet",
     "Verdict",
+    "Wire",
     "__version__",
     "analyse",
     "deformations",

@@ -17,11 +17,13 @@ from .mesh import to_meshio
 from .model.jacobian import jacobian
 from .model.model import Model
 from .page.notebook import html_of
+from .result.accuracy import AccuracyGiven
 from .result.decompose import asked_for
 from .result.result import Result, result_of
 from .saving import save
 from .text.describe import MOST_MODES, describe
 from .text.json_result import dictionary_of, text_of
+from .text.margin import margin_in_short
 from .text.warnings import warning_of, warnings_of
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class Analysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Sentences that say why the decision is not certain."""
+        """Sentences that say why the rank is doubtful."""
         return tuple(warning_of(self, doubt).message for doubt in self.assessment.doubts)
 
     @cached_property
@@ -91,7 +93,8 @@ class Analysis(Result):
             motion: Number of the motion that is shown, from 1; of pictures and meshes.
             freedom: Number of the declared degree of freedom that is shown, likewise.
             stress: Number of the self-stress that is shown, of pictures.
-            quantity: `N`, `T`, `My` or `Mz` of the self-stress, of pictures.
+            quantity: Of the self-stress in pictures: "normal force", "twist moment", "in-plane
+                moment" or "out-of-plane moment".
             view: From where, of pictures; see `flexact.picture.draw`.
 
         Raises:
@@ -112,12 +115,13 @@ class Analysis(Result):
         return describe(self, most=MOST_MODES)
 
     def __repr__(self) -> str:
-        """Verdict and size in a line."""
+        """Verdict, margin and size in a line."""
         name = f" {self.name!r}" if self.name else ""
         motions = f"{self.under_constrained} motion{'s' * (self.under_constrained != 1)}"
         stresses = f"{self.over_constrained} self-stress{'es' * (self.over_constrained != 1)}"
         return (
-            f"<Analysis{name}: {self.verdict.value}, {motions}, {stresses}, "
+            f"<Analysis{name}: {self.verdict.value}, {margin_in_short(self)}, "
+            f"{motions}, {stresses}, "
             f"D(c) {self.rows} x {self.columns} of rank {self.rank}>"
         )
 
@@ -131,6 +135,7 @@ def analyse(
     method: str = "auto",
     tolerance: float | None = None,
     prove: bool | None = None,
+    accuracy: AccuracyGiven | None = None,
     name: str | None = None,
     progress: Progress | None = None,
 ) -> Analysis:
@@ -148,6 +153,9 @@ def analyse(
             default it follows from the data and the arithmetic.
         prove: Whether the rank is to be proven in exact arithmetic, as far as memory and some
             minutes allow; by default where it costs little.
+        accuracy: To what the parts are made and put together: a length [m], or a length and an
+            angle [rad]. A margin that is smaller is said beside the verdict, and has another
+            colour; see `Analysis.is_marginal`.
         name: What the result is called; by default the model's name or the path.
         progress: Called with what is being done and how much of that is done, from 0 to 1,
             some times a second.
@@ -158,9 +166,10 @@ def analyse(
         AnalysisError: the model is too large for the memory, the decomposition did not
             converge, or this build lacks what the method needs.
         TypeError: what is given is neither a model nor a path, or the tolerance no number,
-            the method or the name no text, `prove` no truth value, or `progress` nothing to
-            call.
-        ValueError: there is no such method, or the tolerance is negative or not finite.
+            the method or the name no text, `prove` no truth value, the accuracy neither a
+            number nor two, or `progress` nothing to call.
+        ValueError: there is no such method, the tolerance is negative or not finite, or the
+            accuracy is not positive or not finite.
     """
     if not isinstance(model, (Model, str, bytes, os.PathLike)):
         kind = type(model).__name__
@@ -169,7 +178,7 @@ def analyse(
         raise TypeError(f"the name of a result must be text, not {type(name).__name__}")
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be something to call, not {type(progress).__name__}")
-    asked = asked_for(method, tolerance, prove)
+    asked = asked_for(method, tolerance, prove, accuracy)
     if not isinstance(model, Model):
         model = read(model)
     return result_of(model.data, asked, name, progress, Analysis)

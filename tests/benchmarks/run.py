@@ -158,14 +158,14 @@ def _over_dgesdd(found: list[Outcome], size: int, method: str) -> str:
 
 def _verdicts(found: list[Outcome]) -> list[str]:
     """How often the counts were right, of all runs on families whose truth is known."""
-    lines = ["| who | runs with a known answer | right | wrong | wrong and called certain |"]
+    lines = ["| who | runs with a known answer | right | wrong | wrong, not called doubtful |"]
     lines.append("|---|---|---|---|---|")
     ours = [one for one in found if one.contestant in _METHODS]
     theirs = [one for one in found if one.contestant not in _METHODS]
     for name, those in (("Flexact", ours), ("dgesdd and the bare peers", theirs)):
         known = [one for one in those if one.right is not None]
         wrong = [one for one in known if not one.right]
-        sure = sum(one.certainty == "certain" for one in wrong) if those is ours else ""
+        sure = sum(one.certainty == "numerically certain" for one in wrong) if those is ours else ""
         right = len(known) - len(wrong)
         lines.append(f"| {name} | {len(known)} | {right} | {len(wrong)} | {sure} |")
     return lines

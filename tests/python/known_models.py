@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from flexact import Model
+from flexact import Model, Node
 
 
 def twelve_trusses() -> Model:
@@ -41,12 +41,22 @@ def ring(n: int) -> Model:
     return model
 
 
+def undeclared_sheet(model: Model, p: Node, q: Node, beams: int, name: str = "") -> None:
+    """A sheet in the xy plane in several beams, whose inner motions nobody declares."""
+    ends = np.array([p.place, q.place])
+    inner = [model.node(*((1 - t) * ends[0] + t * ends[1])) for t in np.arange(1, beams) / beams]
+    nodes = [p, *inner, q]
+    for k in range(beams):
+        own = f"{name}, {k + 1}" if name and beams > 1 else name
+        model.sheet(nodes[k], nodes[k + 1], (0, 0, 1), name=own)
+
+
 def folded_sheet(clamped: bool, beams: int = 1, size: float = 1.0) -> Model:
     """Fig. 4 of the paper: two sheets at a right angle, in series."""
     model = Model(name="folded sheet")
     a, b, c = (model.node(size * x, size * y, 0) for x, y in ((0, 0), (1, 0), (1, 1)))
-    model.sheet(a, b, (0, 0, 1), beams, name="first")
-    model.sheet(b, c, (0, 0, 1), beams, name="second")
+    undeclared_sheet(model, a, b, beams, "first")
+    undeclared_sheet(model, b, c, beams, "second")
     model.fix(a)
     if clamped:
         model.fix(c)
@@ -68,8 +78,8 @@ def guide(beams: int = 1, size: float = 1.0) -> Model:
     model = Model()
     a, b = model.node(0, 0, 0), model.node(size, 0, 0)
     c, d = model.node(0, size / 4, 0), model.node(size, size / 4, 0)
-    model.sheet(a, b, (0, 0, 1), beams)
-    model.sheet(c, d, (0, 0, 1), beams)
+    undeclared_sheet(model, a, b, beams)
+    undeclared_sheet(model, c, d, beams)
     model.rigid(b, d)
     model.fix(a)
     model.fix(c)

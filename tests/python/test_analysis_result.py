@@ -66,11 +66,12 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
     assert "\n" not in text
     read = json.loads(text)
     assert list(read) == [
-        *("deck", "flexact", "verdict", "under_constrained", "over_constrained", "rank", "rows"),
-        *("columns", "method", "tolerance", "bound", "certainty", "nearly", "alternatives"),
-        *("proof", "gap", "margin"),
-        *("singular_values", "singular_values_given", "condition_number", "degrees_of_freedom"),
-        *("counts", "motions", "self_stresses", "warnings"),
+        *("format", "deck", "flexact", "verdict", "under_constrained", "over_constrained"),
+        *("margin", "margins", "accuracy", "degrees_of_freedom", "counts"),
+        *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
+        *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),
+        *("condition_number", "certainty", "proof", "nearly", "alternatives", "freedoms"),
+        *("motions", "self_stresses", "advice", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"
     assert read["flexact"] == flexact.__version__
@@ -86,8 +87,10 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
     of_nine = [c["value"] for c in motion["components"] if (c["node"], c["coordinate"]) == (9, "y")]
     assert of_nine == [analysis.motions[0].displacement[4, 1]]
     (stress,) = read["self_stresses"]
-    assert set(stress["components"][0]) == {"element", "deformation", "value"}
-    assert [c["value"] for c in stress["components"]] == analysis.self_stresses[0].vector.tolist()
+    assert list(stress["components"][0]) == [
+        *("element", "name", "keyword", "deformation", "word", "value", "unit", "raw"),
+    ]
+    assert [c["raw"] for c in stress["components"]] == analysis.self_stresses[0].vector.tolist()
 
 
 def test_json_of_an_empty_matrix() -> None:

@@ -36,7 +36,7 @@ def codes(analysis: Analysis) -> list[str]:
 @pytest.mark.parametrize("name", NAMES)
 def test_every_deck_is_certain(name: str) -> None:
     analysis = analyse(flexact.read_text(text_of(name)))
-    assert (analysis.certainty.value, analysis.nearly) == ("certain", None)
+    assert (analysis.certainty.value, analysis.nearly) == ("numerically certain", None)
 
 
 @NEEDS_FLINT
@@ -76,7 +76,7 @@ def test_families_are_certain(letter: str, seed: int) -> None:
 def test_an_angle_below_the_rounding_is_proven(power: int) -> None:
     """The bars' directions differ by it, and it is typed: nothing was rounded."""
     analysis = analyse(two_wires(10.0**-power))
-    assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
+    assert (counts(analysis), analysis.certainty.value) == ((0, 0), "numerically certain")
     assert analysis.proof is not None and analysis.proof[1:] == (2, 1, 0.0)
     assert [item.code for item in analysis.warnings] == ["close-decision"]
 
@@ -158,7 +158,7 @@ def test_digits_explain_a_value_that_is_not_zero() -> None:
     assert (doubt.code, doubt.values) == ("rounded-geometry", 1)
     assert [item.code for item in analysis.warnings] == [doubt.code]
     data = json.loads(analysis.to_json())
-    assert data["certainty"] == "nearly"
+    assert data["certainty"] == "doubtful"
     assert data["nearly"] == {"under_constrained": 1, "over_constrained": 1}
 
 
@@ -168,7 +168,7 @@ def test_rounded_rings_of_odd_number_stay_certain(n: int, digits: int) -> None:
     """Tarnai 1980: they are rigid, by far more than any rounding."""
     for turn in random_turns(10):
         analysis = analyse(rounded(ring(n), turn, f".{digits - 1}e"))
-        assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
+        assert (counts(analysis), analysis.certainty.value) == ((0, 0), "numerically certain")
 
 
 @pytest.mark.parametrize("digits", [3, 4, 6, 11])
@@ -202,7 +202,7 @@ def test_joints_of_a_lattice_are_meant() -> None:
         model.fix(low[0])
         model.fix(high[0])
         analysis = analyse(model)
-        assert (counts(analysis), analysis.certainty.value) == ((0, 0), "certain")
+        assert (counts(analysis), analysis.certainty.value) == ((0, 0), "numerically certain")
 
 
 # Small angles, many beams
@@ -273,4 +273,8 @@ def test_a_rank_that_is_not_confirmed_is_not_certain() -> None:
 
 def test_nothing_is_in_doubt_without_columns() -> None:
     analysis = analyse(sheet_clamped_twice())
-    assert (analysis.certainty.value, analysis.nearly, analysis.doubts) == ("certain", None, ())
+    assert (analysis.certainty.value, analysis.nearly, analysis.doubts) == (
+        "numerically certain",
+        None,
+        (),
+    )

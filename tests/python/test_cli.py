@@ -196,7 +196,7 @@ def test_json_is_one_object_a_line(decks: Path, capsys: pytest.CaptureFixture[st
     assert {name: results[name]["verdict"] for name in DECKS} == VERDICTS
     assert results["broken"]["error"]["errors"] == 1
     (diagnostic,) = results["broken"]["error"]["diagnostics"]
-    assert set(diagnostic) == {"code", "line", "column", "message"}
+    assert set(diagnostic) == {"code", "severity", "line", "column", "message"}
     assert (diagnostic["line"], diagnostic["column"]) == (1, 1)
     assert results["broken"]["deck"] == str(broken)
     assert "broken.dat:1:1" in err

@@ -3,12 +3,13 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
 from known_models import folded_sheet, ring, twelve_trusses
 
-from flexact import Certainty, Model, analyse
+from flexact import Certainty, Model, analyse, read_text
 from flexact.core import calls
 from flexact.core.arrays import packed
 
@@ -82,21 +83,49 @@ def test_moving_the_node_by_the_margin_makes_a_zero() -> None:
     assert min(shorter) > 0.4 * small
 
 
-def test_a_zero_is_lifted_above_the_tolerance() -> None:
-    """The joint of two bars in a line: moving it by d turns both, so u' dD v is 2 d / 2."""
+def bars_in_line() -> Model:
     model = Model(planar=True)
     a, b, c = (model.node(x, 0) for x in (-1, 0, 1))
     model.truss(a, b)
     model.truss(b, c)
     model.fix(a)
     model.fix(c)
-    analysis = analyse(model)
-    margin = analysis.margins[0]
-    # u = (1, 1) / sqrt(2), v = (0, 1), rows scaled by 1 / sqrt(2): u' dD v = d.
-    assert margin.length == pytest.approx(analysis.tolerance, rel=1e-6)
-    assert margin.node == b.position
-    assert margin.singular_value == pytest.approx(0.0, abs=1e-15)
-    assert analysis.margin.length == margin.length
+    return model
+
+
+def test_a_zero_that_any_misalignment_lifts_has_no_margin() -> None:
+    """Two bars in a line are tight only as long as they are in a line: no length of a machine.
+
+    To first order u' dD v = 2 d / 2 where the joint is moved by d, whatever d is.
+    """
+    analysis = analyse(bars_in_line())
+    for margin in (analysis.margin, analysis.margins[0]):
+        assert (margin.length, margin.angle, margin.exact_alignment) == (0.0, 0.0, True)
+        assert (margin.node, margin.element) == (3, 1)
+        assert margin.singular_value == pytest.approx(0.0, abs=1e-15)
+    told = " ".join(analysis.describe().split())
+    assert "depend on exact alignment" in told and "such as one of node 3 or of element 1" in told
+    assert "exact alignment" in repr(analysis)
+    assert not re.search(r"\d (nm|um|mm|nrad|urad|mrad)", told)
+
+
+def test_any_move_lifts_such_a_zero() -> None:
+    """By exact arithmetic, on the decimals as typed: far below what floats could tell."""
+    deck = bars_in_line().to_deck()
+    lifted = re.sub(r"^X 3 .*$", "X 3 0 1e-12", deck, flags=re.MULTILINE)
+    assert lifted != deck
+    proof = analyse(read_text(lifted)).proof
+    if proof is None:
+        pytest.skip("this build has no FLINT")
+    assert proof.rank == 2 and analyse(read_text(deck)).rank == 1
+
+
+def test_with_a_tolerance_a_zero_is_lifted_by_so_much() -> None:
+    """u = (1, 1) / sqrt(2), v = (0, 1), rows scaled by 1 / sqrt(2): u' dD v = d."""
+    analysis = analyse(bars_in_line(), tolerance=1e-3)
+    margin = analysis.margin
+    assert margin.length == pytest.approx(1e-3, rel=1e-6)
+    assert not margin.exact_alignment and margin.node == 3
 
 
 def test_units_do_not_matter() -> None:
@@ -118,9 +147,9 @@ def test_no_misalignment_frees_a_clamped_fold() -> None:
 def test_one_margin_for_each_zero_and_each_pair() -> None:
     analysis = analyse(twelve_trusses())
     assert len(analysis.margins) == 1 + analysis.raw.pair_value.size > 1
-    assert all(margin.length is not None for margin in analysis.margins)
-    smallest = min(margin.length or 0.0 for margin in analysis.margins)
-    assert analysis.margin.length == smallest
+    assert [margin.exact_alignment for margin in analysis.margins[:2]] == [True, False]
+    assert all(margin.length for margin in analysis.margins[1:])
+    assert analysis.margin == analysis.margins[0]
 
 
 def test_motions_alone_have_no_margin() -> None:
@@ -134,11 +163,16 @@ def test_motions_alone_have_no_margin() -> None:
 
 
 def test_margin_in_json() -> None:
-    analysis = analyse(two_wires(1e-4))
-    margin = json.loads(analysis.to_json())["margin"]
-    assert margin == {"length": analysis.margin.length, "angle": analysis.margin.angle}
+    model = two_wires(1e-4)
+    analysis = analyse(model)
+    made = json.loads(analysis.to_json())["margin"]
+    length, angle = made["length"], made["angle"]
+    assert (length["value"], length["unit"]) == (analysis.margin.length, "m")
+    assert (angle["value"], angle["unit"]) == (analysis.margin.angle, "rad")
+    assert (length["node"], angle["element"]) == (analysis.margin.node, analysis.margin.element)
+    assert (angle["name"], angle["keyword"], made["exact_alignment"]) == ("", "PLTRUSS", False)
     assert analysis.certainty is Certainty.CERTAIN
-    assert margin["angle"] == pytest.approx(1e-4, rel=1e-3)
+    assert angle["value"] == pytest.approx(1e-4, rel=1e-3)
 
 
 def test_a_mechanism_far_from_another_verdict_has_no_small_margin() -> None:

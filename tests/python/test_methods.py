@@ -104,7 +104,7 @@ def test_what_is_not_worth_a_look_may_always_be_used(monkeypatch: pytest.MonkeyP
 @pytest.mark.parametrize("prove", [None, True])
 def test_a_build_that_cannot_prove_says_so(prove: bool | None) -> None:
     analysis = analyse(twelve_trusses(), prove=prove)
-    assert (analysis.certainty.value, analysis.proof) == ("certain", None)
+    assert (analysis.certainty.value, analysis.proof) == ("numerically certain", None)
     assert analysis.to_dict()["proof"] is None
     assert "this build has no FLINT" in describe(analysis)
 

@@ -45,7 +45,9 @@ def test_sheet_follows_the_paper() -> None:
     # Section 4.2: local z in the plane of the sheet; held are e1, e3, e4.
     model = Model()
     sheet = model.sheet(model.node(0, 0, 0), model.node(3, 0, 0), width=(5, 0, 2), beams=3)
-    assert model.deformation_classes.tolist() == [[1, 2, 1, 1, 2, 2]] * 3
+    # What the first beam releases is declared in the others, so that D(c) is that of one beam.
+    inner = [[1, 3, 1, 1, 3, 3]] * 2
+    assert model.deformation_classes.tolist() == [[1, 2, 1, 1, 2, 2], *inner]
     ex, y = np.array([1, 0, 0]), model.element_vectors
     assert np.allclose(np.cross(ex, y), [[0, 0, 1]] * 3), "ez = ex x ey along the width"
     assert len(sheet.elements) == 3 and len(sheet.nodes) == 4
@@ -163,11 +165,13 @@ def test_fix_and_independent_by_name_and_number() -> None:
     assert flexact.analyse(model).degrees_of_freedom == 3
 
 
-def test_sheets_are_released_beam_by_beam() -> None:
+def test_a_divided_sheet_is_released_in_the_beam_at_that_end() -> None:
     model = Model()
     sheet = model.sheet(model.node(0, 0, 0), model.node(1, 0, 0), (0, 0, 1), beams=2)
     model.release(sheet, 3)
-    assert model.deformation_classes.tolist() == [[1, 2, 2, 1, 2, 2]] * 2
+    assert model.deformation_classes.tolist() == [[1, 2, 2, 1, 2, 2], [1, 3, 1, 1, 3, 3]]
+    model.release(sheet, 4)
+    assert model.deformation_classes.tolist() == [[1, 2, 2, 1, 2, 2], [1, 3, 1, 2, 3, 3]]
 
 
 def test_old_arrays_stay_as_they_were() -> None:

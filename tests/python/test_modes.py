@@ -84,7 +84,8 @@ def test_many_modes_are_counted_on_the_screen_and_told_in_the_log() -> None:
 
 
 def test_notes_about_a_deck_are_told_once_or_left_out() -> None:
-    analysis = analyse(flexact.read_text("TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nEND\nXM 2 1\nEND\n"))
+    deck = "TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nFIX 1\nEND\nXF 2 1\nEND\n"
+    analysis = analyse(flexact.read_text(deck))
     assert [item.code for item in analysis.warnings] == ["repeated-value", "not-used"]
     text = describe(analysis)
     assert all(text.count(item.message) == 1 for item in analysis.warnings)

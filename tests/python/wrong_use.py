@@ -149,7 +149,7 @@ ARGUMENTS: dict[type[Exception], list[Call]] = {
         lambda m, a, b, e: m.release(10**5000, 1),
         lambda m, a, b, e: m.release(e, 10**5000),
         lambda m, a, b, e: m.fix(10**5000),
-        lambda m, a, b, e: m.fix(a, np.zeros(3)),  # type: ignore[arg-type]
+        lambda m, a, b, e: m.fix(a, np.zeros(4)),
         lambda m, a, b, e: m.handle(1, np.zeros(3)),  # type: ignore[arg-type]
         lambda m, a, b, e: m.node_index([]),  # type: ignore[arg-type]
         lambda m, a, b, e: m.node_index(10**5000),

@@ -9,6 +9,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from ..core.elements import AXES, NodeKind, coordinate_name
+from ..model.parts.declaring import surplus_of
 from ..result.result import Result
 from . import leverage
 
@@ -19,6 +20,7 @@ _MOST_PARTS = 12
 class Step(str, Enum):
     """What is to be done with one of the parts, or with all of them."""
 
+    DECLARE_INTERNAL = "declare what is inside divided sheets and wires"
     DECLARE_OR_HOLD = "declare or hold one coordinate"
     DECLARE_OR_HOLD_RELEASED = "declare or hold one released deformation"
     DECLARE_OR_HOLD_ALL = "declare or hold all coordinates"
@@ -71,6 +73,7 @@ def on_motions(result: Result) -> Iterator[Advice]:
     """What may be declared or held so that there are fewer motions, the best first."""
     if not result.under_constrained:
         return
+    yield from _if_any(_internal(result))
     able = _coordinates(result, _of_columns(result, leverage.coordinates(result)))
     yield _some(Step.DECLARE_OR_HOLD, able, ("DYNX", "FIX"))
     changed = _deformations(result, leverage.deformations(result))
@@ -105,6 +108,17 @@ def _some(
 ) -> Advice:
     some = tuple(islice(parts, _MOST_PARTS + 1))
     return Advice(step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, keywords, instead)
+
+
+def _internal(result: Result) -> Advice:
+    """What makes each divided sheet or wire one beam, as far as a deck or model does not yet."""
+    numbers = result.given.arrays.element_number
+    parts = tuple(
+        Deformation(number, deformations[0], " ".join(map(str, (number, *deformations))))
+        for element, deformations in surplus_of(result.given)
+        for number in (int(numbers[element]),)
+    )
+    return Advice(Step.DECLARE_INTERNAL, parts, False, ("DYNE",), instead=True)
 
 
 def _if_any(advice: Advice) -> Iterator[Advice]:

@@ -12,7 +12,7 @@ from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.cli import failures
-from flexact.cli.analysed import add_decision, read_and_analysed
+from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
@@ -20,7 +20,8 @@ from flexact.cli.terminal import complain, say
 from flexact.files.decks import DeckFile, find_decks
 from flexact.result.result import Result
 from flexact.result.verdict import Verdict
-from flexact.text.describe import MOST_MODES, describe
+from flexact.text.describe import MOST_MODES, describe, verdict_in_words
+from flexact.text.margin import verdict_word
 
 if TYPE_CHECKING:
     from flexact.cli.result_files import ResultFiles
@@ -49,7 +50,12 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
     )
     add_decision(parser)
-    parser.add_argument("--expect", choices=VERDICTS, help="exit with 3 for any other verdict")
+    add_accuracy(parser)
+    parser.add_argument(
+        "--expect",
+        choices=VERDICTS,
+        help="exit with 3 for any other verdict, and for an exact one within the accuracy only",
+    )
     parser.set_defaults(run=analyse_decks)
 
 
@@ -79,19 +85,20 @@ class _Work:
             failure = self.files.write(deck, analysis) if self.files else None
             words = self._words(analysis)
         say(words)
-        outcome = self._judge(deck, analysis.verdict)
+        outcome = self._judge(deck, analysis)
         if failure is None:
             return outcome
         failures.report_failure(deck, failure)
         return replace(outcome, code=ExitCode.OTHER, remark="results not written")
 
-    def _judge(self, deck: DeckFile, verdict: Verdict) -> Outcome:
-        code = ExitCode.ANALYSED
-        if self.chosen.expect and verdict is not VERDICTS[self.chosen.expect]:
+    def _judge(self, deck: DeckFile, analysis: Result) -> Outcome:
+        code, word = ExitCode.ANALYSED, verdict_word(analysis)
+        if self.chosen.expect and word != VERDICTS[self.chosen.expect].value:
             code = ExitCode.DIFFERENT
             wanted = VERDICTS[self.chosen.expect].value
-            complain(f"{harmless(deck.name)}: {verdict.value}, but expected {wanted}")
-        return Outcome(deck.name, code, verdict.value)
+            found = verdict_in_words(analysis).start.lower()
+            complain(f"{harmless(deck.name)}: {found}; expected {wanted}")
+        return Outcome(deck.name, code, word)
 
     def _words(self, analysis: Result) -> str:
         if self.chosen.json:

@@ -15,6 +15,7 @@ from flexact.deck.reading import read_file
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile
 from flexact.model.data import ModelData
+from flexact.result.accuracy import Accuracy
 from flexact.result.decompose import asked_for
 from flexact.result.result import Result, result_of
 
@@ -41,6 +42,28 @@ def add_decision(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="whether to prove the rank in exact arithmetic (where it costs little)",
     )
+
+
+def add_accuracy(parser: argparse.ArgumentParser) -> None:
+    """Add to a verb's parser to what the workshop makes the parts and puts them together."""
+    parser.add_argument(
+        "--accuracy",
+        type=accuracy,
+        metavar="LENGTH[,ANGLE]",
+        help="of the workshop, in m and rad, such as 20e-6 or 20e-6,1e-4: a verdict that a "
+        "smaller misalignment changes is said to be so, in another colour",
+    )
+
+
+def accuracy(text: str) -> Accuracy:
+    """A length, or a length and an angle behind a comma, as an option's type."""
+    try:
+        return Accuracy.of([float(part) for part in text.split(",")])
+    except (TypeError, ValueError):
+        raise argparse.ArgumentTypeError(
+            f"a length [m], or a length and an angle [rad], is wanted, such as 20e-6 or "
+            f"20e-6,1e-4, not {text!r}"
+        ) from None
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:
@@ -77,7 +100,7 @@ def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: 
     _announce_wait(deck, model, chosen.method)
     return result_of(
         model,
-        asked_for(chosen.method, chosen.zero_tolerance, chosen.prove),
+        asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy),
         deck.name,
         bar.of_analysis(model),
     )

@@ -31,7 +31,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_shown(parser)
     add_decision(parser)
-    parser.set_defaults(run=export_deck)
+    parser.set_defaults(run=export_deck, accuracy=None)
 
 
 def export_deck(chosen: argparse.Namespace) -> ExitCode:

@@ -9,7 +9,7 @@ from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import complain, say
-from flexact.diagnostics.diagnostic import Severity
+from flexact.diagnostics.diagnostic import Diagnostic, Severity
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, FolderError
 
@@ -38,7 +38,8 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
         total = error.problems.errors if isinstance(error, DeckError) else len(records)
         failure = {"diagnostics": records, "errors": total}
         # Loaded where it is wanted: a command that starts does not wait for it.
-        say(load("json").dumps({"deck": deck.name, "error": failure}))
+        head = load("flexact.text.json_result").header(deck.name)
+        say(load("json").dumps({**head, "error": failure}))
     of_deck = isinstance(error, DeckError | FolderError)
     code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
     return Outcome(deck.name, code, "failed", _remark(error))
@@ -69,9 +70,5 @@ def _reason(error: Exception) -> str:
 def _records(error: Exception) -> list[dict[str, Any]]:
     if not isinstance(error, DeckError):
         code = getattr(error, "code", CODES.get(type(error).__name__, "failed"))
-        return [{"code": code, "line": 0, "column": 0, "message": _reason(error)}]
-    return [
-        {"code": d.code, "line": d.line, "column": d.column, "message": d.message}
-        for d in error.diagnostics
-        if d.severity is Severity.ERROR
-    ]
+        return [Diagnostic(Severity.ERROR, code, _reason(error)).to_dict()]
+    return [each.to_dict() for each in error.diagnostics if each.is_error]

@@ -36,7 +36,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "(default 1e-9), and of entries of projectors (default 1e-8)",
     )
     add_method(parser)
-    parser.set_defaults(run=regress_decks, zero_tolerance=None, prove=None)
+    parser.set_defaults(run=regress_decks, zero_tolerance=None, prove=None, accuracy=None)
 
 
 def regress_decks(chosen: argparse.Namespace) -> ExitCode:

@@ -10,7 +10,7 @@ from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli import failures
-from flexact.cli.analysed import add_decision, read_and_analysed
+from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
@@ -18,16 +18,18 @@ from flexact.cli.terminal import complain, say
 from flexact.diagnostics.errors import DeckError, ProblemsError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
-from flexact.page import Entry, broken_page, index_page, reason_in_words
+from flexact.page import BROKEN, Entry, broken_page, index_page, kind_of, reason_in_words
 from flexact.picture import has_packages
 from flexact.result.decompose import AnalysisError
 from flexact.result.result import Result
-from flexact.result.verdict import Verdict
 from flexact.saving import PAGES, as_bytes, page_bytes, small_picture
 from flexact.text.describe import verdict_in_words
+from flexact.text.margin import margin_in_short, verdict_word
 
 #: What the index takes the place of among the decks.
 _INDEX = DeckFile("the index", Path("index"))
+#: What is counted of decks without a verdict.
+_BROKEN = "cannot be analysed"
 _WITHOUT_PICTURES = (
     "without the packages matplotlib and pillow there are no still pictures, for browsers without "
     "WebGL and in the index: pip install 'flexact[pictures]'"
@@ -51,6 +53,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="the page, NAME.html; or a folder for a page of each deck and index.html",
     )
     add_decision(parser)
+    add_accuracy(parser)
     parser.set_defaults(run=report_decks)
 
 
@@ -92,8 +95,8 @@ class _Work:
             self._write_broken(deck, error)
             raise
         target = self.plan[deck.path][0]
-        say(f"{harmless(deck.name)}: {analysis.verdict.value}; page in {harmless(str(target))}")
-        return Outcome(deck.name, ExitCode.ANALYSED, analysis.verdict.value)
+        say(f"{harmless(deck.name)}: {verdict_word(analysis)}; page in {harmless(str(target))}")
+        return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))
 
     def _write(self, deck: DeckFile, analysis: Result) -> None:
         with unwinding():
@@ -103,8 +106,11 @@ class _Work:
             if self.index is None:
                 return
             thumb = small_picture(analysis)
-        words = verdict_in_words(analysis).start
-        self._enter(deck, analysis.verdict, words, thumb)
+        place = deck.relative.as_posix()
+        self.entries[deck.path] = Entry(
+            *(place, f"{place}.html", kind_of(analysis), verdict_word(analysis)),
+            *(verdict_in_words(analysis).start, margin_in_short(analysis), thumb),
+        )
 
     def _write_broken(self, deck: DeckFile, error: Exception) -> None:
         if isinstance(error, ProblemsError):
@@ -116,16 +122,12 @@ class _Work:
         except OutputError:
             failures.report_failure(deck, error)
             raise
-        self._enter(deck, None, f"Cannot be analysed: {reason_in_words(error)}")
+        words = f"Cannot be analysed: {reason_in_words(error)}"
+        place = deck.relative.as_posix()
+        self.entries[deck.path] = Entry(place, f"{place}.html", BROKEN, _BROKEN, words)
 
     def _put(self, deck: DeckFile, content: bytes) -> None:
         write_together({self.plan[deck.path][0]: content})
-
-    def _enter(
-        self, deck: DeckFile, verdict: Verdict | None, words: str, picture: bytes | None = None
-    ) -> None:
-        place = deck.relative.as_posix()
-        self.entries[deck.path] = Entry(place, f"{place}.html", verdict, words, picture)
 
     def finish(self) -> None:
         """Write the index, if there is to be one."""
@@ -133,7 +135,9 @@ class _Work:
             return
         nothing = "Cannot be read"
         entries = [
-            self.entries.get(deck.path, Entry(deck.relative.as_posix(), "", None, nothing))
+            self.entries.get(
+                deck.path, Entry(deck.relative.as_posix(), "", BROKEN, _BROKEN, nothing)
+            )
             for deck in self.decks
         ]
         with unwinding():

@@ -22,7 +22,13 @@ def read_deck(
     /,
 ) -> tuple[_Ints, _Ints, _Ints, _Bytes]: ...
 def check_model(
-    nodes: _Ints, places: _Floats, elements: _Ints, vectors: _Floats, /
+    text: _Bytes,
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    name: _Ints,
+    /,
 ) -> tuple[_Ints, _Ints, _Bytes]: ...
 def count_model(nodes: _Ints, elements: _Ints, /) -> tuple[_Ints, _Ints]: ...
 def find_frames(

@@ -25,6 +25,7 @@ from .raw import (
     RawDiagnostics,
     RawEchelon,
     RawFrames,
+    RawProperties,
     RawSensitivities,
 )
 
@@ -115,25 +116,43 @@ def read_deck(text: bytes) -> RawDeck:
     data = np.frombuffer(text, np.int8)
     ne = min(text.count(b"\n") + 1, len(text) // _SHORTEST_ELEMENT + 1)
     room = room_for(min(4 * ne, len(text) // 2 + 4), ne)
-    name = np.empty((2, ne), np.int32, order="F")
+    nn = room.nodes.shape[1]
+    name = np.empty((2, ne + nn), np.int32, order="F")
     choice = np.empty((2, ne), np.int32, order="F")
-    value = np.empty((9, ne), np.float64, order="F")
+    value = np.empty((11, 2 * ne + nn), np.float64, order="F")
     sizes, counts, number, words = _core.read_deck(data, *room, name, choice, value)
-    nodes, elements, planar, _, drawn, long = sizes.tolist()
+    nodes, elements, planar, _, drawn, long, given = sizes.tolist()
+    both, behind = np.s_[elements : 2 * elements], np.s_[2 * elements : 2 * elements + nodes]
     return RawDeck(
         unpacked(room, nodes, elements),
         name[:, :elements],
+        name[:, elements : elements + nodes],
         planar == 1,
         RawDiagnostics(counts, number, words),
-        RawAppearance(choice[:, :elements], value[:, :elements]) if drawn else None,
+        RawAppearance(choice[:, :elements], value[:9, :elements]) if drawn else None,
+        RawProperties(value[:6, both], value[6:, both], value[:6, behind]) if given else None,
         long == 1,
     )
 
 
-def check_model(model: PackedModel) -> RawDiagnostics:
-    """Everything that is wrong with a model, as for a deck but without places."""
+def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnostics:
+    """Everything that is wrong with a model, as for a deck but without places.
+
+    Args:
+        model: the model.
+        text: where the names stand.
+        name: (2, ne + nn) first and last place, from 1, of the name of each element, then of
+            each node; 0 where there is none.
+
+    Raises:
+        ValueError: a name stands outside the text.
+    """
+    if name.size and not 0 <= name.min() <= name.max() <= len(text):
+        raise ValueError("a name stands outside the text")
     _require_room_for(model)
-    return RawDiagnostics(*_core.check_model(*model))
+    return RawDiagnostics(
+        *_core.check_model(np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32))
+    )
 
 
 def count_model(model: PackedModel) -> RawCount:

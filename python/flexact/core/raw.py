@@ -55,16 +55,31 @@ class RawAppearance(NamedTuple):
     """(9, ne) sizes along local y and z [m], colour, colour of edges, opacity; NaN not given."""
 
 
+class RawProperties(NamedTuple):
+    """Stiffness and mass, as a deck gives them; NaN not given."""
+
+    stiffness: FloatArray
+    """(6, ne) of ESTIFF."""
+    mass: FloatArray
+    """(5, ne) of EM."""
+    node_mass: FloatArray
+    """(6, nn) of XM."""
+
+
 class RawDeck(NamedTuple):
     """What reading a deck gives."""
 
     arrays: ModelArrays
     name: IntArray
     """(2, ne) first and last place of each element's name, 0 without one."""
+    node_name: IntArray
+    """(2, nn) likewise of each node's, the comment of its X statement."""
     planar: bool
     problems: RawDiagnostics
     appearance: RawAppearance | None
     """None where the deck has nothing of it."""
+    properties: RawProperties | None
+    """None likewise."""
     has_long_numbers: bool
     """Whether its geometry was typed with more digits than its numbers hold."""
 

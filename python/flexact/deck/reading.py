@@ -13,6 +13,7 @@ from ..diagnostics.errors import DeckError
 from ..diagnostics.source import Source
 from ..model.appearance import Appearance
 from ..model.data import DeckNames, ModelData
+from ..model.properties import Properties
 
 LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
@@ -88,17 +89,17 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
     problems = problems_of(deck.problems, source)
     if problems.errors:
         raise DeckError(problems, name, source)
-    names = DeckNames(raw, deck.name)
-    appearance = Appearance.of(deck.appearance) if deck.appearance is not None else None
     return ModelData(
         deck.arrays,
         deck.planar,
         name,
-        names,
-        source,
-        problems,
-        appearance,
-        deck.has_long_numbers,
+        DeckNames(raw, deck.name),
+        DeckNames(raw, deck.node_name),
+        source=source,
+        found=problems,
+        given_appearance=Appearance.of(deck.appearance) if deck.appearance is not None else None,
+        properties=Properties.of(deck.properties) if deck.properties is not None else None,
+        has_long_numbers=deck.has_long_numbers,
     )
 
 

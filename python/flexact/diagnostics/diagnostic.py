@@ -106,6 +106,18 @@ class Problems:
         ]
         return cls(tuple(diagnostics), *counts)
 
+    def and_also(self, diagnostics: Sequence[Diagnostic]) -> Problems:
+        """These problems, and further ones behind them that are all kept."""
+        if not diagnostics:
+            return self
+        more = Problems.of(diagnostics)
+        return Problems(
+            self.kept + more.kept,
+            self.errors + more.errors,
+            self.warnings + more.warnings,
+            self.notes + more.notes,
+        )
+
 
 NO_PROBLEMS = Problems()
 

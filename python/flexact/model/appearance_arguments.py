@@ -13,26 +13,31 @@ from ..core.elements import kind_of
 from ..diagnostics.errors import model_error
 from .appearance import CrossSection
 from .appearance_draft import Colour, Said, Shape
-from .arguments import UNORDERED, element_index, real, require_own
+from .arguments import UNORDERED, real
 from .draft import Draft
-from .handles import Node, Sheet
+from .handles import Assembly, FoldedSheet, Node, Sheet
+from .part_arguments import indices_of as indices_of_part
+from .part_arguments import part
+from .point_arguments import require_own
 
 #: A diameter, or two sizes [m].
 Section = float | Sequence[float]
 
 
 def indices_of(draft: Draft, target: object) -> tuple[int, ...]:
-    """Indices of an element, of the beams of a sheet, or of the hinge at a point.
+    """Indices of the elements of a part, of all parts of an assembly, or of the hinge at a point.
 
     Raises:
-        ModelError: there is no such element, or no hinge whose far side this point is.
+        ModelError: there is no such part, or no hinge whose far side this point is.
     """
-    if isinstance(target, Sheet):
-        return tuple(element_index(draft, element) for element in target.elements)
+    if isinstance(target, FoldedSheet):
+        return tuple(i for leaf in target.leaves for i in indices_of(draft, leaf))
+    if isinstance(target, Assembly):
+        return tuple(i for each in target.parts.values() for i in indices_of(draft, each))
     if isinstance(target, Node):
         require_own(draft, target)
         return (_hinge_at(draft, target),)
-    return (element_index(draft, target),)
+    return tuple(indices_of_part(draft, part(draft, target)))
 
 
 def _hinge_at(draft: Draft, point: Node) -> int:
@@ -58,13 +63,18 @@ def said(
 ) -> Said:
     """What is said about drawing a target, checked."""
     checked = {
-        "shape": sheet_shape(section) if isinstance(target, Sheet) else shape_of(section),
+        "shape": sheet_shape(section) if is_sheet(target) else shape_of(section),
         "colour": None if colour is None else _colour(colour, "colour"),
         "edge_colour": None if edge_colour is None else _colour(edge_colour, "colour of the edges"),
         "opacity": None if opacity is None else _opacity(opacity),
         "drawn": None if drawn is None else _flag(drawn),
     }
     return {name: value for name, value in checked.items() if value is not None}
+
+
+def is_sheet(target: object) -> bool:
+    """Whether the section of this part is its breadth and its thickness."""
+    return isinstance(target, (Sheet, FoldedSheet))
 
 
 def _flag(drawn: object) -> bool:
@@ -100,6 +110,26 @@ def sheet_shape(section: Section | None) -> Shape | None:
         return None
     width, thickness = _numbers(section, 2, "the section of a sheet is its width and its thickness")
     return shape_of((thickness, width))
+
+
+def numbers_of_size(given: object, sizes: tuple[int, ...], what: str) -> tuple[float, ...]:
+    """Finite numbers, as many as one of `sizes` says; a single one may stand alone.
+
+    Raises:
+        ModelError: they are not.
+    """
+    parts = tuple(given) if isinstance(given, Iterable) else (given,)
+    wanted = len(parts) if len(parts) in sizes else sizes[0]
+    return _numbers(given if isinstance(given, UNORDERED) else parts, wanted, what)
+
+
+def size_of(given: object, what: str) -> float:
+    """A size [m]; `shape_of` asks that it be positive.
+
+    Raises:
+        ModelError: it is no finite number.
+    """
+    return _numbers([given], 1, f"the {what} is a number")[0]
 
 
 def _colour(given: Sequence[float], what: str) -> Colour:

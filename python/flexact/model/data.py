@@ -8,15 +8,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
 
+import numpy as np
+
 from ..base.frozen import Frozen
 from ..core import calls
-from ..core.arrays import IntArray, ModelArrays, PackedModel, packed
+from ..core.arrays import FloatArray, IntArray, ModelArrays, PackedModel, packed
 from ..core.raw import RawCount, RawFrames
 from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
 from ..diagnostics.source import Source, decode
 from .appearance import Appearance
 from .parts.chains import Chain, chains_of
+from .parts.directions import directions_across
+from .properties import Properties
 
 #: As the core says it of a deck.
 _NOTHING = Diagnostic(
@@ -28,15 +32,15 @@ _NOTHING = Diagnostic(
 
 
 class DeckNames(Sequence[str]):
-    """Names of a deck's elements, cut out of its text when they are asked for."""
+    """Names of a deck's elements or nodes, cut out of its text when they are asked for."""
 
     def __init__(self, text: bytes, places: IntArray) -> None:
-        """Keep the text and the first and last place of each name, (2, elements)."""
+        """Keep the text and the first and last place of each name, (2, names)."""
         self._text = text
         self._places = places
 
     def __len__(self) -> int:
-        """Number of elements."""
+        """Number of elements or nodes."""
         return int(self._places.shape[1])
 
     @overload
@@ -44,7 +48,7 @@ class DeckNames(Sequence[str]):
     @overload
     def __getitem__(self, index: slice) -> tuple[str, ...]: ...
     def __getitem__(self, index: int | slice) -> str | tuple[str, ...]:
-        """The name of an element by its index; empty where it has none."""
+        """The name of an element or a node by its index; empty where it has none."""
         if isinstance(index, slice):
             return tuple(self[i] for i in range(*index.indices(len(self))))
         first, last = self._places[:, index].tolist()
@@ -60,22 +64,36 @@ class ModelData(Frozen):
         planar: Whether positions have two coordinates.
         name: What the model is called.
         element_names: One name an element, empty where it has none.
+        node_names: One name a node, likewise; that of a point is its position's.
         source: The deck's text, for a model that was read.
         found: What reading the deck, or making the arrays, found; None where the arrays
             are still to be checked.
+        besides: What making the arrays found besides.
         given_appearance: What was said about drawing the elements; None where nothing was.
+        properties: Stiffness and mass; None where nothing is said of them.
         has_long_numbers: Whether the geometry was typed with more digits than its numbers hold,
             so that these are not what was typed, though they may look like it.
+        began_as: The deck that a model started as which was changed since; its comments stay.
     """
 
     arrays: ModelArrays
     planar: bool
     name: str
     element_names: Sequence[str]
+    node_names: Sequence[str] = ()
     source: Source | None = None
     found: Problems | None = None
+    besides: tuple[Diagnostic, ...] = ()
     given_appearance: Appearance | None = None
+    properties: Properties | None = None
     has_long_numbers: bool = False
+    began_as: Source | None = None
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only; without names of nodes all of them are empty."""
+        super().__post_init__()
+        if not self.node_names:
+            object.__setattr__(self, "node_names", ("",) * self.arrays.node_number.size)
 
     @cached_property
     def packed(self) -> PackedModel:
@@ -89,7 +107,20 @@ class ModelData(Frozen):
             return self.found
         if not self.arrays.element_number.size:
             return Problems.of([_NOTHING])
-        return problems_of(calls.check_model(self.packed))
+        found = problems_of(calls.check_model(self.packed, *self._names_as_text()))
+        return found.and_also(self.besides)
+
+    def _names_as_text(self) -> tuple[bytes, IntArray]:
+        """All names in one text, and first and last place of each, from 1; 0 without one."""
+        names = [*self.element_names, *self.node_names]
+        places = np.zeros((2, len(names)), np.int32, order="F")
+        if not any(names):
+            return b"", places
+        words = [name.encode("utf-8", "replace") for name in names]
+        lengths = np.fromiter(map(len, words), np.int64, len(words))
+        last = np.cumsum(lengths)
+        places[:] = np.where(lengths > 0, (last - lengths + 1, last), 0)
+        return b"".join(words), places
 
     @cached_property
     def appearance(self) -> Appearance:
@@ -122,6 +153,11 @@ class ModelData(Frozen):
     def frames(self) -> RawFrames:
         """Reference frames and lengths of the elements, of a sound model."""
         return calls.find_frames(self.packed)
+
+    @cached_property
+    def across(self) -> FloatArray:
+        """(elements, 2, 3) unit vectors across the elements (`flexact.model.parts.directions`)."""
+        return directions_across(self.arrays, self.frames.frame, self.chains)
 
     def require_sound(self) -> None:
         """Raise where the model cannot be analysed.

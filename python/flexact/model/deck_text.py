@@ -11,7 +11,9 @@ from ..core.arrays import IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
 from .appearance import Appearance, CrossSection
 from .data import ModelData
+from .deck_comments import ELEMENT, DeckComments, comments_of
 from .draft import one_line
+from .properties_draft import rows_of
 
 _IDENTITY = {
     NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],
@@ -33,25 +35,39 @@ _FIRST_COMPONENT = {
 
 
 def deck_of(data: ModelData) -> str:
-    """The deck of a model; numbers read back to the last bit."""
-    title = one_line(data.name)
-    blocks = [
-        [f"% {title}"] if title else [],
-        list(_elements(data)),
-        list(_values(data)),
-        list(_coordinates(data, Class.FIXED, "FIX")),
-        list(_coordinates(data, Class.INDEPENDENT, "DYNX")),
-        list(_deformations(data, Class.DEPENDENT, "RLSE")),
-        list(_deformations(data, Class.INDEPENDENT, "DYNE")),
+    """The deck of a model; numbers read back to the last bit.
+
+    Comments of the deck that it was read from stay with their statements.
+    """
+    origin = data.source or data.began_as
+    comments = comments_of(origin)
+    beside = comments.beside
+    # What a file is called does not stand in it.
+    title = one_line(data.name) if origin is None else ""
+    appearance, numbers = data.given_appearance, data.arrays.element_number
+    dynamics = _dynamics(data, comments)
+    blocks = (
+        [f"% {title}"] if title else comments.top,
+        beside(ELEMENT, _elements(data)),
+        beside("X", _values(data, comments)),
+        beside("FIX", _coordinates(data, Class.FIXED, "FIX")),
+        beside("DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")),
+        beside("RLSE", _deformations(data, Class.DEPENDENT, "RLSE")),
+        beside("DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")),
+        comments.end,
         ["END"],
-        []
-        if data.given_appearance is None
-        else _picture(data.given_appearance, data.arrays.element_number),
-    ]
+        comments.rest if not dynamics and appearance is None else [],
+        ["HALT", *dynamics, *comments.rest, "END"] if dynamics or appearance is not None else [],
+        [] if appearance is None else _picture(appearance, numbers),
+    )
     return "\n".join(line for block in blocks for line in block) + "\n"
 
 
-def _elements(data: ModelData) -> Iterator[str]:
+#: A line of a statement, and the number of its element or node.
+_Statements = Iterator[tuple[int, str]]
+
+
+def _elements(data: ModelData) -> _Statements:
     a = data.arrays
     numbers = np.concatenate([np.zeros(1, np.int32), a.node_number])
     for keyword, number, nodes, vector, name in zip(
@@ -67,39 +83,67 @@ def _elements(data: ModelData) -> Iterator[str]:
             words += map(repr, vector)
         if name:
             words.append(f"% {name}")
-        yield " ".join(words)
+        yield number, " ".join(words)
 
 
-def _values(data: ModelData) -> Iterator[str]:
+def _values(data: ModelData, comments: DeckComments) -> _Statements:
     a = data.arrays
-    for number, kind, value in zip(
-        a.node_number.tolist(), a.node_kind.tolist(), a.node_value.T.tolist(), strict=True
+    for number, kind, value, name in zip(
+        a.node_number.tolist(),
+        a.node_kind.tolist(),
+        a.node_value.T.tolist(),
+        data.node_names,
+        strict=True,
     ):
-        if value != _IDENTITY.get(kind):
-            yield f"X {number} {' '.join(map(repr, value[: _VALUES[kind]]))}"
+        if name or value != _IDENTITY.get(kind) or ("X", number) in comments.before:
+            line = f"X {number} {' '.join(map(repr, value[: _VALUES[kind]]))}"
+            yield number, f"{line} % {name}" if name else line
 
 
-def _coordinates(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]:
+def _coordinates(data: ModelData, wanted: Class, keyword: str) -> _Statements:
     a = data.arrays
     chosen = a.coordinate_class == wanted
     for index in np.flatnonzero(chosen.any(axis=0)).tolist():
         kind = int(a.node_kind[index])
         axes = np.flatnonzero(chosen[:, index]).tolist()
-        words = [keyword, str(a.node_number[index])]
+        number = int(a.node_number[index])
+        words = [keyword, str(number)]
         if len(axes) < len(AXES[kind]):
             words += [str(axis + _FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
-        yield " ".join(words)
+        yield number, " ".join(words)
 
 
-def _deformations(data: ModelData, wanted: Class, keyword: str) -> Iterator[str]:
+def _deformations(data: ModelData, wanted: Class, keyword: str) -> _Statements:
     a = data.arrays
     chosen = a.deformation_class == wanted
     for index in np.flatnonzero(chosen.any(axis=0)).tolist():
         modes = (np.flatnonzero(chosen[:, index]) + 1).tolist()
-        words = [keyword, str(a.element_number[index])]
+        number = int(a.element_number[index])
+        words = [keyword, str(number)]
         if len(modes) < np.count_nonzero(a.deformation_class[:, index]):
             words += map(str, modes)
-        yield " ".join(words)
+        yield number, " ".join(words)
+
+
+def _dynamics(data: ModelData, comments: DeckComments) -> list[str]:
+    """Stiffness and mass."""
+    given = data.properties
+    if given is None:
+        return []
+    made: list[str] = []
+    for keyword, table, numbers in (
+        ("ESTIFF", given.stiffness, data.arrays.element_number),
+        ("EM", given.mass, data.arrays.element_number),
+        ("XM", given.node_mass, data.arrays.node_number),
+    ):
+        made += comments.beside(
+            keyword,
+            (
+                (number := int(numbers[i]), " ".join([keyword, str(number), *map(repr, row)]))
+                for i, row in rows_of(table)
+            ),
+        )
+    return made
 
 
 #: How many numbers of elements stand in a line of the picture block.
@@ -108,7 +152,7 @@ _NUMBERS_A_LINE = 16
 
 def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:
     """The picture block; elements that look alike share their options."""
-    yield from ("HALT", "END", "", "VISUALIZATION")
+    yield from ("", "VISUALIZATION")
     for name, options in (
         ("BEAMPROPS", _cross_sections(appearance)),
         ("GRAPHICS", _colours(appearance)),

@@ -3,18 +3,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
-from ..core.elements import AXES, Class, NodeKind, coordinate_name, kind_of
+from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
 from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
 from ..diagnostics.errors import ModelError, model_error
+from ..diagnostics.source import Source
 from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
+from .handles import Owner
+from .names import part_name
+from .properties_draft import PropertiesDraft
 
 Vector = tuple[float, float, float]
 
@@ -23,18 +27,23 @@ NO_VECTOR: Vector = (0.0, 0.0, 0.0)
 
 #: Of the numbers of nodes and elements.
 LARGEST = 2**31 - 1
+#: Nodes that one message names.
+_MOST_LISTED = 5
 _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
 class Draft:
     """Nodes and elements as lists and dictionaries, by their numbers."""
 
-    def __init__(self, planar: bool, owner: object) -> None:
+    def __init__(self, planar: bool, owner: Owner) -> None:
         """Start without nodes or elements; `owner` is what its handles are known by."""
         self.planar = planar
         self.owner = owner
+        owner.draft = self
         self.node_kind: dict[int, int] = {}
         self.node_value: dict[int, tuple[float, ...]] = {}
+        #: Names of points, by the numbers of their position nodes.
+        self.node_names: dict[int, str] = {}
         self.coordinate_class: dict[tuple[int, int], int] = {}
         #: Coordinates that were named one by one, so that they must exist.
         self.named: set[tuple[int, int]] = set()
@@ -47,18 +56,27 @@ class Draft:
         self.classes: list[tuple[int, ...]] = []
         self.names: dict[int, str] = {}
         self.appearance = AppearanceDraft()
+        self.properties = PropertiesDraft()
         #: Classes that were stated for single deformations, by index.
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
         self.rigid: set[int] = set()
-        #: Of the data that it started as.
+        #: Of the data that it started as: how many elements, and whether they had long numbers.
+        self.elements_given = 0
         self.has_long_numbers = False
+        self.began_as: Source | None = None
         self.last_node = 0
         self.last_element = 0
         self._index_of: dict[int, int] | None = None
+        self._of_part: dict[str, list[int]] | None = None
+        self._of_name: dict[str, list[int]] | None = None
+        self._of_place: dict[tuple[float, ...], list[int]] | None = None
+        #: The first orientation of each point by its position node, and the other way round.
+        self.orientation_at: dict[int, int] = {}
+        self.position_of: dict[int, int] = {}
 
     @classmethod
-    def of(cls, data: ModelData, owner: object) -> Draft:
+    def of(cls, data: ModelData, owner: Owner) -> Draft:
         """The draft that gives the same arrays."""
         draft = cls(data.planar, owner)
         a = data.arrays
@@ -77,11 +95,22 @@ class Draft:
         draft.vectors = list(map(tuple, a.element_vector.T.tolist()))
         draft.classes = list(map(tuple, a.deformation_class.T.tolist()))
         draft.names = {i: name for i, name in enumerate(data.element_names) if name}
+        draft.node_names = {
+            number: name for number, name in zip(numbers, data.node_names, strict=True) if name
+        }
+        if data.properties is not None:
+            draft.properties = PropertiesDraft.of(data.properties, numbers)
         if data.given_appearance is not None:
             draft.appearance = AppearanceDraft.of(data.given_appearance)
         draft.has_long_numbers = data.has_long_numbers
+        draft.began_as = data.source or data.began_as
+        draft.elements_given = len(draft.kinds)
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
+        for p, op, q, oq in draft.slots:
+            for position, orientation in ((p, op), (q, oq)):
+                if position and orientation:
+                    draft.join(position, orientation)
         return draft
 
     def add_node(self, kind: int, value: tuple[float, ...]) -> int:
@@ -92,7 +121,73 @@ class Draft:
         self.last_node = number
         self.node_kind[number] = kind
         self.node_value[number] = value
+        if self._of_place is not None and is_position(kind):
+            self._of_place.setdefault(value, []).append(number)
         return number
+
+    def join(self, position: int, orientation: int) -> None:
+        """Say that an orientation is one of the point at a position node."""
+        self.orientation_at.setdefault(position, orientation)
+        self.position_of.setdefault(orientation, position)
+
+    def nodes_at(self, value: tuple[float, ...]) -> list[int]:
+        """Numbers of the position nodes at exactly this place, in the order they were made."""
+        if self._of_place is None:
+            self._of_place = {}
+            for number, kind in self.node_kind.items():
+                if is_position(kind):
+                    self._of_place.setdefault(self.node_value[number], []).append(number)
+        return self._of_place.get(value, [])
+
+    def part_indices(self, name: str) -> list[int]:
+        """Indices of the elements of the parts with this name, in the order they were made."""
+        return self.parts_by_name.get(name, [])
+
+    @property
+    def parts_by_name(self) -> dict[str, list[int]]:
+        """Indices of elements by the name of their part."""
+        if self._of_part is None:
+            self._of_part = {}
+            for index in sorted(self.names):
+                self._of_part.setdefault(part_name(self.names[index]), []).append(index)
+        return self._of_part
+
+    @property
+    def points_by_name(self) -> dict[str, list[int]]:
+        """Numbers of position nodes by their names."""
+        if self._of_name is None:
+            self._of_name = {}
+            for number, name in self.node_names.items():
+                self._of_name.setdefault(name, []).append(number)
+        return self._of_name
+
+    def name_node(self, number: int, name: str) -> None:
+        """Name a node, or with an empty name take its name away."""
+        if number in self.node_names:
+            self._of_name = None
+            del self.node_names[number]
+        if name := one_line(name):
+            self.node_names[number] = name
+            if self._of_name is not None:
+                self._of_name.setdefault(name, []).append(number)
+
+    def name_element(self, index: int, name: str) -> None:
+        """Name an element, or with an empty name take its name away."""
+        self.names.pop(index, None)
+        made = one_line(name)
+        if made:
+            self.names[index] = made
+        self._of_part = None
+
+    def name_of(self, number: int) -> str:
+        """Name of an element by its number, empty without one or without the element."""
+        self._number_elements()
+        assert self._index_of is not None
+        return self.names.get(self._index_of.get(number, -1), "")
+
+    def changed_names_or_places(self) -> None:
+        """Forget what was found by names, numbers and places; it is found anew when asked for."""
+        self._index_of = self._of_part = self._of_name = self._of_place = None
 
     def add_orientation(self) -> int:
         """Add an unturned orientation, in the plane an angle, and return its number."""
@@ -110,60 +205,113 @@ class Draft:
         shape: Shape | None = None,
     ) -> int:
         """Add an element and return its number; `released` are part of what it is."""
-        number = self.last_element + 1
-        if number > LARGEST:
-            raise model_error("number-too-large", "the model has no element number left")
+        index = len(self.kinds)
+        classes = _classes(kind.deformations, tuple(released))
+        number = self.append_element(kind.number, slots, vector, classes)
         if name:
             name = one_line(name)
             if name:
-                self.names[len(self.kinds)] = name
+                self.names[index] = name
+                if self._of_part is not None:
+                    self._of_part.setdefault(part_name(name), []).append(index)
         if shape is not None:
-            self.appearance.give([len(self.kinds)], {"shape": shape})
+            self.appearance.give([index], {"shape": shape})
+        return number
+
+    def append_element(
+        self, kind: int, slots: tuple[int, int, int, int], vector: Vector, classes: tuple[int, ...]
+    ) -> int:
+        """Add an element without a name, by the number of its kind, and return its number."""
+        number = self.last_element + 1
+        if number > LARGEST:
+            raise model_error("number-too-large", "the model has no element number left")
         if self._index_of is not None:
             self._index_of[number] = len(self.kinds)
         self.last_element = number
         self.numbers.append(number)
-        self.kinds.append(kind.number)
+        self.kinds.append(kind)
         self.slots.append(slots)
         self.vectors.append(vector)
-        self.classes.append(_classes(kind.deformations, tuple(released)))
+        self.classes.append(classes)
         return number
+
+    def give_properties(
+        self,
+        index: int,
+        stiffness: tuple[float, ...] | None = None,
+        mass: tuple[float, ...] | None = None,
+    ) -> None:
+        """Give an element the numbers of ESTIFF, of EM, or of both; see `Properties`.
+
+        What is not given stays as it was.
+
+        Raises:
+            ModelError: there are too many numbers, or one is not finite; nothing has changed.
+        """
+        self.properties.give(index, stiffness, mass)
+
+    def give_node_mass(self, number: int, values: tuple[float, ...]) -> None:
+        """Give a node the numbers of XM; see `Properties`.
+
+        Raises:
+            ModelError: there are too many numbers, or one is not finite; nothing has changed.
+        """
+        self.properties.give_node(number, values)
 
     def index_of(self, number: int) -> int:
         """Index of the element with this number."""
-        if self._index_of is None:
-            self._index_of = {n: i for i, n in enumerate(self.numbers)}
+        self._number_elements()
+        assert self._index_of is not None
         index = self._index_of.get(number)
         if index is None:
             raise model_error("no-such-element", f"there is no element {in_short(number)}")
         return index
 
+    def _number_elements(self) -> None:
+        if self._index_of is None:
+            self._index_of = {n: i for i, n in enumerate(self.numbers)}
+
+    def element_words(self, index: int) -> str:
+        """What messages call an element."""
+        name = self.names.get(index)
+        return in_short(name) if name else f"element {self.numbers[index]}"
+
+    def node_words(self, number: int) -> str:
+        """What messages call a node."""
+        name = self.node_names.get(number)
+        return f"point {in_short(name)}" if name else f"node {number}"
+
     def deformations_of(self, index: int) -> int:
         """How many deformations an element has, a rigid one counted as a beam."""
         return sum(c != Class.NONE for c in self.classes[index])
 
-    def state_deformations(self, index: int, numbers: Iterable[int], value: Class) -> None:
-        """Give deformations (from 1) of an element a class, all or none of them.
+    def state_deformations(self, places: Iterable[tuple[int, int]], value: Class) -> None:
+        """Note that deformations (index, number from 1) are stated to have a class.
 
         Raises:
-            ModelError: the element has no such deformation, or it has another class.
+            ModelError: one of them has another class; then nothing is noted.
         """
-        name = f"element {self.numbers[index]}"
-        classes = list(self.classes[index])
-        wanted = tuple(numbers)
-        for number in wanted:
-            if not 1 <= number <= self.deformations_of(index):
-                raise model_error(
-                    "component-out-of-range",
-                    f"{name} has no deformation {in_short(number)}",
-                    f"it has 1 to {self.deformations_of(index)}",
-                )
+        wanted = tuple(places)
+        for index, number in wanted:
             before = self.stated.get((index, number), value)
             if before != value:
+                name = self.element_words(index)
                 raise _conflict(f"deformation {number} of {name}", before, value)
-            classes[number - 1] = value
+        self.stated.update((place, value) for place in wanted)
+
+    def set_deformation(self, index: int, number: int, value: Class) -> None:
+        """Set the class of a deformation, from 1, of an element."""
+        classes = list(self.classes[index])
+        classes[number - 1] = value
         self.classes[index] = tuple(classes)
-        self.stated.update(((index, number), value) for number in wanted)
+
+    def declare(self, index: int, numbers: Iterable[int]) -> None:
+        """Make deformations (from 1) of an element independent, whatever was said of them."""
+        classes = list(self.classes[index])
+        for number in numbers:
+            classes[number - 1] = Class.INDEPENDENT
+            self.stated[index, number] = Class.INDEPENDENT
+        self.classes[index] = tuple(classes)
 
     def state_coordinates(self, places: Iterable[tuple[int, int]], value: Class) -> None:
         """Give coordinates (node number, axis) a class, all or none of them.
@@ -176,7 +324,7 @@ class Draft:
             before = self.coordinate_class.get((number, axis), value)
             if before != value:
                 name = coordinate_name(self.node_kind[number], axis)
-                raise _conflict(f"coordinate {name} of node {number}", before, value)
+                raise _conflict(f"coordinate {name} of {self.node_words(number)}", before, value)
         self.coordinate_class.update((place, value) for place in wanted)
 
     def freeze(self, name: str) -> ModelData:
@@ -198,18 +346,26 @@ class Draft:
             deformation_class=classes.T,
         )
         names = tuple(self.names.get(i, "") for i in range(len(self.kinds)))
-        wrong = [_unused(number) for number in self._given_in_vain(set(numbers))]
-        found = Problems.of(wrong) if wrong else None
-        appearance = self.appearance.freeze(len(self.kinds))
+        node_names = tuple(self.node_names.get(n, "") for n in numbers) if self.node_names else ()
+        in_use = set(numbers)
+        in_vain = self._given_in_vain(in_use)
         return ModelData(
             arrays,
             self.planar,
             name,
             names,
-            found=found,
-            given_appearance=appearance,
+            node_names,
+            found=self._wrong(in_vain),
+            besides=tuple(self._left_over(in_use)),
+            given_appearance=self.appearance.freeze(len(self.kinds)),
+            properties=self.properties.freeze(len(self.kinds), numbers),
             has_long_numbers=self.has_long_numbers,
+            began_as=self.began_as,
         )
+
+    def _wrong(self, in_vain: Sequence[int]) -> Problems | None:
+        wrong = [_unused(self.node_words(number)) for number in in_vain]
+        return Problems.of(wrong) if wrong else None
 
     def _decided(self) -> tuple[IntArray, IntArray, IntArray]:
         """Kinds, slots and classes, with the kind of every rigid element decided.
@@ -226,6 +382,9 @@ class Draft:
         rigid[list(self.rigid)] = True
         needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
         needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        # Two links that end at one point carry it both, so that they are one body.
+        far, times = np.unique(slots[rigid, 3], return_counts=True)
+        needed.update(far[times > 1].tolist())
         stated = {index for index, _ in self.stated}
         short = kind_of("PLRBEAM" if self.planar else "RBEAM")
         for index in self.rigid:
@@ -247,6 +406,32 @@ class Draft:
             there = used[place] == stated[:, 0]
             classes[place[there], stated[there, 1]] = values[there]
         return classes.T
+
+    def _left_over(self, used: set[int]) -> Iterator[Diagnostic]:
+        """Warnings about points, and about masses, that nothing uses."""
+        points = [
+            number
+            for number, kind in self.node_kind.items()
+            if is_position(kind) and used.isdisjoint((number, self.orientation_at.get(number)))
+        ]
+        if points:
+            yield _warning_of_unused(
+                f"no element uses {self._listed(points)}", "join it to something, or leave it out"
+            )
+        if masses := [number for number in self.properties.node_mass if number not in used]:
+            yield _warning_of_unused(
+                f"{self._listed(masses)} is given a mass, but no element uses it",
+                "give it to a node that an element uses",
+            )
+
+    def _listed(self, numbers: Sequence[int]) -> str:
+        """Nodes by name, or by number where they have none; of many the first."""
+        words = [
+            f"'{self.node_names[number]}'" if number in self.node_names else f"node {number}"
+            for number in numbers[:_MOST_LISTED]
+        ]
+        more = len(numbers) - _MOST_LISTED
+        return ", ".join(words) + (f" and {more} more" if more > 0 else "")
 
     def _given_in_vain(self, used: set[int]) -> list[int]:
         """Nodes that were given a class and are not in use."""
@@ -279,10 +464,14 @@ def _conflict(what: str, before: int, now: int) -> ModelError:
     )
 
 
-def _unused(number: int) -> Diagnostic:
+def _warning_of_unused(message: str, hint: str) -> Diagnostic:
+    return Diagnostic(Severity.WARNING, "unused-node", message, help=hint)
+
+
+def _unused(node: str) -> Diagnostic:
     return Diagnostic(
         Severity.ERROR,
         "no-such-node",
-        f"node {number} is given a class, but no element uses it",
+        f"{node} is given a class, but no element uses it",
         help="name the node in an element, or leave its class out",
     )

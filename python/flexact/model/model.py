@@ -16,6 +16,7 @@ from .builder import Builder
 from .configuration import Configuration
 from .data import ModelData
 from .deck_text import deck_of
+from .parts.declaring import surplus_of
 
 
 class Model(Builder):
@@ -146,6 +147,11 @@ class Model(Builder):
         """(elements,) names, empty where an element has none."""
         return tuple(self.data.element_names)
 
+    @property
+    def node_names(self) -> tuple[str, ...]:
+        """(nodes,) names, empty where a node has none; that of a point is its position's."""
+        return tuple(self.data.node_names)
+
     def node_index(self, number: int) -> int:
         """Where a node stands in what is given by node, such as `Motion.displacement`.
 
@@ -180,11 +186,21 @@ class Model(Builder):
         """The configuration in which all deformations are zero."""
         return Configuration(self.data.arrays.node_kind, self.data.arrays.node_value.T)
 
+    def declare_internal_motions(self) -> None:
+        """Make independent what is inside divided sheets and wires, so that each is one beam.
+
+        Of each deformation that several beams of one sheet or wire release, that of the first
+        stays released; see `Result.internal_motions`.
+        """
+        for element, deformations in surplus_of(self.data):
+            self._change().declare(element, deformations)
+
     def to_deck(self) -> str:
         """The model in the deck language; reading it gives the same model.
 
-        Numbers are written so that they read back to the last bit; names of elements
-        stand as comments at the end of their lines.
+        Numbers are written so that they read back to the last bit; names of elements and
+        nodes stand as comments at the end of their lines. Of a deck that was read, comments
+        stay with the statements that they belong to.
 
         Raises:
             ModelError: the model is wrong, so that no deck can be read back.

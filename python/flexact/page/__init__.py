@@ -3,5 +3,6 @@
 
 from .index_page import Entry, index_page
 from .page import broken_page, page, reason_in_words
+from .verdict_part import BROKEN, kind_of
 
-__all__ = ["Entry", "broken_page", "index_page", "page", "reason_in_words"]
+__all__ = ["BROKEN", "Entry", "broken_page", "index_page", "kind_of", "page", "reason_in_words"]

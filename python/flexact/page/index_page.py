@@ -9,10 +9,8 @@ from dataclasses import dataclass
 from html import escape
 from urllib.parse import quote
 
-from ..result.verdict import Verdict
 from .assets import PLAIN_SCRIPTS, filled
 from .markup import image, text
-from .verdict_part import BROKEN, KINDS
 
 
 @dataclass(frozen=True)
@@ -22,15 +20,19 @@ class Entry:
     Attributes:
         name: What it is called.
         page: Path of its page beside the index; empty where there is none.
-        verdict: Its verdict; None where it cannot be analysed.
+        kind: Class of its card, and sign.
+        verdict: Its verdict as it is counted, or that it cannot be analysed.
         words: The verdict, or why there is none, in a few words.
+        margin: How far another verdict is, in a few words.
         picture: A small picture as PNG, if there is one.
     """
 
     name: str
     page: str
-    verdict: Verdict | None
+    kind: tuple[str, str]
+    verdict: str
     words: str
+    margin: str = ""
     picture: bytes | None = None
 
 
@@ -38,7 +40,7 @@ def index_page(entries: Sequence[Entry]) -> str:
     """The index as a page of its own, in the order of the entries."""
     total = len(entries)
     title = f"{total} deck{'s' * (total != 1)}"
-    counts = Counter(_word(entry) for entry in entries)
+    counts = Counter(entry.verdict for entry in entries)
     summary = "".join(
         f'<span class="fact">{count} {text(word)}</span> ' for word, count in counts.most_common()
     )
@@ -51,19 +53,17 @@ def index_page(entries: Sequence[Entry]) -> str:
     return filled(title, body, PLAIN_SCRIPTS)
 
 
-def _word(entry: Entry) -> str:
-    return "cannot be analysed" if entry.verdict is None else entry.verdict.value
-
-
 def _card(entry: Entry) -> str:
-    kind, sign = BROKEN if entry.verdict is None else KINDS[entry.verdict]
+    kind, sign = entry.kind
     picture = '<span class="nothing" aria-hidden="true"></span>'
     if entry.picture is not None:
         picture = image(entry.picture, "")
     name = f'<span class="name">{text(entry.name)}</span>'
     if entry.page:
         name = f'<a href="{escape(quote(entry.page))}">{text(entry.name)}</a>'
+    margin = f'<p class="margin">{text(entry.margin)}</p>' if entry.margin else ""
     return (
         f'<li class="card {kind}">{picture}<p>{name}</p>'
-        f'<p><span class="sign" aria-hidden="true">{sign}</span>{text(entry.words)}</p></li>'
+        f'<p><span class="sign" aria-hidden="true">{sign}</span>{text(entry.words)}</p>'
+        f"{margin}</li>"
     )

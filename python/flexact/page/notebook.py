@@ -18,7 +18,7 @@ def html_of(analysis: Result) -> str:
 
     Where a notebook that is not trusted takes frames out, verdict and words are left.
     """
-    colour = analysis.verdict.colour
+    colour = analysis.colour
     head = text(str(verdict_in_words(analysis)))
     words = describe(analysis, most=MOST_MODES)
     return (

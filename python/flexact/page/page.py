@@ -12,6 +12,7 @@ from ..diagnostics.errors import ProblemsError
 from ..drawing import drawing_of
 from ..result.result import Result
 from ..text.describe import VerdictInWords, verdict_in_words
+from ..text.margin import verdict_word
 from ..text.warnings import warnings_of
 from .assets import PLAIN_SCRIPTS, SCRIPTS, filled
 from .controls_part import choices_part, drawing_part
@@ -64,7 +65,7 @@ def page(analysis: Result, still: bytes | None = None) -> str:
         "</div></main>",
     )
     held = f'<script type="application/json" id="drawing-data">{json_for_script(data)}</script>\n'
-    title = f"{name or 'model'}: {analysis.verdict.value}"
+    title = f"{name or 'model'}: {verdict_word(analysis)}"
     return filled(title, "\n".join(body), SCRIPTS, held)
 
 

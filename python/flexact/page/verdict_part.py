@@ -11,6 +11,7 @@ from ..result.verdict import Certainty, Verdict
 from ..text.advice import lines_on_motions, lines_on_self_stresses
 from ..text.decision import decision
 from ..text.describe import VerdictInWords, verdict_in_words
+from ..text.margin import margin_line
 from ..text.sentences import Line
 from .markup import flowing, paragraphs, row, section, table, text
 
@@ -21,6 +22,7 @@ KINDS = {
     Verdict.OVER: ("over", "\N{RIGHTWARDS ARROW}\N{LEFTWARDS ARROW}"),
     Verdict.BOTH: ("both", "\N{LEFT RIGHT ARROW}!"),
 }
+MARGINAL = ("marginal", "\N{ALMOST EQUAL TO}")
 BROKEN = ("broken", "\N{MULTIPLICATION X}")
 
 
@@ -35,43 +37,53 @@ class Advised(NamedTuple):
     stresses: tuple[Line, ...]
 
 
+def kind_of(analysis: Result) -> tuple[str, str]:
+    """Class of the page and sign of a result."""
+    if analysis.verdict is Verdict.EXACT and analysis.is_marginal:
+        return MARGINAL
+    return KINDS[analysis.verdict]
+
+
 def advised(analysis: Result) -> Advised:
     """What can be done; nothing where nothing need be."""
     return Advised(lines_on_motions(analysis), lines_on_self_stresses(analysis))
 
 
 def head(
-    kind: str, sign: str, verdict: VerdictInWords, about: str, certainty: str = "", todo: str = ""
+    kind: str, sign: str, verdict: VerdictInWords, about: str, margin: str = "", todo: str = ""
 ) -> str:
     """The first lines of the page; all but the sign and the verdict are HTML."""
     return (
         f'<header class="verdict {kind}"><h1><span class="sign" aria-hidden="true">{sign}</span>'
-        f"<span><b>{text(verdict.start)}:</b> {text(verdict.reason)}{certainty}</span></h1>"
+        f"<span><b>{text(verdict.start)}:</b> {text(verdict.reason)}</span></h1>{margin}"
         f'<p class="about">{about}</p>{todo}'
         '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
     )
 
 
 def verdict(analysis: Result, name: str, advice: Advised) -> str:
-    """The head of the page of a result: what is wrong, how sure that is, and what helps."""
-    kind, sign = KINDS[analysis.verdict]
+    """The head of the page of a result: what is wrong, by how much, how sure, and what helps."""
+    kind, sign = kind_of(analysis)
     if analysis.certainty is not Certainty.CERTAIN:
         sign += "?"
     about = " ".join(_about(analysis, name))
-    return head(kind, sign, verdict_in_words(analysis), about, _certainty(analysis), _todo(advice))
+    margin = f'<p class="margin">{flowing(margin_line(analysis))}</p>'
+    return head(kind, sign, verdict_in_words(analysis), about, margin, _todo(advice))
 
 
 def _certainty(analysis: Result) -> str:
+    """How sure the rank is: of the arithmetic, not of the machine."""
     if analysis.certainty is Certainty.CERTAIN:
         is_proven = analysis.proof is not None and analysis.proof.rank == analysis.rank
-        return f' <span class="sure">{"Proven" if is_proven else "Numerically certain"}.</span>'
+        how = "proven" if is_proven else "numerically certain"
+        return f'<span class="sure">rank {how}</span>'
     counts = (analysis.under_constrained, analysis.over_constrained)
     under, over = analysis.nearly or counts
     other = (
         f": there may be {under} motion{'s' * (under != 1)} and "
         f"{over} self-stress{'es' * (over != 1)}"
     ) * ((under, over) != counts)
-    return f' <a class="sure doubt" href="#decision">Doubtful{other}.</a>'
+    return f'<a class="sure doubt" href="#decision">rank doubtful{other}</a>'
 
 
 def _todo(advice: Advised) -> str:
@@ -104,12 +116,13 @@ def _about(analysis: Result, name: str) -> Iterator[str]:
         f'<span class="fact">D(c) {analysis.rows} \N{MULTIPLICATION SIGN} {analysis.columns}, '
         f"rank {analysis.rank}</span>"
     )
+    yield _certainty(analysis)
     freedom = analysis.degrees_of_freedom
     yield f'<span class="fact">{freedom} degree{"s" * (freedom != 1)} of freedom declared</span>'
 
 
 def decision_part(analysis: Result) -> str:
-    """Counts by class, rank, gap, certainty, margin and condition."""
+    """Counts by class, rank, gap, certainty and condition."""
     heads = ("", *analysis.counts.coordinates._fields)
     rows = (
         row(name, *(str(value) for value in part))

@@ -12,14 +12,16 @@ import numpy as np
 
 from ..base.plain_text import harmless
 from ..core.arrays import FloatArray
-from ..drawing import Drawing, reach_of
-from ..drawing.colours import MEANINGS, diverging
+from ..drawing import UNITS, Drawing, meanings_in, reach_of
+from ..drawing.colours import diverging
 from ..drawing.movement import AMPLITUDE
 from ..drawing.view import View
 from ..text.describe import verdict_in_words
+from ..text.margin import margin_in_short, margin_line
+from ..text.sentences import plain as without_links
 from .canvas import Box
 from .panel import Panel, is_simplified, paint
-from .stress import UNITS, Stress
+from .stress import Stress
 from .subject import Subject
 
 if TYPE_CHECKING:
@@ -42,6 +44,8 @@ _TURNED = 0.9
 _UNMOVED, _UNTURNED = 0.005, 0.05
 #: Pieces of the bar of colours.
 _PIECES = 128
+#: Lines of the margin below the verdict; in few words where it takes more.
+_MOST_OF_MARGIN = 2
 #: After a name that is cut.
 _CUT = "..."
 #: Values nearer to each other than this are told once [px].
@@ -135,7 +139,7 @@ class _Frame:
 
 
 def _add_verdict(frame: _Frame, analysis: Result) -> float:
-    """The name and the verdict; where they end [px]."""
+    """The name, the verdict and the margin; where they end [px]."""
     left, y = 18 * frame.scale, 14 * frame.scale
     name = harmless(os.path.basename(analysis.name))
     if name:
@@ -143,8 +147,14 @@ def _add_verdict(frame: _Frame, analysis: Result) -> float:
         y += frame.line("name")
     words = str(verdict_in_words(analysis))
     for line in _balanced(words, _letters(frame, "title")):
-        frame.text(left, y, line, "title", color=analysis.verdict.colour, weight="bold")
+        frame.text(left, y, line, "title", color=analysis.colour, weight="bold")
         y += frame.line("title")
+    lines = textwrap.wrap(without_links(margin_line(analysis).head), _letters(frame, "caption"))
+    if len(lines) > _MOST_OF_MARGIN:
+        lines = [f"{margin_in_short(analysis).capitalize()}."]
+    for line in lines:
+        frame.text(left, y, line, "caption")
+        y += frame.line("caption")
     return y + 4 * frame.scale
 
 
@@ -204,7 +214,8 @@ def _add_panel(
     if not plain:
         _add_values(frame, axes, panel)
         if subject.stress is not None:
-            _add_legend(frame, subject.stress, (left + pad, right - pad), bottom)
+            told = meanings_in(drawing)[subject.stress.quantity]
+            _add_legend(frame, subject.stress, told, (left + pad, right - pad), bottom)
         if not drawing.planar:
             _add_triad(frame, panel.canvas.view, left + 3.4 * pad, bottom - 3.0 * pad)
 
@@ -246,13 +257,15 @@ def _about(drawing: Drawing, subject: Subject) -> str:
     return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
 
 
-def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: float) -> None:
-    """A bar of the colours, with the values at its ends."""
+def _add_legend(
+    frame: _Frame, stress: Stress, told: str, sides: tuple[float, float], top: float
+) -> None:
+    """A bar of the colours, with what they mean and the values at its ends."""
     from matplotlib.collections import PolyCollection
 
     line = frame.line("legend")
-    unit = UNITS[stress.quantity]
-    frame.text(sides[0], top, f"{MEANINGS[stress.quantity]} [{unit}]", "legend")
+    where = ", drawn on the stretched side" * stress.has_diagram
+    frame.text(sides[0], top, f"{told} [{UNITS[stress.quantity]}]{where}", "legend")
     width = min(320 * frame.scale, sides[1] - sides[0])
     axes = frame.axes(sides[0], top + 1.25 * line, sides[0] + width, top + 2.0 * line)
     # Each piece reaches to the end, so that there are no seams between them.

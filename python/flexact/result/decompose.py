@@ -13,6 +13,7 @@ from ..core.arrays import IntArray
 from ..core.progress import Progress, reported
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
+from .accuracy import Accuracy, AccuracyGiven
 from .outcome import Asked
 
 
@@ -30,16 +31,25 @@ _FAILURES = {
 _REMOVED = {"qr": "use svd, or auto"}
 
 
-def asked_for(method: str, tolerance: float | None, prove: bool | None = None) -> Asked:
+def asked_for(
+    method: str,
+    tolerance: float | None,
+    prove: bool | None = None,
+    accuracy: AccuracyGiven | None = None,
+) -> Asked:
     """What an analysis is asked for, if there is such a thing.
 
     Raises:
-        TypeError: the method is no text, the tolerance no number, or `prove` no truth value.
-        ValueError: there is no such method, or the tolerance is negative or not finite.
+        TypeError: the method is no text, the tolerance no number, `prove` no truth value, or
+            the accuracy neither a number nor two.
+        ValueError: there is no such method, the tolerance is negative or not finite, or the
+            accuracy is not positive or not finite.
     """
     if not isinstance(prove, (bool, type(None))):
         raise TypeError(f"prove must be True, False or None, not {type(prove).__name__}")
-    return Asked(_checked_method(method), _checked_tolerance(tolerance), prove)
+    tolerance = _checked_tolerance(tolerance)
+    known = None if accuracy is None else Accuracy.of(accuracy)
+    return Asked(_checked_method(method), tolerance, prove, known)
 
 
 def _checked_method(method: str) -> str:

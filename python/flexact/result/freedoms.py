@@ -25,6 +25,7 @@ from ..model.parts.condensing import Condensed
 from .body_motions import Moves
 from .decompose import decompose
 from .modes import Velocities
+from .order import coordinate_key, ranked
 from .outcome import Asked, Outcome
 
 #: Independent velocities that depend on each other to within this part cannot be told apart.
@@ -129,6 +130,36 @@ class Freedom(Frozen):
             self.analysis,
             Velocities(without, np.where(placed, both, 0.0), np.where(placed, 0.0, both)),
         )
+
+    def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
+        """Node number, coordinate and value [m, rad] of the k largest parts of its motion.
+
+        Rotations are compared with displacements by the characteristic length; empty where
+        the mechanism cannot move so.
+
+        Raises:
+            AnalysisError: the motion cannot be found.
+        """
+        if self.motion is None:
+            return []
+        motion = self.motion.analysed
+        arrays, length = self.analysis.data.arrays, self.analysis.characteristic_length
+        sizes = (motion.displacement + length * motion.rotation).reshape(-1)
+        values = (motion.displacement + motion.rotation).reshape(-1)
+        return [
+            (
+                int(arrays.node_number[place // 3]),
+                coordinate_name(int(arrays.node_kind[place // 3]), place % 3),
+                float(values[place]),
+            )
+            for place in ranked(
+                sizes, k, lambda place: coordinate_key(self.analysis, *divmod(place, 3))
+            )
+        ]
+
+    def __repr__(self) -> str:
+        """Such as "<Freedom node 1 z>"."""
+        return f"<Freedom {self.label}>"
 
 
 class Block:

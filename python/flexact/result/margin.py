@@ -23,15 +23,27 @@ def margins(outcome: Outcome, evidence: Evidence) -> tuple[Margin, ...]:
     above what can be told from zero likewise. A motion without self-stress, or a self-stress
     without motion, belongs to no singular value and is not lifted.
     """
-    told = max(outcome.tolerance, outcome.raw.noise)
-    zeros = (
-        least(margin_of(outcome, pair, told) for pair in group)._replace(
-            singular_value=group[0].value
-        )
-        for group in evidence.zero_pairs
-    )
+    zeros = (_of_zero(outcome, group) for group in evidence.zero_pairs)
     others = (margin_of(outcome, pair, pair.value) for pair in evidence.pairs)
     return (*zeros, *others)
+
+
+def _of_zero(outcome: Outcome, group: tuple[Pair, ...]) -> Margin:
+    """Of a zero that something lifts: none, but where a tolerance says what counts as zero.
+
+    What else tells a value from zero is rounding, and no length of a machine.
+    """
+    noise, tolerance = outcome.raw.noise, outcome.asked.tolerance or 0.0
+    told = max(tolerance, noise)
+    found = least(margin_of(outcome, pair, told) for pair in group)
+    found = found._replace(singular_value=group[0].value)
+    if tolerance > noise or (found.length is None and found.angle is None):
+        return found
+    return found._replace(
+        length=None if found.length is None else 0.0,
+        angle=None if found.angle is None else 0.0,
+        exact_alignment=True,
+    )
 
 
 def margin_of(outcome: Outcome, pair: Pair, distance: float) -> Margin:
@@ -52,11 +64,17 @@ def margin_of(outcome: Outcome, pair: Pair, distance: float) -> Margin:
 def least(of: Iterable[Margin]) -> Margin:
     """The smallest length and the smallest angle, each with its place."""
     every = list(of)
+    every = [item for item in every if item.exact_alignment] or every
     by_length = min(every, key=lambda item: _last(item.length), default=_NO_MARGIN)
     by_angle = min(every, key=lambda item: _last(item.angle), default=_NO_MARGIN)
     first = by_length if by_angle.angle is None else by_angle
     return Margin(
-        by_length.length, by_angle.angle, by_length.node, by_angle.element, first.singular_value
+        by_length.length,
+        by_angle.angle,
+        by_length.node,
+        by_angle.element,
+        first.singular_value,
+        first.exact_alignment,
     )
 
 

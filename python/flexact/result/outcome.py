@@ -19,6 +19,7 @@ from ..model.data import ModelData
 from ..model.labels import Labels, column_labels, row_labels
 from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Parts
+from .accuracy import Accuracy
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
 
@@ -31,6 +32,8 @@ class Asked(NamedTuple):
     """None: it follows from the data and the arithmetic."""
     prove: bool | None = None
     """Whether the rank is to be proven in exact arithmetic; None: where it costs little."""
+    accuracy: Accuracy | None = None
+    """To what the parts are made and put together; None: nothing is known of it."""
 
 
 _PLAIN = Asked()
@@ -155,6 +158,11 @@ class Outcome(Frozen):
         is the noise.
         """
         return self.raw.bound
+
+    @property
+    def accuracy(self) -> Accuracy | None:
+        """To what the parts are made and put together, as it was given; None without."""
+        return self.asked.accuracy
 
     @property
     def characteristic_length(self) -> float:

@@ -11,6 +11,7 @@ from ..base.loading import load
 from ..core.progress import Progress
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
+from ..model.parts.declaring import declared
 from .certainty import Assessment, assess
 from .decompose import decompose
 from .freedoms import Freedom, freedoms_of
@@ -20,7 +21,7 @@ from .outcome import Asked
 from .rank_evidence import Evidence
 from .sensitivity import Pair
 from .spaces import Spaces
-from .verdict import Alternative, Certainty, Margin, Nearly
+from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
@@ -61,6 +62,18 @@ class Result(Spaces):
     def freedoms(self) -> tuple[Freedom, ...]:
         """The declared degrees of freedom, with the motion of each (`flexact.result.freedoms`)."""
         return freedoms_of(self)
+
+    @cached_property
+    def with_internal_declared(self) -> Result | None:
+        """The result with each divided sheet or wire as one beam; None where there is none.
+
+        Where divided sheets and wires are not declared so, their internal motions are among
+        the `motions`, and a bend by as little as rounding keeps them from passing on moments.
+        """
+        whole = declared(self.given)
+        if whole is self.given:
+            return None
+        return result_of(whole, self.asked, self.name)
 
     @cached_property
     def evidence(self) -> Evidence:
@@ -111,6 +124,18 @@ class Result(Spaces):
     def margin(self) -> Margin:
         """The smallest misalignment that would change the verdict: a length and an angle."""
         return least(self.margins)
+
+    @property
+    def is_marginal(self) -> bool:
+        """Whether the margin is smaller than the accuracy; False where none was given."""
+        return self.accuracy is not None and any(self.accuracy.exceeds(self.margin))
+
+    @property
+    def colour(self) -> str:
+        """Of the verdict, as #rrggbb; amber where exactly constrained is only marginal."""
+        if self.verdict is Verdict.EXACT and self.is_marginal:
+            return MARGINAL_COLOUR
+        return self.verdict.colour
 
 
 Found = TypeVar("Found", bound=Result)

@@ -31,6 +31,8 @@ _COLOURS = {
     Verdict.OVER: "#b3261e",
     Verdict.BOTH: "#93205e",
 }
+#: Of an exactly constrained mechanism whose margin is smaller than the accuracy: never green.
+MARGINAL_COLOUR = "#8a6a00"
 
 
 class ClassCounts(NamedTuple):
@@ -64,13 +66,17 @@ class Gap(NamedTuple):
 
 
 class Certainty(str, Enum):
-    """Whether the geometry could be meant with another rank than was decided."""
+    """Whether the geometry could be meant with another rank than was decided.
 
-    CERTAIN = "certain"
-    NEARLY = "nearly"
+    This is about the arithmetic alone. How far the machine may be out of alignment is the
+    `Margin`.
+    """
+
+    CERTAIN = "numerically certain"
+    NEARLY = "doubtful"
 
     def __str__(self) -> str:
-        """The word itself."""
+        """The words themselves."""
         return self.value
 
 
@@ -106,7 +112,10 @@ class Proof(NamedTuple):
 
 
 class Margin(NamedTuple):
-    """The smallest misalignment that changes the verdict, to first order; None where none does."""
+    """The smallest misalignment that changes the verdict, to first order; None where none does.
+
+    A zero that is there in exact alignment only has no margin: its length and angle are 0.
+    """
 
     length: float | None
     """By so much one node must be moved [m]."""
@@ -118,3 +127,6 @@ class Margin(NamedTuple):
     """Number of that element."""
     singular_value: float | None
     """The value of the scaled D(c) that becomes zero, or is zero and becomes non-zero."""
+    exact_alignment: bool = False
+    """Whether a motion and a self-stress are there in exact alignment only: any misalignment of
+    the node or the element lifts both."""

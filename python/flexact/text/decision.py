@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The decision on the rank in words: size, method, gap, certainty, margin, condition."""
+"""The decision on the rank in words: size, method, gap, certainty, condition."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from collections.abc import Iterator
 
 from ..result.result import Result
 from ..result.verdict import Alternative, Certainty, Proof
-from .naming import counted, counts_in_words, named_element, named_node
-from .sentences import Line, Piece, sentence
+from .naming import counted, counts_in_words
+from .sentences import Line, sentence
+from .units import angle_in_words, length_in_words
 
-#: Misalignments below this angle, or this part of the characteristic length, are reported.
-_SMALL = 0.1
 #: From this many rows or columns on it is reported into how many components D(c) falls.
 _LARGE = 500
 
@@ -27,37 +26,46 @@ def decision(result: Result) -> Iterator[Line]:
         above = "no singular value but zeros"
         if small is not None:
             above = f"smallest non-zero singular value {small:.4g}"
-        below = "no zeros" if zero is None else f"largest zero {zero:.2g}"
-        if (ratio := result.gap.ratio) is not None:
-            below += f" (ratio {ratio:.1g})"
-        limit = f"limit {result.tolerance:.2g}"
-        yield sentence(f"Rank decision (free of units): {above}, {below}, {limit}.")
+        yield sentence(f"Rank decision (free of units): {above}, {_zeros(result)}.")
     yield from _certainty(result)
     if result.condition_number is not None:
         yield sentence(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
 
 
+def _zeros(result: Result) -> str:
+    """The zeros and their limit; a zero within it is rounding, and of rounding no digit counts."""
+    zero, limit = result.gap.largest_zero, f"limit {result.tolerance:.2g}"
+    if zero is None:
+        return f"no zeros, {limit}"
+    if zero <= min(result.tolerance, result.raw.noise):
+        return f"zeros within rounding, {limit}"
+    ratio = "" if result.gap.ratio is None else f" (ratio {result.gap.ratio:.1g})"
+    return f"largest zero {zero:.2g}{ratio}, {limit}"
+
+
 def _certainty(result: Result) -> Iterator[Line]:
-    """What is proven, what may be meant, and what would change it; warnings hold the doubts."""
+    """What is proven and what may be meant: of the arithmetic; warnings hold the doubts."""
     if result.certainty is Certainty.CERTAIN:
         yield sentence(_how_certain(result))
     else:
         others = [_alternative(item) for item in result.alternatives]
         meant = f": the mechanism may be meant {', or '.join(others)}" if others else ""
-        yield sentence(f"The decision is doubtful{meant}.")
+        yield sentence(f"The decision on the rank is doubtful{meant}.")
         if result.proof:
             yield sentence(f"{_AS_THEY_ARE[result.proof.of]} the rank is {_proven(result.proof)}.")
-    yield _margin(result)
 
 
 def _how_certain(result: Result) -> str:
     proof = result.proof
     if proof is None:
-        return f"Numerically certain, by the method {result.method}; not proven: {_why(result)}."
+        return (
+            f"The rank is numerically certain, by the method {result.method}; "
+            f"not proven: {_why(result)}."
+        )
     if proof.rank == result.rank:
         return f"Proven for {_OF[proof.of]}: the rank is {_proven(proof)}."
     return (
-        "Numerically certain within the rounding of the geometry; "
+        "The rank is numerically certain within the rounding of the geometry; "
         f"{_AS_THEY_ARE[proof.of].lower()}, to the last digit, the rank is {_proven(proof)}."
     )
 
@@ -87,33 +95,9 @@ def _why(result: Result) -> str:
 def _alternative(item: Alternative) -> str:
     """Counts, and the change that leads there."""
     counts = counts_in_words(item.under_constrained, item.over_constrained)
-    changes = (("m", item.change_m), ("rad", item.change_rad))
-    ways = [f"{change:.1e} {unit}" for unit, change in changes if change]
+    ways = [length_in_words(item.change_m)] if item.change_m else []
+    ways += [angle_in_words(item.change_rad)] if item.change_rad else []
     return f"{counts} (a change by {' or '.join(ways)})" if ways else counts
-
-
-def _margin(result: Result) -> Line:
-    """How far the next verdict is, in the words of a workshop."""
-    margin = result.margin
-    if margin.singular_value is not None and margin.singular_value <= result.tolerance:
-        lengths = [f"{margin.length:.2g} m"] if margin.length is not None else []
-        angles = [f"{margin.angle:.2g} rad"] if margin.angle is not None else []
-        return sentence(
-            "A zero depends on the exact geometry: a misalignment of one node or element by as "
-            f"little as {' or '.join(lengths + angles)} would lift it."
-        )
-    ways: list[tuple[Piece, ...]] = []
-    if margin.length is not None and margin.length < _SMALL * result.characteristic_length:
-        ways.append(("moving ", named_node(result, margin.node or 0), f" by {margin.length:.2g} m"))
-    if margin.angle is not None and margin.angle < _SMALL:
-        ways.append(
-            ("turning ", named_element(result, margin.element or 0), f" by {margin.angle:.2g} rad")
-        )
-    if not ways:
-        return sentence("No small misalignment of one node or element would change the verdict.")
-    start = "Smallest misalignment that would change the verdict, to first order: "
-    joined = ways[0] if len(ways) == 1 else (*ways[0], " or ", *ways[1])
-    return sentence(start, *joined, ".")
 
 
 def _method(result: Result) -> Iterator[Line]:

@@ -11,15 +11,10 @@ from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
 from .decision import decision
-from .naming import (
-    coordinate_in_words,
-    counted,
-    counts_in_words,
-    deformation_in_words,
-    in_words,
-    unit_of,
-    unit_of_coordinate,
-)
+from .margin import but_only, margin_line
+from .motions import internal_in_words, motion_in_parts
+from .naming import counted, counts_in_words, in_words
+from .self_stresses import conflict_in_words, stress_in_parts
 from .sentences import Line, Pieces, filled, sentence
 from .warnings import warnings_of
 
@@ -63,7 +58,7 @@ class VerdictInWords(NamedTuple):
 
 
 def verdict_in_words(result: Result) -> VerdictInWords:
-    """The verdict in a sentence."""
+    """The verdict in a sentence, and whether it holds within the accuracy."""
     under, over = result.under_constrained, result.over_constrained
     reasons = []
     if under:
@@ -75,7 +70,7 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
-    start = counts_in_words(under, over).capitalize()
+    start = counts_in_words(under, over).capitalize() + but_only(result)
     return VerdictInWords(start, f"{'; '.join(reasons) or none}.")
 
 
@@ -83,6 +78,7 @@ def _verdict(result: Result) -> Iterator[str]:
     if result.name:
         yield harmless(result.name)
     yield filled(sentence(str(verdict_in_words(result))))
+    yield filled(margin_line(result))
 
 
 def _counts(result: Result) -> Iterator[str]:
@@ -97,35 +93,28 @@ def _counts(result: Result) -> Iterator[str]:
 
 
 def _motions(result: Result, most: int | None) -> Iterator[str]:
-    modes = (
-        [
-            (
-                *coordinate_in_words(result, node, name),
-                f" {value:.4g} {unit_of_coordinate(name)}",
-            )
-            for node, name, value in motion.largest(_PARTS + 1)
-        ]
-        for motion in result.motions[:most]
-    )
+    told = result.motions[:most]
+    internal = internal_in_words(result)
+    if internal:
+        told = tuple(motion for motion in told if not motion.is_internal)
+    modes = (Line((), motion_in_parts(motion, _PARTS)) for motion in told)
     kind = _Kind("motion", "s", "kinematically")
-    yield from _modes(kind, result.under_constrained, len(result.motions), modes)
+    yield from _modes(kind, result.under_constrained, len(result.motions), modes, internal)
     yield from map(filled, lines_on_motions(result))
 
 
 def _self_stresses(result: Result, most: int | None) -> Iterator[str]:
     modes = (
-        [
-            (
-                *deformation_in_words(result, element, number),
-                f" {value:.4g} {unit_of(result, element, number)}",
-            )
-            for element, number, value in stress.largest(_PARTS + 1)
-        ]
+        Line(_lead(conflict_in_words(stress)), stress_in_parts(stress, _PARTS))
         for stress in result.self_stresses[:most]
     )
     kind = _Kind("self-stress", "es", "statically")
     yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes)
     yield from map(filled, lines_on_self_stresses(result))
+
+
+def _lead(words: Pieces) -> Pieces:
+    return (*words, ": ") if words else ()
 
 
 def _notes(result: Result, about_model: bool) -> Iterator[str]:
@@ -145,17 +134,22 @@ class _Kind(NamedTuple):
     how: str
 
 
-def _modes(kind: _Kind, count: int, given: int, modes: Iterable[Iterable[Pieces]]) -> Iterator[str]:
+def _modes(
+    kind: _Kind, count: int, given: int, modes: Iterable[Line], internal: str = ""
+) -> Iterator[str]:
     """Modes one by one, and how many there are besides: nothing where there are none."""
     if not count:
         return
     what, many = kind.what, kind.what + kind.ending
     heading = (many if count > 1 else what).capitalize()
     yield f"{heading} ({kind.how} indeterminate; relative values, only their ratios matter)"
+    if internal:
+        yield filled(sentence(f"  {internal}"))
     shown = 0
-    for shown, parts in enumerate(modes, start=1):
-        yield filled(Line((f"  {shown}. ",), tuple(parts)).shortened(_PARTS))
-    if count > shown:
+    for shown, line in enumerate(modes, start=1):
+        numbered = line._replace(head=(f"  {shown}. ", *line.head))
+        yield filled(numbered.shortened(_PARTS))
+    if count > shown and not internal:
         yield f"  ... and {counted(count - shown, 'more ' + what, '', kind.ending)}"
     if count > given:
         yield f"Of these {count} {many} {given} are given; the method svd gives all."

@@ -8,7 +8,7 @@ from ..core.elements import Dual, dual_table
 from ..result.freedoms import Freedom
 from ..result.outcome import Outcome
 from .deformation import deformation_words
-from .places import part_words, place_words
+from .places import node_words, part_words
 from .sentences import Named, Pieces, plain
 
 _NUMBERS = (
@@ -37,12 +37,14 @@ def coordinate_in_words(result: Outcome, node: int, name: str) -> Pieces:
 
 
 def named_node(result: Outcome, node: int) -> Named:
-    """A node by its number, and by the name of its point or what is there."""
-    parts = result.parts
-    index = parts.data.node_index[node]
-    place = parts.place_of(index)
-    words = f"node {node}" if place is None else place_words(parts, place)
-    return Named("node", node, words)
+    """A node by its number, and by its body, the name of its point, or what is there."""
+    return Named("node", node, node_words(result.parts, result.parts.data.node_index[node]))
+
+
+def node_name(result: Outcome, index: int) -> str:
+    """The name of the point of a node, by its index in `result.data`; empty without one."""
+    place = result.parts.place_of(int(result.condensed.nodes[index]))
+    return "" if place is None else result.parts.name_of_point(place)
 
 
 def named_element(result: Outcome, element: int) -> Named:

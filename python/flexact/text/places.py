@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..core.arrays import FloatArray
+from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts
 
 #: Names that say themselves what they are.
@@ -46,6 +47,25 @@ def parts_words(parts: Sequence[Part], most: int = _MOST_NAMED) -> str:
     return listed(words)
 
 
+def others_words(parts: Sequence[Part]) -> str:
+    """The same of parts that meet another; of many how many there are."""
+    return parts_words(parts) if len(parts) <= _MOST_NAMED else f"{len(parts)} other parts"
+
+
+def node_words(parts: Parts, node: int) -> str:
+    """What a node, by its index, stands for: a point, or the body that it turns with."""
+    if parts.data.arrays.node_kind[node] <= NodeKind.POSITION:
+        return place_words(parts, node)
+    body = parts.body_at.get(node)
+    if body is not None:
+        return part_words(parts.of_body(body))
+    place = parts.place_of(node)
+    if place is not None:
+        return place_words(parts, place)
+    side = "ground" if parts.is_held(node) else "other side"
+    return f"the {side} of {parts_words(parts.turning(node))}"
+
+
 def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
     """A point by its name, or by what is there.
 
@@ -55,8 +75,8 @@ def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
         within: The part of which the sentence speaks; what is there is seen from it.
     """
     name = parts.name_of_point(position)
-    if name:
-        return with_article(name)
+    if name and not (within is None and _is_of_a_part(parts, position, name)):
+        return with_article(_seen_from(name, within))
     words = _without_name(parts, position, within)
     if within is None:
         return words
@@ -66,6 +86,25 @@ def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
         for end in others
     )
     return f"{words} at {point_words(parts, position)}" if same else words
+
+
+def _is_of_a_part(parts: Parts, position: int, name: str) -> bool:
+    """Whether a point on a body is called by the part that ends there: "sheet 1, stage"."""
+    head, comma, _ = name.rpartition(",")
+    here = parts.at(position)
+    return bool(
+        comma
+        and any(part.kind is PartKind.BODY for part in here)
+        and any(part.name.startswith(head) for part in here)
+    )
+
+
+def _seen_from(name: str, part: Part | None) -> str:
+    """The name of a point without that of the part of which is spoken: "sheet 1, ground"."""
+    head, comma, rest = name.rpartition(",")
+    if part is None or not comma or not rest.strip():
+        return name
+    return rest.strip() if part.name.startswith(head) else name
 
 
 def _without_name(parts: Parts, position: int, within: Part | None) -> str:
@@ -85,7 +124,7 @@ def _without_name(parts: Parts, position: int, within: Part | None) -> str:
     if is_fold and shared:
         return "the fold" if within is not None else f"the fold of {shared}"
     if within is not None:
-        return f"its {kind} with {parts_words(others)}"
+        return f"its {kind} with {others_words(others)}"
     return f"the {kind} of {parts_words(here)}"
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
@@ -16,8 +16,9 @@ from ...core.arrays import IntArray
 from ...core.elements import Class, Member, NodeKind
 from ...diagnostics.errors import model_error
 from ..data import ModelData
+from ..names import part_name
 from .bodies import Body, bodies_of
-from .chains import Chain, part_name
+from .chains import Chain
 from .forms import Form, forms_of, is_member
 
 
@@ -222,6 +223,12 @@ class Parts:
         found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
         return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
 
+    def turning(self, orientation: int) -> tuple[Part, ...]:
+        """The parts that turn with an orientation node, by name."""
+        used = np.any(self.data.arrays.element_node[[1, 3]] == orientation + 1, axis=0)
+        found = dict.fromkeys(self.of_element(i) for i in np.flatnonzero(used).tolist())
+        return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+
     def elements_at(self, position: int) -> list[int]:
         """Indices of the elements that end at a position node."""
         start, element = self._users
@@ -254,8 +261,7 @@ class Parts:
 
     def name_of_point(self, position: int) -> str:
         """The name that the model gives a position node; empty without one."""
-        names: Sequence[str] = getattr(self.data, "node_names", ())
-        return harmless(names[position]).strip() if len(names) else ""
+        return harmless(self.data.node_names[position]).strip()
 
 
 def natural(name: str) -> tuple[tuple[bool, int, str], ...]:

@@ -1,0 +1,10 @@
+# Straight guide on six folded sheets
+import flexact
+
+model = flexact.Model(name="straight guide on six folded sheets")
+model.folded_sheet((0, 0.06, 0.08), (0, 0.06, 0.03), (0, 0.02, 0.03), name="upper sheet")
+model.fix((0, 0.06, 0.08))
+model.body([(0, 0, 0), (0, 0.02, 0.03)], name="cylinder")
+model.pattern(3, axis="z", names="{} {}")
+model.mirror("xy", names={"upper": "lower"})
+model.independent("cylinder", "z")

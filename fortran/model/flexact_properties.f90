@@ -1,0 +1,40 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Stiffness and mass of elements and nodes, as they were said. Whether a mechanism is
+!> exactly constrained does not depend on them.
+module flexact_properties
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use flexact_kinds, only: wp
+   implicit none
+   private
+   public :: properties_t, make_properties
+   public :: stiffness_numbers, mass_numbers, node_mass_numbers
+
+   !> How many numbers each has at most.
+   integer, parameter :: stiffness_numbers = 6
+   integer, parameter :: mass_numbers = 5
+   integer, parameter :: node_mass_numbers = 6
+
+   !> In the order of the deck language; NaN where not given.
+   type :: properties_t
+      !> (6, elements) EA, G It, E Iy, E Iz, shear of a beam.
+      real(wp), allocatable :: stiffness(:, :)
+      !> (5, elements) mass and moments of inertia per length.
+      real(wp), allocatable :: mass(:, :)
+      !> (6, nodes) mass of a position, moments of inertia of an orientation.
+      real(wp), allocatable :: node_mass(:, :)
+   end type properties_t
+
+contains
+
+   !> Of so many elements and nodes nothing is given.
+   pure function make_properties(elements, nodes) result(properties)
+      integer, intent(in) :: elements, nodes
+      type(properties_t) :: properties
+      real(wp) :: not_given
+
+      not_given = ieee_value(1.0_wp, ieee_quiet_nan)
+      allocate (properties%stiffness(stiffness_numbers, elements), source=not_given)
+      allocate (properties%mass(mass_numbers, elements), source=not_given)
+      allocate (properties%node_mass(node_mass_numbers, nodes), source=not_given)
+   end function make_properties
+end module flexact_properties

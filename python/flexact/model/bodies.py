@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rigid bodies through points: a method of the builder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..base.plain_text import in_short
+from ..diagnostics.errors import model_error
+from . import arguments
+from . import point_arguments as points
+from .appearance_arguments import Section, numbers_of_size, shape_of
+from .draft import Draft
+from .flexures import FlexureMethods
+from .handles import Body, Element, Node
+from .making import call
+from .names import part_name
+from .part_arguments import named as named_part
+from .point_arguments import Point
+from .rigid_components import RigidComponents
+from .sections import Make
+
+
+class BodyMethods(FlexureMethods):
+    """The method that makes bodies."""
+
+    def body(
+        self,
+        points: Iterable[Point],
+        name: str = "",
+        *,
+        mass: float | None = None,
+        inertia: float | Sequence[float] | None = None,
+        section: Section | None = None,
+    ) -> Body:
+        """One rigid body through any points.
+
+        Rigid links carry the points with the first of them, as `rigid` makes them. A point
+        that is carried already gets no second link; a body among the points is made larger,
+        and keeps its name where none is given.
+
+        Args:
+            points: Points, their names, their places (x, y, z) [m], or bodies.
+            name: What the body is called; its links are "stage, 1", "stage, 2", ...
+            mass: Mass [kg], at the first point: give the centre of mass first.
+            inertia: Moments of inertia there [kg m2]: Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy,
+                Jyz, Jzz; in a planar model one number.
+            section: How the links are drawn, see `look`.
+
+        Raises:
+            ModelError: something of it is wrong; its text begins with the name of the body.
+        """
+        draft = self._change()
+        with call("body", name):
+            name = arguments.text(name, "the name of a body")
+            nodes, links, old_name = _members(draft, points)
+            make = Make(shape_of(section))
+            at_node = _mass(mass), _inertia(inertia, draft.planar)
+            components = RigidComponents(draft)
+            first = components.carrier(nodes[0])
+            for node in nodes[1:]:
+                carrier = components.carrier(node)
+                if not components.joined(first, carrier):
+                    links.append(self._beam(first, carrier, None, (), "", make))
+                    draft.rigid.add(len(draft.kinds) - 1)
+                    components.join(first, carrier)
+            _name_links(draft, links, name or old_name)
+            if not links and name:
+                draft.name_node(nodes[0].position, points_name(name))
+        for number, values in zip((nodes[0].position, nodes[0].orientation), at_node, strict=True):
+            if values:
+                draft.give_node_mass(number, values)
+        return Body(tuple(links), nodes)
+
+
+def points_name(name: str) -> str:
+    """The name of a body that is one point, as the name of the point."""
+    return points.checked_name(name)
+
+
+def _members(draft: Draft, given: Iterable[Point]) -> tuple[tuple[Node, ...], list[Element], str]:
+    """Points of a body, each once, the links of bodies among them, and the name of the first."""
+    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+        raise model_error(
+            "not-a-point", f"a body goes through several points, not {in_short(given)}"
+        )
+    nodes: dict[Node, None] = {}
+    links: list[Element] = []
+    name = ""
+    for each in given:
+        body: object = each
+        if isinstance(each, str) and each not in draft.points_by_name:
+            body = named_part(draft, each) if each in draft.parts_by_name else each
+        if isinstance(body, Body):
+            points.require_own(draft, body, "body")
+            nodes.update(dict.fromkeys(body.nodes))
+            links += [link for link in body.elements if link not in links]
+            name = name or body.name
+        else:
+            nodes[points.point(draft, each)] = None
+    if not nodes:
+        raise model_error("not-a-point", "a body needs at least one point")
+    return tuple(nodes), links, name
+
+
+def _name_links(draft: Draft, links: list[Element], name: str) -> None:
+    """Name the links of a body; a single one has the name of the body."""
+    if not name:
+        return
+    indices = [draft.index_of(link.number) for link in links]
+    taken = [i for i in draft.part_indices(name) if i not in indices]
+    start = len(taken) + 1
+    alone = len(indices) == 1 and not taken
+    for k, index in enumerate(indices, start):
+        draft.name_element(index, name if alone else f"{part_name(name)}, {k}")
+
+
+def _mass(given: float | None) -> tuple[float, ...]:
+    if given is None:
+        return ()
+    (value,) = numbers_of_size(given, (1,), "a mass is one number")
+    if value < 0.0:
+        raise model_error("bad-size", "a mass is not negative", "give it in kg")
+    return (value,)
+
+
+def _inertia(given: float | Sequence[float] | None, planar: bool) -> tuple[float, ...]:
+    """Jxx, Jxy, Jxz, Jyy, Jyz, Jzz, or one J in the plane."""
+    if given is None:
+        return ()
+    if planar:
+        return numbers_of_size(given, (1,), "the moment of inertia in a plane is one number")
+    what = "moments of inertia are Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy, Jyz, Jzz"
+    values = numbers_of_size(given, (3, 6), what)
+    if len(values) == 3:
+        return values[0], 0.0, 0.0, values[1], 0.0, values[2]
+    return values

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Copies: methods of the builder that insert, repeat, mirror and turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..base.plain_text import in_short
+from ..diagnostics.errors import model_error
+from . import arguments
+from .appearance_arguments import indices_of, numbers_of_size
+from .arguments import Direction
+from .assemblies import AssemblyMethods
+from .copied_names import Names, is_of_one_body, name_copies, renamer, split
+from .copying import ROUNDING, Copy, copy_parts, size_of, turn
+from .draft import Draft, Vector
+from .handles import Assembly, Element, FoldedSheet, Named, Part
+from .making import Making
+from .names import part_name
+from .part_arguments import PartLike, of_indices
+from .point_arguments import place, whole_point
+from .transform import Transform, reflection, rotation, translation
+
+_ORIGIN = (0.0, 0.0, 0.0)
+Parts = Iterable[PartLike | FoldedSheet | Assembly]
+
+
+class CopyMethods(AssemblyMethods):
+    """Methods that copy parts, or turn the whole model."""
+
+    def insert(
+        self,
+        model: Making,
+        at: Sequence[float] = _ORIGIN,
+        *,
+        axis: Direction = "z",
+        degrees: float = 0.0,
+        names: Names | None = None,
+        join: bool | float = True,
+    ) -> Assembly:
+        """Put a copy of another model into this one, turned and then moved.
+
+        Args:
+            model: The model, which stays as it is.
+            at: Where its origin comes to lie [m].
+            axis: The axis through its origin about which it is turned first.
+            degrees: The angle [degrees].
+            names: How its names are changed: "upper {}", or {"old word": "new word"}. A name
+                that is taken gets " (2)".
+            join: Whether points that come to lie at a point of this model, within rounding,
+                become that point; or the distance within which they do [m].
+
+        Returns:
+            Its parts and points by the names that they have in `model`.
+
+        Raises:
+            ModelError: one model is planar and the other is not, or a class of single
+                coordinates is not along x, y or z any more.
+        """
+        if model is self:
+            raise model_error("same-model", "a model cannot be inserted into itself", "pattern it")
+        if not isinstance(model, Making):
+            raise model_error("not-a-model", f"a model is wanted, not {in_short(model)}")
+        source, target = model._change(), self._change()
+        if source.planar != target.planar:
+            raise model_error(
+                "two-kinds-of-model", "one of the models is planar and the other is not"
+            )
+        turn = rotation(_axis(target, axis), degrees, _ORIGIN)
+        move = Transform(turn.matrix, _vector(target, at, "place"))
+        renamer(names, 2)
+        indices = list(range(len(source.kinds)))
+        tolerance = _tolerance(join, source, target)
+        made = copy_parts(source, indices, list(source.node_kind), target, move, tolerance)
+        name_copies(source, target, made, names, 2)
+        return _assembly(source, target, made)
+
+    def pattern(
+        self,
+        n: int,
+        axis: Direction = "z",
+        *,
+        at: Sequence[float] = _ORIGIN,
+        degrees: float | None = None,
+        step: Sequence[float] | None = None,
+        parts: Parts | None = None,
+        names: Names | None = None,
+        join: bool | float = True,
+    ) -> tuple[Assembly, ...]:
+        """Repeat parts n times in all, about an axis or, with `step`, in a row.
+
+        Supports and other classes are copied, too. What comes to lie on itself, such as a
+        point on the axis, is not copied but shared.
+
+        Args:
+            n: How many there are in the end, with the originals.
+            axis: The axis, "x", "y", "z" or a vector.
+            at: A point of the axis [m].
+            degrees: The angle from each to the next; by default 360/n.
+            step: The way from each to the next [m], instead of an angle.
+            parts: Which parts, by handle or name; by default the whole model as it is.
+            names: How names of copies are made: "{} {}" gives "sheet 1", "sheet 2", ..., the
+                original included; by default copies are "sheet (2)", "sheet (3)", ...
+            join: See `insert`.
+
+        Returns:
+            The originals and each copy, with parts and points by the names of the originals.
+        """
+        draft = self._change()
+        count = arguments.whole(n, "the number of copies must be a whole number")
+        if count < 1:
+            raise model_error("out-of-range", "a pattern has at least one member")
+        angle = 360.0 / count if degrees is None else degrees
+        centre = _vector(draft, at, "point of the axis")
+        indices, further = self._chosen(parts)
+        renamer(names, 2)
+        moves = [
+            rotation(_axis(draft, axis), k * angle, centre)
+            if step is None
+            else translation(_times(k, _vector(draft, step, "step")))
+            for k in range(1, count)
+        ]
+        made = [Copy({n: n for n in draft.node_kind}, {i: i for i in indices})]
+        for k, move in enumerate(moves, 2):
+            tolerance = _tolerance(join, draft, draft)
+            made.append(copy_parts(draft, indices, further, draft, move, tolerance))
+            name_copies(draft, draft, made[-1], names, k)
+        results = tuple(_assembly(draft, draft, each) for each in made)
+        if isinstance(names, str) and names.format("a", 1) != names.format("a", 2):
+            shared = {i for each in made[1:] for i, new in each.elements.items() if new == i}
+            shared |= {
+                i
+                for each in made[1:]
+                for i, new in each.elements.items()
+                if is_of_one_body(draft, draft, i, new)
+            }
+            further = [n for n in further if all(each.nodes.get(n) != n for each in made[1:])]
+            _rename_originals(draft, [i for i in indices if i not in shared], further, names)
+        return results
+
+    def mirror(
+        self,
+        plane: Direction,
+        *,
+        at: Sequence[float] = _ORIGIN,
+        parts: Parts | None = None,
+        names: Names | None = None,
+        join: bool | float = True,
+    ) -> Assembly:
+        """Add the mirror image of parts in a plane.
+
+        What comes to lie on itself, such as a point in the plane, is not copied but shared.
+
+        Args:
+            plane: "xy", "yz", "zx", or the normal of the plane as a vector.
+            at: A point of the plane [m].
+            parts: Which parts, by handle or name; by default the whole model as it is.
+            names: How names of the image are made, such as {"left": "right"}; see `insert`.
+            join: See `insert`.
+
+        Returns:
+            The image, with parts and points by the names of the originals.
+        """
+        draft = self._change()
+        move = reflection(plane, _vector(draft, at, "point of the plane"))
+        if draft.planar and move.matrix[2] != (0.0, 0.0, 1.0):
+            raise model_error("no-coordinate", "a planar model is mirrored in a plane along z")
+        indices, further = self._chosen(parts)
+        renamer(names, 2)
+        made = copy_parts(draft, indices, further, draft, move, _tolerance(join, draft, draft))
+        name_copies(draft, draft, made, names, 2)
+        return _assembly(draft, draft, made)
+
+    def rotate(self, axis: Direction, degrees: float, *, at: Sequence[float] = _ORIGIN) -> None:
+        """Turn the whole model about an axis through a point.
+
+        Args:
+            axis: "x", "y", "z" or a vector.
+            degrees: The angle, right-handed [degrees].
+            at: A point of the axis [m].
+
+        Raises:
+            ModelError: a class of single coordinates is not along x, y or z any more.
+        """
+        draft = self._change()
+        move = rotation(_axis(draft, axis), degrees, _vector(draft, at, "point of the axis"))
+        turn(draft, move)
+
+    def _chosen(self, parts: Parts | None) -> tuple[list[int], list[int]]:
+        """Indices of the elements that are meant, and further nodes: of all, where all is."""
+        draft = self._change()
+        if parts is None:
+            return list(range(len(draft.kinds))), list(draft.node_kind)
+        if isinstance(parts, str) or not isinstance(parts, Iterable):
+            parts = [parts]
+        return list(dict.fromkeys(i for each in parts for i in indices_of(draft, each))), []
+
+
+def _axis(draft: Draft, axis: Direction) -> Vector:
+    made = arguments.direction(axis, "axis")
+    if draft.planar and any(made[:2]):
+        raise model_error("no-coordinate", "a planar model turns about z")
+    return made
+
+
+def _vector(draft: Draft, given: Sequence[float], what: str) -> Vector:
+    """Three numbers [m], or two in a plane."""
+    x, y, z = place(draft, given)[:3]
+    return x, y, z
+
+
+def _times(k: int, step: Vector) -> Vector:
+    return k * step[0], k * step[1], k * step[2]
+
+
+def _tolerance(join: bool | float, source: Draft, target: Draft) -> float | None:
+    """Within which points are joined [m]; None where none are."""
+    if join is False:
+        return None
+    if join is True:
+        return ROUNDING * max(size_of(source), size_of(target))
+    return numbers_of_size(join, (1,), "join is True, False or a distance")[0]
+
+
+def _assembly(source: Draft, target: Draft, made: Copy) -> Assembly:
+    """The handle of a copy, by the names of the originals."""
+    groups: dict[str, list[int]] = {}
+    for index, new in made.elements.items():
+        groups.setdefault(part_name(source.names.get(index, "")), []).append(new)
+    parts: dict[str, Part | FoldedSheet | Element] = {
+        name: of_indices(target, indices) for name, indices in groups.items() if name
+    }
+    points = {
+        name: whole_point(target, made.nodes[number])
+        for number, name in source.node_names.items()
+        if number in made.nodes
+    }
+    ground = [
+        whole_point(target, made.nodes[p])
+        for p, _ in dict.fromkeys(source.whole)
+        if p in made.nodes
+    ]
+    return Assembly("", Named(parts), Named(points), tuple(dict.fromkeys(ground)))
+
+
+def _rename_originals(draft: Draft, indices: list[int], further: list[int], names: str) -> None:
+    """Give the originals of a pattern the number 1."""
+    nodes = set(further)
+    for index in indices:
+        if index in draft.names:
+            head, tail = split(draft.names[index])
+            draft.name_element(index, names.format(head, 1) + tail)
+    for number in nodes & draft.node_names.keys():
+        head, tail = split(draft.node_names[number])
+        draft.name_node(number, names.format(head, 1) + tail)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Edits: methods of the builder that find, move, rename, delete, and say how parts look."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..core.elements import element_kinds
+from ..diagnostics.errors import model_error
+from . import appearance_arguments as appearance
+from . import arguments, deletion, sections
+from . import point_arguments as points
+from .appearance_arguments import Section
+from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet
+from .making import Making, call
+from .material import MaterialLike
+from .names import renamed
+from .part_arguments import PartLike, indices_of, part
+from .point_arguments import Point
+
+
+class EditMethods(Making):
+    """Methods that change what there is."""
+
+    def part(self, name: PartLike) -> Part | Element:
+        """The part with this name, or the element with this number.
+
+        Raises:
+            ModelError: there is none, or several have this name; the nearest names are told.
+        """
+        return part(self._change(), name)
+
+    def move(self, point: Point, to: Sequence[float]) -> None:
+        """Move a point to another place [m]; what ends there ends at the new place.
+
+        A width or axis that was given stays as it is, and inner points of divided flexures
+        are put on the straight line between their ends again.
+
+        Raises:
+            ModelError: there is no such point, or it is no place.
+        """
+        draft = self._change()
+        with call("move", point):
+            number = points.existing(draft, point).position
+            value = points.place(draft, to)
+        deletion.move(draft, number, value)
+
+    def rename(self, target: Point | PartLike | FoldedSheet, name: str) -> None:
+        """Give a point or a part another name; of a part every beam and link.
+
+        Raises:
+            ModelError: there is no such point or part, or the name is none.
+        """
+        draft = self._change()
+        with call("rename", target):
+            if self._names_part(target):
+                leaves = target.leaves if isinstance(target, FoldedSheet) else (target,)
+                for k, leaf in enumerate(leaves, 1):
+                    own = name if len(leaves) == 1 else f"{name}, leaf {k}"
+                    arguments.text(name, "the name of a part")
+                    for index in indices_of(draft, part(draft, leaf)):
+                        draft.name_element(index, renamed(draft.names.get(index, ""), own))
+            else:
+                node = points.existing(draft, target)
+                draft.name_node(node.position, points.checked_name(name))
+
+    def delete(self, target: Point | PartLike | FoldedSheet | Assembly) -> None:
+        """Delete a part with its inner points, or a point that no part uses.
+
+        The ends of a deleted part stay; delete them, too, if they were fixed.
+
+        Raises:
+            ModelError: there is no such point or part, or parts use the point.
+        """
+        draft = self._change()
+        with call("delete", target):
+            if self._names_part(target):
+                deletion.delete_elements(draft, appearance.indices_of(draft, target))
+            else:
+                deletion.delete_point(draft, points.existing(draft, target))
+
+    def made_of(
+        self,
+        target: PartLike | FoldedSheet | Assembly,
+        material: MaterialLike | None = None,
+        *,
+        section: Section | None = None,
+        thickness: float | None = None,
+        breadth: float | None = None,
+    ) -> None:
+        """Say what flexures are made of: section and material of parts that are there.
+
+        Args:
+            target: A part, its name, a folded sheet, or an assembly, all of whose flexures
+                it is said of.
+            material: See `wire`.
+            section: Breadth and thickness of sheets; diameter or two sizes of others [m].
+            thickness: Of a sheet, or the diameter of a wire [m].
+            breadth: The size of a sheet along its width [m].
+        """
+        draft = self._change()
+        with call("made_of", target):
+            for each in _flexures(target if not isinstance(target, str) else self.part(target)):
+                found = self.part(each)
+                sheet = isinstance(found, Sheet)
+                if sheet:
+                    shape = sections.sheet_section(section, thickness, breadth)  # type: ignore[arg-type]
+                else:
+                    shape = sections.round_section(section, thickness)
+                for index in indices_of(draft, found):
+                    kind = element_kinds()[draft.kinds[index] - 1]
+                    given = shape or draft.appearance.said.get(index, {}).get("shape")
+                    what = "sheet" if sheet else "wire"
+                    made = sections.made_of(kind, given, material, what)
+                    draft.give_properties(index, made.stiffness, made.mass)
+                    if made.shape is not None:
+                        draft.appearance.give([index], {"shape": made.shape})
+
+    def look(
+        self,
+        target: PartLike | Node | FoldedSheet | Assembly,
+        *,
+        section: Section | None = None,
+        colour: Sequence[float] | None = None,
+        edge_colour: Sequence[float] | None = None,
+        opacity: float | None = None,
+        drawn: bool | None = None,
+    ) -> None:
+        """Say how elements are drawn; the analysis does not use it.
+
+        What is not given stays as it was.
+
+        Args:
+            target: A part (each of its elements), its name, the point beyond a hinge, or
+                an element's number.
+            section: A diameter, or the sizes along the local y and z axes [m]; of a sheet
+                its width and its thickness, whatever its local axes are.
+            colour: Red, green and blue, from 0 to 1.
+            edge_colour: The same for edges.
+            opacity: From 0, invisible, to 1.
+            drawn: Whether it is drawn at all.
+
+        Raises:
+            ModelError: something of it is wrong; then nothing has changed.
+        """
+        draft = self._change()
+        with call("look", target):
+            if isinstance(target, str):
+                target = self.part(target)
+            indices = appearance.indices_of(draft, target)
+            said = appearance.said(target, section, colour, edge_colour, opacity, drawn)
+        draft.appearance.give(indices, said)
+
+    def _names_part(self, target: object) -> bool:
+        """Whether a target is a part rather than a point.
+
+        Raises:
+            ModelError: it is the name of both.
+        """
+        draft = self._change()
+        if isinstance(target, str):
+            a_part, a_point = target in draft.parts_by_name, target in draft.points_by_name
+            if a_part and a_point:
+                raise model_error(
+                    "ambiguous-name",
+                    "it is the name of a part and of a point",
+                    "give a handle, such as model.part(name) or model.point(name)",
+                )
+            return a_part or not a_point
+        return isinstance(target, (Part, Element, FoldedSheet, Assembly, int))
+
+
+def _flexures(target: object) -> list[Part | Element | int]:
+    """The flexures of an assembly or folded sheet, or the part itself."""
+    if isinstance(target, FoldedSheet):
+        return list(target.leaves)
+    if isinstance(target, Assembly):
+        return [each for made in target.parts.values() for each in _flexures(made)]
+    if isinstance(target, Part) and not _is_flexure(target):
+        return []
+    return [target]  # type: ignore[list-item]
+
+
+def _is_flexure(target: Part) -> bool:
+    return type(target).__name__ in ("Sheet", "Wire")

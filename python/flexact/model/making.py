@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all methods of the builder share: the draft, its data, and errors that name the call."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+from ..base.plain_text import in_short
+from ..core.elements import kind_of
+from ..core.raw import ElementKind
+from ..diagnostics.diagnostic import Problems
+from ..diagnostics.errors import ModelError
+from . import arguments
+from .data import ModelData
+from .draft import Draft
+from .handles import Owner
+
+
+class Making:
+    """A model in the making."""
+
+    def __init__(self, *, planar: bool = False, name: str = "") -> None:
+        """Start an empty model."""
+        self._start(bool(planar), arguments.text(name, "the name of a model"))
+
+    def _start(self, planar: bool, name: str) -> None:
+        self._name = name
+        self._planar = planar
+        self._owner = Owner()
+        self._draft: Draft | None = Draft(planar, self._owner)
+        self._data: ModelData | None = None
+
+    def _change(self) -> Draft:
+        """The draft, to be changed; arrays that were made are dropped."""
+        if self._draft is None:
+            self._draft = Draft.of(self.data, self._owner)
+        self._data = None
+        return self._draft
+
+    @property
+    def data(self) -> ModelData:
+        """The model as it is now; later changes do not touch it."""
+        if self._data is None:
+            assert self._draft is not None
+            self._data = self._draft.freeze(self._name)
+        return self._data
+
+    def _kind(self, keyword: str) -> ElementKind:
+        return kind_of("PL" + keyword if self._planar else keyword)
+
+
+@contextmanager
+def call(method: str, name: object = "") -> Iterator[None]:
+    """Begin the message of an error with the call and the part that it was about."""
+    try:
+        yield
+    except ModelError as error:
+        if not isinstance(name, str) or not name or len(error.diagnostics) != 1:
+            raise
+        (problem,) = error.diagnostics
+        start = f"{method} {in_short(name)}: "
+        if problem.message.startswith(f"{method} "):
+            raise
+        told = replace(problem, message=start + problem.message)
+        raise ModelError(Problems.of([told])) from None

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Names of parts and points: how they are read off elements, and how they are looked up."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ..base.loading import load
+from ..base.plain_text import in_short
+from ..core.elements import POSITION_NAMES, ROTATION_NAMES
+from ..diagnostics.errors import ModelError, model_error
+
+#: Names of coordinates, which no point can have.
+COORDINATES = frozenset((*POSITION_NAMES, *ROTATION_NAMES))
+
+_TAIL = re.compile(r",?\s+(?:part\s+)?\d+\s+of\s+\d+$|,\s*\d+$")
+
+
+def part_name(element_name: str) -> str:
+    """The name of the part that an element belongs to: without its own number in the part."""
+    return _TAIL.sub("", element_name)
+
+
+def renamed(element_name: str, part: str) -> str:
+    """The name of an element after its part was named anew."""
+    return part + element_name[len(part_name(element_name)) :]
+
+
+def unknown(code: str, what: str, name: str, known: Iterable[str]) -> ModelError:
+    """The error for a name that nothing has, with the nearest names."""
+    near = nearest(name, known)
+    hint = f"did you mean {' or '.join(map(in_short, near))}?" if near else ""
+    return model_error(code, f"there is no {what} named {in_short(name)}", hint)
+
+
+def nearest(name: str, known: Iterable[str]) -> list[str]:
+    """The names that look most like this one, at most three, the likeliest first."""
+    by_lower = {each.lower(): each for each in sorted(set(known)) if each}
+    near = load("difflib").get_close_matches(name.lower(), by_lower, 3)
+    return [by_lower[each] for each in near]
+
+
+def ambiguous(what: str, name: str) -> ModelError:
+    """The error for a name that several things have."""
+    return model_error(
+        "ambiguous-name",
+        f"several {what}s are named {in_short(name)}",
+        "give one of them another name, or use the handle that its call gave",
+    )

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Small parts of the JSON: places by number and name, quantities with units, margins, advice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ..advice.advice import (
+    Advice,
+    Coordinate,
+    Part,
+    Step,
+    on_motions,
+    on_self_stresses,
+)
+from ..core.elements import keywords_of
+from ..result.decompose import AnalysisError
+from ..result.freedoms import Freedom
+from ..result.result import Result
+from ..result.verdict import Margin
+from .deformation import deformation_word
+from .naming import node_name, unit_of_coordinate
+
+#: Of so many declared degrees of freedom, in models of so many elements, the motions are given:
+#: they take one further decomposition.
+_MOST_FREEDOMS, _MOST_ELEMENTS = 64, 10_000
+#: Components of the motion of a degree of freedom.
+_PARTS = 6
+_ALL = (Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL)
+
+Entries = dict[str, Any]
+
+
+def quantity(value: float, unit: str) -> Entries:
+    """A number beside its unit."""
+    return {"value": value, "unit": unit}
+
+
+def node_place(result: Result, number: int) -> Entries:
+    """A node by its number, and what it is called."""
+    return {"node": number, "name": node_name(result, result.data.node_index[number])}
+
+
+def element_place(result: Result, number: int) -> Entries:
+    """An element by its number, what it is called, and its keyword."""
+    index = result.data.element_index[number]
+    (keyword,) = keywords_of(result.data.arrays.element_kind[index : index + 1])
+    return {"element": number, "name": result.data.element_names[index], "keyword": keyword}
+
+
+def deformation_place(result: Result, element: int, number: int) -> Entries:
+    """A deformation of an element, by its number and in words."""
+    kind = int(result.data.arrays.element_kind[result.data.element_index[element]])
+    word = deformation_word(kind, number)
+    return {**element_place(result, element), "deformation": number, "word": word}
+
+
+def coordinate_place(result: Result, node: int, name: str) -> Entries:
+    """A coordinate of a node."""
+    return {**node_place(result, node), "coordinate": name}
+
+
+def margin(result: Result, item: Margin) -> Entries:
+    """A misalignment: how far a node moves, how far an element turns."""
+    length = angle = None
+    if item.length is not None and item.node is not None:
+        length = {**quantity(item.length, "m"), **node_place(result, item.node)}
+    if item.angle is not None and item.element is not None:
+        angle = {**quantity(item.angle, "rad"), **element_place(result, item.element)}
+    return {
+        "length": length,
+        "angle": angle,
+        "singular_value": item.singular_value,
+        "exact_alignment": item.exact_alignment,
+    }
+
+
+def accuracy(result: Result) -> Entries | None:
+    """The accuracy as it was given, and whether the margin is smaller; None without one."""
+    given = result.accuracy
+    if given is None:
+        return None
+    return {
+        "length": quantity(given.length, "m"),
+        "angle": None if given.angle is None else quantity(given.angle, "rad"),
+        "exceeds_margin": result.is_marginal,
+    }
+
+
+def advice(result: Result) -> Iterator[Entries]:
+    """What removes motions, then what removes self-stresses, the best first."""
+    for about, every in (
+        ("motions", on_motions(result)),
+        ("self_stresses", on_self_stresses(result)),
+    ):
+        yield from (_one_advice(result, about, item) for item in every)
+
+
+def _one_advice(result: Result, about: str, item: Advice) -> Entries:
+    return {
+        "about": about,
+        "removes": "all" if item.step in _ALL else "one",
+        "step": item.step.value,
+        "parts": [_part(result, part) for part in item.parts],
+        "more": item.more,
+        "statements": [
+            {"keyword": keyword, "operands": item.parts[0].operands} for keyword in item.keywords
+        ],
+        "instead": item.instead,
+    }
+
+
+def _part(result: Result, part: Part) -> Entries:
+    if isinstance(part, Coordinate):
+        return coordinate_place(result, part.node, part.name)
+    return deformation_place(result, part.element, part.number)
+
+
+def freedoms(result: Result) -> Iterator[Entries]:
+    """The declared degrees of freedom, and how the mechanism moves in them."""
+    most = _MOST_FREEDOMS
+    if result.data.arrays.element_number.size > _MOST_ELEMENTS:
+        most = 0
+    for count, freedom in enumerate(result.freedoms):
+        yield _freedom(result, freedom, count < most)
+
+
+def _freedom(result: Result, freedom: Freedom, is_sought: bool) -> Entries:
+    _, number = freedom.owner
+    if freedom.is_coordinate:
+        place = coordinate_place(result, number, freedom.part)
+    else:
+        place = deformation_place(result, number, freedom.place[0] + 1)
+    made: Entries = {"label": freedom.label, **place, "moves": None, "largest": []}
+    try:
+        if is_sought:
+            made["moves"] = freedom.motion is not None
+            made["largest"] = [
+                {
+                    **coordinate_place(result, node, name),
+                    **quantity(value, unit_of_coordinate(name)),
+                }
+                for node, name, value in freedom.largest(_PARTS)
+            ]
+    except AnalysisError:
+        # The degree of freedom is there, only its motion could not be found.
+        pass
+    return made

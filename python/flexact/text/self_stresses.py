@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Self-stresses in words: which parts press on each other, and what each of them carries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..model.parts.parts import Part, PartKind
+from ..result.carriers import Joint
+from ..result.modes import SelfStress
+from ..result.outcome import Outcome
+from ..result.part_stresses import Conflict, PartStress
+from ..result.resultants import QUANTITIES, shared_resultants
+from ..result.screws import ROUNDING
+from ..result.wrenches import Wrench, WrenchKind
+from .motions import MOST_NODES, line_words
+from .naming import deformation_in_words, named_element, named_node, unit_of
+from .places import axis_words, listed, part_words, place_words
+from .sentences import Pieces
+
+#: What is below this part of a part's largest force or moment is not told.
+_REST = 1.0e2 * ROUNDING
+#: How many parts that fight are named.
+_MOST_NAMES = 3
+
+
+def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
+    """What parts carry, the largest first, one more than `most` where there are more.
+
+    Of a large model these are deformations.
+    """
+    outcome = stress.analysis
+    if outcome.given.arrays.node_number.size > MOST_NODES:
+        return tuple(
+            (
+                *deformation_in_words(outcome, element, number),
+                f" {value:.4g} {unit_of(outcome, element, number)}",
+            )
+            for element, number, value in stress.largest(most + 1)
+        )
+    numbers = outcome.given.arrays.element_number
+    return tuple(
+        (
+            named_element(outcome, int(numbers[one.part.elements[0]])),
+            f": {listed(list(_carried(outcome, stress, one))) or 'nothing'}",
+        )
+        for one in stress.parts[: most + 1]
+    )
+
+
+def conflict_in_words(stress: SelfStress) -> Pieces:
+    """Which parts fight over what; nothing where that cannot be said in short."""
+    outcome = stress.analysis
+    if outcome.given.arrays.node_number.size > MOST_NODES:
+        return ()
+    chosen = _clearest(stress)
+    if chosen is None:
+        return ()
+    names = [part_words(load.part) for load in chosen.loads if load.part is not None]
+    on = _on(outcome, chosen.on)
+    over = chosen.over
+    if over is None or len(names) > _MOST_NAMES:
+        return (f"{len(names)} parts press on ", *on, ", in balance")
+    both = "both" if len(names) == 2 else "all"
+    return (f"{listed(names)} {both} hold ", *_held(outcome, on, over), f", {_against(over)}")
+
+
+def _clearest(stress: SelfStress) -> Conflict | None:
+    """A body on which few parts fight over one thing, else one on which many press.
+
+    A joint is told where nothing else can be and no more than three parts are stressed.
+    """
+    free = [conflict for conflict in stress.conflicts if _is_between_parts(conflict)]
+    bodies = [conflict for conflict in free if not isinstance(conflict.on, Joint)]
+    few = [one for one in bodies if one.over is not None and len(one.loads) <= _MOST_NAMES]
+    if few:
+        return few[0]
+    if bodies:
+        return max(bodies, key=lambda one: len(one.loads))
+    joints = [one for one in free if one.over is not None and len(stress.parts) <= _MOST_NAMES]
+    return joints[0] if joints else None
+
+
+def _is_between_parts(conflict: Conflict) -> bool:
+    return all(load.part is not None for load in conflict.loads) and len(conflict.loads) > 1
+
+
+def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
+    if isinstance(on, Joint):
+        node = on.position if on.position is not None else on.orientation
+        assert node is not None
+        return (named_node(outcome, int(outcome.given.arrays.node_number[node])),)
+    number = int(outcome.given.arrays.element_number[on.elements[0]])
+    return (named_element(outcome, number),)
+
+
+def _held(outcome: Outcome, on: Pieces, over: Wrench) -> Pieces:
+    """What of a body several parts hold: a rotation, or a displacement along a line."""
+    if over.kind is WrenchKind.COUPLE:
+        return (*on, f" against rotation about {axis_words(over.direction)}")
+    return (*on, f" along {line_words(outcome, over.point, over.direction)}")
+
+
+def _against(over: Wrench) -> str:
+    return {
+        WrenchKind.COUPLE: "with opposite moments",
+        WrenchKind.FORCE: "with opposite forces",
+    }.get(over.kind, "with opposite forces and moments")
+
+
+def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[str]:
+    """Tension, shear, twist and bending of a part."""
+    ends = [end.wrench for end in one.ends]
+    rest = _REST * max(wrench.size for wrench in ends)
+    length = ends[-1].length
+    if abs(one.normal_force) * length > rest:
+        kind = "tension" if one.normal_force > 0.0 else "compression"
+        yield f"{kind} {abs(one.normal_force):.4g} N"
+    if abs(one.twist_moment) > rest:
+        yield f"twist moment {one.twist_moment:.4g} N m"
+    bending = list(_bending(outcome, stress, one, rest))
+    yield from bending
+    if not bending and float(np.linalg.norm(one.shear_force)) * length > rest:
+        yield f"shear force {_vector(one.shear_force, 'N along')}"
+
+
+def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
+    """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
+    if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
+        for quantity in ("in-plane moment", "out-of-plane moment"):
+            at_ends = _at_ends(outcome, stress, one, quantity)
+            if max(map(abs, at_ends)) > rest:
+                yield _along(outcome, one, quantity, at_ends, rest)
+        return
+    told = list(zip(one.ends, one.moments, strict=True))
+    if not one.direction.any():
+        # What a hinge passes on is the same on both sides.
+        told = told[-1:]
+    for end, moment in told:
+        if float(np.linalg.norm(moment)) > rest:
+            where = "" if end.position is None else f" at {_end(outcome, one.part, end.position)}"
+            yield f"moment {_vector(moment, 'N m about')}{where}"
+
+
+def _at_ends(
+    outcome: Outcome, stress: SelfStress, one: PartStress, quantity: str
+) -> tuple[float, float]:
+    """A moment at both ends of a sheet, with the sign that pictures give it."""
+    elements = np.array([one.part.elements[0], one.part.elements[-1]])
+    values = shared_resultants(outcome.given, elements, (stress.forces + stress.moments)[elements])[
+        :, QUANTITIES.index(quantity)
+    ]
+    positions = outcome.given.arrays.element_node[[0, 2]][:, elements].T - 1
+    found = {
+        int(node): float(value)
+        for nodes, ends in zip(positions, values, strict=True)
+        for node, value in zip(nodes, ends, strict=True)
+    }
+    first, last = (found[end.position] for end in one.ends if end.position is not None)
+    return first, last
+
+
+def _along(
+    outcome: Outcome, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
+) -> str:
+    first, last = at_ends
+    if abs(first - last) <= rest:
+        return f"constant {word} {first:.4g} N m"
+    told = [
+        f"{value:.4g} N m at {_end(outcome, one.part, end.position or 0)}"
+        for value, end in zip(at_ends, one.ends, strict=True)
+        if abs(value) > rest
+    ]
+    return f"{word} {' and '.join(told)}"
+
+
+def _end(outcome: Outcome, part: Part, position: int) -> str:
+    return place_words(outcome.parts, position, part)
+
+
+def _vector(vector: FloatArray, unit: str) -> str:
+    """Size and axis where it is along one, else the components; `unit` ends with a preposition."""
+    size = float(np.abs(vector).max())
+    parts = np.where(np.abs(vector) > _REST * size, vector, 0.0) + 0.0
+    if np.count_nonzero(parts) == 1:
+        axis = int(np.argmax(np.abs(parts)))
+        return f"{parts[axis]:.4g} {unit} {'xyz'[axis]}"
+    return f"({', '.join(f'{part:.4g}' for part in parts)}) {unit.rpartition(' ')[0]}"

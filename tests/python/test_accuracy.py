@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The accuracy of the workshop against the margin: words, colours, exit codes.
+
+Two wires of one metre at an angle t to each other are parallel after a move of t metres, or a
+turn of t, so that the margin of every case is known: tests/python/test_margin.py.
+"""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from known_models import ring, twelve_trusses
+from small_decks import DECKS, json_lines, write
+from test_margin import two_wires
+
+from flexact import Analysis, Verdict, analyse
+from flexact.cli.main import main
+from flexact.page import page
+from flexact.page.notebook import html_of
+from flexact.text.describe import verdict_in_words
+from flexact.text.units import angle_in_words, length_in_words
+
+TEN_MICROMETRES = 1e-5
+GREEN = Verdict.EXACT.colour
+CASES = [
+    (None, False),
+    (20e-6, True),
+    (5e-6, False),
+    ((20e-6, 1e-9), True),
+    ((5e-6, 20e-6), True),
+    ((5e-6, 5e-6), False),
+    ((5e-6, None), False),
+    (np.float64(20e-6), True),
+    (np.array([20e-6, 1e-9]), True),
+]
+
+
+@pytest.mark.parametrize(("accuracy", "marginal"), CASES)
+def test_word_and_colour_are_those_of_the_accuracy(accuracy: object, marginal: bool) -> None:
+    analysis = analyse(two_wires(TEN_MICROMETRES), accuracy=accuracy)  # type: ignore[arg-type]
+    assert analysis.verdict is Verdict.EXACT
+    assert analysis.is_marginal is marginal
+    start = verdict_in_words(analysis).start
+    assert ("but only by 10 u" in start) is marginal
+    assert (analysis.colour != GREEN) is marginal
+    assert ('class="verdict marginal"' in page(analysis)) is marginal
+    assert ('class="verdict exact"' in page(analysis)) is not marginal
+    assert analysis.colour in html_of(analysis)
+    # The margin itself is said of all of them.
+    for words in (analysis.describe(), repr(analysis), page(analysis)):
+        assert "10 um" in words and "10 urad" in words
+
+
+def test_what_is_smaller_is_what_is_named() -> None:
+    wires = two_wires(TEN_MICROMETRES)
+    for accuracy, named in (
+        ((20e-6, 1e-9), "but only by 10 um"),
+        ((1e-9, 20e-6), "but only by 10 urad"),
+        ((20e-6, 20e-6), "but only by 10 um or 10 urad"),
+    ):
+        assert verdict_in_words(analyse(wires, accuracy=accuracy)).start.endswith(named)
+
+
+def test_certainty_is_of_the_rank_alone() -> None:
+    """The arithmetic is as sure with the accuracy as without; no head says that all is certain."""
+    for accuracy in (None, 20e-6):
+        analysis = analyse(two_wires(TEN_MICROMETRES), accuracy=accuracy, prove=False)
+        assert str(analysis.certainty) == "numerically certain"
+        for words in (analysis.describe(), re.sub(r"<[^>]*>", " ", page(analysis))):
+            for found in re.finditer(r"\bcertain\b", words):
+                assert words[: found.start()].lower().endswith("numerically ")
+        assert "The rank is numerically certain" in analysis.describe()
+
+
+def test_an_alignment_that_is_exact_is_within_any_accuracy() -> None:
+    analysis = analyse(twelve_trusses(), accuracy=1e-12)
+    assert analysis.is_marginal
+    assert verdict_in_words(analysis).start.endswith("but only in exact alignment")
+    assert analysis.colour == Verdict.BOTH.colour
+
+
+def test_far_from_another_verdict_every_accuracy_will_do() -> None:
+    """Tarnai's ring of five: see tests/python/test_margin.py."""
+    analysis = analyse(ring(5), accuracy=(1e-3, 1e-3))
+    assert not analysis.is_marginal and analysis.colour == GREEN
+
+
+def luminance(colour: str) -> float:
+    """Relative luminance of WCAG 2.1."""
+    parts = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def test_amber_can_be_read_on_white_and_is_no_green() -> None:
+    """WCAG 2.1: a contrast of 4.5 for text."""
+    colour = analyse(two_wires(TEN_MICROMETRES), accuracy=20e-6).colour
+    assert 1.05 / (luminance(colour) + 0.05) > 4.5
+    red, green, blue = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
+    assert red > green > blue
+    assert colour not in {verdict.colour for verdict in Verdict}
+
+
+# Units
+
+
+@pytest.mark.parametrize(
+    ("length", "words"),
+    [
+        (12.3, "12 m"),
+        (1.0, "1 m"),
+        (0.9996, "1 m"),
+        (0.15, "150 mm"),
+        (9.996e-4, "1 mm"),
+        (1.234e-5, "12 um"),
+        (2e-8, "20 nm"),
+        (3e-13, "0.0003 nm"),
+        (0.0, "0 nm"),
+    ],
+)
+def test_lengths_are_in_units_of_the_workshop(length: float, words: str) -> None:
+    assert length_in_words(length) == words
+
+
+@pytest.mark.parametrize(
+    ("angle", "words"),
+    [(2.0, "2 rad"), (0.05, "50 mrad"), (2e-4, "200 urad"), (9.99e-7, "1 urad"), (1e-9, "1 nrad")],
+)
+def test_angles_are_in_units_of_the_workshop(angle: float, words: str) -> None:
+    assert angle_in_words(angle) == words
+
+
+# What cannot be an accuracy
+
+
+@pytest.mark.parametrize("wrong", ["20e-6", b"1", True, [], [1e-6, 1e-6, 1e-6], object(), ["1", 2]])
+def test_an_accuracy_is_a_number_or_two(wrong: object) -> None:
+    with pytest.raises(TypeError, match="accuracy"):
+        analyse(ring(3), accuracy=wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("wrong", [0.0, -1e-6, float("nan"), float("inf"), 10**400, (1e-6, 0.0)])
+def test_an_accuracy_is_positive_and_finite(wrong: float) -> None:
+    with pytest.raises(ValueError, match="accuracy"):
+        analyse(ring(3), accuracy=wrong)
+
+
+# The command
+
+
+@pytest.fixture
+def close(tmp_path: Path) -> str:
+    return str(write(tmp_path / "close.dat", two_wires(TEN_MICROMETRES).to_deck()))
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        ("", 0),
+        ("--expect exact", 0),
+        ("--expect exact --accuracy 20e-6", 3),
+        ("--expect exact --accuracy 5e-6", 0),
+        ("--expect exact --accuracy 5e-6,20e-6", 3),
+        ("--expect exact --accuracy 5e-6,5e-6", 0),
+        ("--accuracy 20e-6", 0),
+        ("--expect over --accuracy 20e-6", 3),
+        ("--accuracy 0", 1),
+        ("--accuracy x", 1),
+        ("--accuracy 1e-6,", 1),
+        ("--accuracy 1e-6,1e-6,1e-6", 1),
+        ("--accuracy nan", 1),
+    ],
+)
+def test_exit_codes(words: str, code: int, close: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["analyse", close, *words.split()]) == code
+    out, err = capsys.readouterr()
+    if code == 3 and "exact" in words:
+        assert "but only by 10 u" in err and "but only by 10 u" in out
+    if code == 1:
+        assert out == "" and "--accuracy" in err
+
+
+def test_expecting_another_verdict_does_not_ask_for_the_margin(tmp_path: Path) -> None:
+    deck = str(write(tmp_path / "both.dat", DECKS["both"]))
+    assert main(["analyse", deck, "--expect", "both", "--accuracy", "1e-3"]) == 0
+
+
+def test_a_batch_counts_what_the_accuracy_leaves(
+    tmp_path: Path, close: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(tmp_path / "exact.dat", DECKS["exact"])
+    assert main(["analyse", str(tmp_path), "--accuracy", "20e-6", "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert {line["accuracy"]["exceeds_margin"] for line in json_lines(out)} == {True, False}
+    assert "1 exactly constrained but by less than the accuracy" in err
+    assert "1 exactly constrained" in err
+
+
+def test_pages_and_their_index_say_it(tmp_path: Path, close: str) -> None:
+    write(tmp_path / "exact.dat", DECKS["exact"])
+    assert main(["report", str(tmp_path), "-o", str(tmp_path / "out"), "--accuracy", "20e-6"]) == 0
+    index = (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    assert index.count('class="card marginal"') == index.count('class="card exact"') == 1
+    assert "margin 10 um or 10 urad" in index and "but only by 10 um" in index
+    assert "no small margin" in index
+
+
+def test_the_picture_has_the_colour_and_the_margin(tmp_path: Path, close: str) -> None:
+    pytest.importorskip("matplotlib")
+    for accuracy, colour in (("20e-6", "#8a6a00"), ("5e-6", GREEN)):
+        target = tmp_path / "close.svg"
+        assert main(["picture", close, "-o", str(target), "--accuracy", accuracy]) == 0
+        picture = target.read_text(encoding="utf-8")
+        assert colour in picture
+        assert ("#8a6a00" in picture) is (colour != GREEN)
+
+
+def test_results_carry_their_accuracy() -> None:
+    analysis: Analysis = analyse(two_wires(TEN_MICROMETRES), accuracy=(20e-6, 1e-4))
+    assert analysis.accuracy == (20e-6, 1e-4)
+    assert analyse(ring(3)).accuracy is None

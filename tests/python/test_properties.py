@@ -1,0 +1,184 @@
+"""Stiffness and mass: kept from decks and from Python, written again to the last bit."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import flexact
+from flexact.model.properties import Properties
+
+MODEL = "BEAM 7 1 2 3 4\nTRUSS 9 3 5\nX 3 1 0 0\nX 5 1 1 0\nFIX 1\nFIX 2\nFIX 5\n"
+NAN = float("nan")
+numbers = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def given_of(model: flexact.Model) -> Properties:
+    properties = model.data.properties
+    assert properties is not None
+    return properties
+
+
+def rows(table: np.ndarray) -> list[list[float]]:
+    return [[value for value in row if value == value] for row in table.tolist()]
+
+
+def assert_same(one: Properties | None, other: Properties | None) -> None:
+    assert one is not None
+    assert other is not None
+    for name in ("stiffness", "mass", "node_mass"):
+        ours, theirs = getattr(one, name), getattr(other, name)
+        assert np.array_equal(ours.view(np.int64), theirs.view(np.int64)) or np.array_equal(
+            ours, theirs, equal_nan=True
+        ), name
+
+
+def test_a_deck_without_them_has_none() -> None:
+    assert flexact.read_text(MODEL).data.properties is None
+    assert flexact.read_text(MODEL + "END\nHALT\nXF 3 1\nEND\nEND\n").data.properties is None
+
+
+@pytest.mark.parametrize(("em", "xm"), [("EM", "XM"), ("emass", "mass")])
+def test_statements_are_kept(em: str, xm: str) -> None:
+    deck = f"{MODEL}END\nHALT\nESTIFF 7 2.52E6 2.9D-2 3.36e2 .0189\n{em} 7 0.0936\n"
+    deck += f"ESTIFF 9 1e5\n{xm} 3 0.5\n{xm} 4 1 2 3 4 5 6\nXF 3 1\nEND\nEND\n"
+    model = flexact.read_text(deck)
+    properties = given_of(model)
+    assert rows(properties.stiffness) == [[2.52e6, 0.029, 336.0, 0.0189], [1e5]]
+    assert rows(properties.mass) == [[0.0936], []]
+    assert model.node_numbers.tolist() == [1, 2, 3, 4, 5]
+    assert rows(properties.node_mass) == [[], [], [0.5], [1, 2, 3, 4, 5, 6], []]
+    assert properties.stiffness.shape == (2, 6)
+    assert properties.mass.shape == (2, 5)
+    assert not properties.stiffness.flags.writeable
+    # What is not used any more is counted, and nothing else.
+    (note,) = model.diagnostics
+    assert note.code == "not-used"
+    assert note.message.startswith("1 statement ")
+
+
+def test_they_are_written_again() -> None:
+    model = flexact.read_text(MODEL + "END\nHALT\nESTIFF 9 0.1 -0.0\nEM 7 1 2 3\nXM 5 1e-300\n")
+    again = flexact.read_text(model.to_deck())
+    assert_same(model.data.properties, again.data.properties)
+    assert again.diagnostics == ()
+    model.release(9)
+    changed = flexact.read_text(model.to_deck())
+    assert_same(changed.data.properties, again.data.properties)
+
+
+def test_with_a_picture() -> None:
+    deck = (
+        MODEL + "END\nHALT\nEM 7 2\nEND\nVISUALIZATION\nBEAMPROPS 7\nCROSSTYPE CIRC\nCROSSDIM 0.1\n"
+    )
+    model = flexact.read_text(deck)
+    again = flexact.read_text(model.to_deck())
+    assert again.diagnostics == ()
+    assert_same(model.data.properties, again.data.properties)
+    assert again.data.appearance.dimensions.tolist() == [[0.1, 0.1], [0.0, 0.0]]
+
+
+def test_the_last_statement_counts_and_both_are_shown() -> None:
+    model = flexact.read_text(MODEL + "END\nESTIFF 7 1 2 3\nESTIFF 7 4\n")
+    assert rows(given_of(model).stiffness) == [[4.0], []]
+    (warning,) = model.diagnostics
+    assert (warning.code, warning.line, warning.column) == ("repeated-value", 10, 8)
+    assert warning.other is not None
+    assert warning.other.line == 9
+
+
+def test_too_many_numbers_are_left_out_with_a_warning() -> None:
+    model = flexact.read_text(MODEL + "END\nEM 7 1 2 3 4 5 6 7\n")
+    assert rows(given_of(model).mass) == [[1, 2, 3, 4, 5], []]
+    (warning,) = model.diagnostics
+    assert (warning.code, warning.line, warning.column) == ("surplus-operand", 9, 16)
+
+
+@pytest.mark.parametrize(
+    ("statement", "code"),
+    [
+        ("EM 8 1", "no-such-element"),
+        ("XM 8 1", "no-such-node"),
+        ("ESTIFF 7", "missing-operand"),
+        ("XM 3 much", "bad-number"),
+        ("EM 7 inf", "not-finite"),
+    ],
+)
+def test_what_is_wrong_is_an_error(statement: str, code: str) -> None:
+    with pytest.raises(flexact.DeckError) as caught:
+        flexact.read_text(f"{MODEL}END\n{statement}\n")
+    assert [item.code for item in caught.value.diagnostics] == [code]
+
+
+def built() -> flexact.Model:
+    model = flexact.Model()
+    p, q = model.node(0, 0, 0), model.node(1, 0, 0)
+    model.beam(p, q)
+    model.fix(p)
+    return model
+
+
+@given(
+    st.lists(numbers, min_size=1, max_size=6),
+    st.lists(numbers, min_size=1, max_size=5),
+    st.lists(numbers, min_size=1, max_size=6),
+)
+def test_a_draft_is_written_to_the_last_bit(e: list[float], m: list[float], x: list[float]) -> None:
+    model = built()
+    draft = model._change()
+    draft.give_properties(0, stiffness=tuple(e))
+    draft.give_properties(0, mass=tuple(m))
+    draft.give_node_mass(3, tuple(x))
+    properties = given_of(model)
+    assert rows(properties.stiffness) == [e]
+    assert rows(properties.mass) == [m]
+    assert rows(properties.node_mass) == [[], [], x, []]
+    assert_same(properties, flexact.read_text(model.to_deck()).data.properties)
+
+
+@pytest.mark.parametrize("values", [(), (1.0,) * 7, (NAN,), (float("inf"),)])
+def test_a_draft_takes_numbers_alone(values: tuple[float, ...]) -> None:
+    model = built()
+    draft = model._change()
+    for give in (
+        lambda: draft.give_properties(0, stiffness=values, mass=(1.0,)),
+        lambda: draft.give_properties(0, stiffness=(1.0,), mass=values),
+        lambda: draft.give_node_mass(1, values),
+    ):
+        with pytest.raises(flexact.ModelError) as caught:
+            give()
+        assert caught.value.diagnostics[0].code == "bad-number"
+    assert model.data.properties is None, "nothing has changed"
+
+
+def test_a_mass_of_an_unused_node_is_warned_of() -> None:
+    model = built()
+    model._change().give_node_mass(model.node(5, 5, 5).orientation, (1.0,))
+    codes = [item.code for item in model.diagnostics]
+    assert codes == ["unused-node", "unused-node"]
+
+
+def test_arrays_that_no_deck_can_say_are_refused() -> None:
+    table = np.full((1, 6), NAN)
+    table[0, 1] = 1.0
+    free = np.full((1, 5), NAN)
+    with pytest.raises(ValueError, match="behind one that is not given"):
+        Properties(table, free, np.full((4, 6), NAN))
+    with pytest.raises(ValueError, match="shape"):
+        Properties(free, free, np.full((4, 6), NAN))
+
+
+def test_the_analysis_is_the_same() -> None:
+    plain = flexact.analyse(flexact.read_text(MODEL))
+    heavy = flexact.analyse(flexact.read_text(MODEL + "END\nESTIFF 7 1 2 3 4\nEM 9 5\nXM 3 1\n"))
+    assert plain.verdict is heavy.verdict
+    assert np.array_equal(plain.singular_values, heavy.singular_values)
+
+
+def test_deleted_elements_take_theirs_along() -> None:
+    model = flexact.read_text(MODEL + "END\nESTIFF 7 1 2\nEM 9 3\nESTIFF 9 4\nXM 3 5\nXM 5 6\n")
+    model.delete(7)
+    properties = given_of(model)
+    assert rows(properties.stiffness) == [[4]]
+    assert rows(properties.mass) == [[3]]
+    assert rows(properties.node_mass) == [[5], [6]]
