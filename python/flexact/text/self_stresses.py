@@ -153,8 +153,14 @@ def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[floa
     """
     outcome = stress.analysis
     elements = np.array([one.part.elements[0], one.part.elements[-1]])
-    values = shared_resultants(outcome.given, elements, (stress.forces + stress.moments)[elements])
-    positions = outcome.given.arrays.element_node[[0, 2]][:, elements].T - 1
+    known = outcome.condensed.elements
+    # Of a row of beams that is one beam that one.
+    both_ends = [e for e in (one.part.elements[0], one.part.elements[-1]) if e in known]
+    elements = np.searchsorted(known, np.array(both_ends))
+    moments, forces = stress.analysed
+    values = shared_resultants(outcome.data, elements, (moments + forces)[elements])
+    nodes = outcome.data.arrays.element_node[[0, 2]][:, elements].T - 1
+    positions = outcome.condensed.nodes[nodes]
     made = {}
     for quantity in _MOMENTS:
         at_nodes = values[:, QUANTITIES.index(quantity)]
