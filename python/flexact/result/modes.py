@@ -191,6 +191,11 @@ class SelfStress(Frozen):
         """Bodies on which parts press, then joints, with what each part exerts on them."""
         return self._pressing.conflicts
 
+    @property
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Of the conflicts those on bodies."""
+        return self._pressing.on_bodies
+
     def of(self, part: object) -> PartStress:
         """The stress resultants of a part; see `flexact.result.part_stresses.Pressing.of`."""
         return self._pressing.of(part)

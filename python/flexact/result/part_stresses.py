@@ -249,8 +249,19 @@ class Pressing(Frozen):
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
         """Bodies on which parts press, by name, then joints; clamps are left out."""
+        return self.on_bodies + self.on_joints
+
+    @cached_property
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Those on bodies."""
         bodies = sorted(self.outcome.carriers.bodies, key=self._key)
-        made = [Conflict(body, self.on(body)) for body in bodies]
+        made = (Conflict(body, self.on(body)) for body in bodies)
+        return tuple(one for one in made if any(load.part for load in one.loads))
+
+    @cached_property
+    def on_joints(self) -> tuple[Conflict, ...]:
+        """Those on joints."""
+        made = []
         for joint in self.outcome.carriers.joints:
             nodes = {node for node in (joint.position, joint.orientation) if node is not None}
             if not self._is_held(joint) and any(node in self._of_node for node in nodes):

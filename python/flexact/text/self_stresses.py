@@ -74,15 +74,16 @@ def _clearest(stress: SelfStress) -> Conflict | None:
 
     A joint is told where nothing else can be and no more than three parts are stressed.
     """
-    free = [conflict for conflict in stress.conflicts if _is_between_parts(conflict)]
-    bodies = [conflict for conflict in free if not isinstance(conflict.on, Joint)]
+    bodies = [conflict for conflict in stress.on_bodies if _is_between_parts(conflict)]
     few = [one for one in bodies if one.over is not None and len(one.loads) <= _MOST_NAMES]
     if few:
         return few[0]
     if bodies:
         return max(bodies, key=lambda one: len(one.loads))
-    joints = [one for one in free if one.over is not None and len(stress.parts) <= _MOST_NAMES]
-    return joints[0] if joints else None
+    if len(stress.parts) > _MOST_NAMES:
+        return None
+    joints = (one for one in stress.conflicts if _is_between_parts(one))
+    return next((one for one in joints if one.over is not None), None)
 
 
 def _is_between_parts(conflict: Conflict) -> bool:
