@@ -41,7 +41,7 @@ class Analysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Sentences that say why the decision is not certain."""
+        """Sentences that say why the rank is doubtful."""
         return tuple(warning_of(self, doubt).message for doubt in self.assessment.doubts)
 
     @cached_property
@@ -93,7 +93,8 @@ class Analysis(Result):
             motion: Number of the motion that is shown, from 1; of pictures and meshes.
             freedom: Number of the declared degree of freedom that is shown, likewise.
             stress: Number of the self-stress that is shown, of pictures.
-            quantity: `N`, `T`, `My` or `Mz` of the self-stress, of pictures.
+            quantity: Of the self-stress in pictures: "normal force", "twist moment", "in-plane
+                moment" or "out-of-plane moment".
             view: From where, of pictures; see `flexact.picture.draw`.
 
         Raises:

@@ -106,8 +106,8 @@ def test_surfaces_move_with_their_sections(analyse: Read, tmp_path: Path) -> Non
 def test_moments_go_on_from_a_beam_into_a_rigid_link(analyse: Read, tmp_path: Path) -> None:
     """A clamped beam and a link in line with it, whose far end is pinned: statics of one bar.
 
-    N, My and Mz are the same on both sides of the joint and fall to zero at the pin, with one
-    slope: the shear force is constant.
+    Normal force and moments are the same on both sides of the joint and fall to zero at the pin,
+    with one slope: the shear force is constant.
     """
     text = "BEAM 1 1 2 3 4\nRBEAM 2 3 4 5\nX 3 2 0 0\nX 5 3 0 0\nFIX 1\nFIX 2\nFIX 5\n"
     analysis = analyse(text)
@@ -116,15 +116,15 @@ def test_moments_go_on_from_a_beam_into_a_rigid_link(analyse: Read, tmp_path: Pa
     (start, joint), (near, pin) = found.ends_of(1), found.ends_of(2)
     seen = set()
     for k in (1, 2, 3):
-        for quantity in ("N", "My", "Mz"):
+        for quantity in ("normal_force", "in_plane_moment", "out_of_plane_moment"):
             values = found.point_data[f"selfstress_{k}_{quantity}"]
             assert values[joint] == pytest.approx(values[near], abs=1e-14)
             if abs(values[near]) > 0.1:
                 seen.add(quantity)
-            if quantity != "N":
+            if quantity != "normal_force":
                 assert values[pin] == 0.0
                 assert values[start] == pytest.approx(3 * values[near], abs=1e-13)
-    assert seen == {"N", "My", "Mz"}
+    assert seen == {"normal_force", "in_plane_moment", "out_of_plane_moment"}
 
 
 def test_collinear_trusses_carry_one_force(analyse: Read, tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_collinear_trusses_carry_one_force(analyse: Read, tmp_path: Path) -> Non
     np.testing.assert_array_equal(found.points[ends], [[-1, 0, 0], [0, 0, 0], [0, 0, 0], [1, 0, 0]])
     np.testing.assert_array_equal(found.point_data["node"][ends], [1, 2, 2, 3])
     assert np.abs(found.point_data["motion_1"][ends, 1]) == pytest.approx([0, 1, 1, 0])
-    force = found.point_data["selfstress_1_N"]
+    force = found.point_data["selfstress_1_normal_force"]
     assert np.abs(force) == pytest.approx(np.sqrt(0.5), abs=1e-15)
     assert np.ptp(force) == pytest.approx(0.0, abs=1e-15)
 

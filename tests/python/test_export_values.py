@@ -26,6 +26,7 @@ BEAMS, LINKS, BARS, JOINTS = (
     {word for word, kind in KINDS.items() if kind.member == member}
     for member in (Member.BEAM, Member.LINK, Member.BAR, Member.HINGE)
 )
+ARRAYS = ("normal_force", "twist_moment", "in_plane_moment", "out_of_plane_moment")
 FORMS = {**dict.fromkeys(BARS, 3), **dict.fromkeys(LINKS, 5), **dict.fromkeys(JOINTS, 0)}
 
 
@@ -44,7 +45,7 @@ def analysis_of(name: str) -> flexact.Analysis:
 
 def elements(analysis: flexact.Analysis) -> list[tuple[int, str, list[int]]]:
     """Number, keyword and node indices p, op, q, oq of each element; -1 where there is none."""
-    arrays = analysis.data.arrays
+    arrays = analysis.given.arrays
     words = ["", *(kind.keyword for kind in element_kinds())]
     return [
         (number, words[kind], nodes)
@@ -59,14 +60,14 @@ def elements(analysis: flexact.Analysis) -> list[tuple[int, str, list[int]]]:
 
 def is_rigid(analysis: flexact.Analysis, index: int) -> bool:
     """No deformation is released (2) or independent (3)."""
-    return not np.any(analysis.data.arrays.deformation_class[:, index] >= 2)
+    return not np.any(analysis.given.arrays.deformation_class[:, index] >= 2)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_nodes_and_members_have_the_numbers_of_the_analysis(name: str, tmp_path: Path) -> None:
     analysis = analysis_of(name)
     found = written(analysis, ".vtu", tmp_path)
-    arrays = analysis.data.arrays
+    arrays = analysis.given.arrays
     for index, (number, keyword, (p, op, q, oq)) in enumerate(elements(analysis)):
         if keyword in JOINTS:
             check_hinge(found, analysis, index, number, keyword, (op, oq))
@@ -90,7 +91,7 @@ def test_nodes_and_members_have_the_numbers_of_the_analysis(name: str, tmp_path:
             if keyword in LINKS:
                 length = np.linalg.norm(found.points[last] - found.points[first])
                 expected = link_resultants(length, stress.forces[index])
-            for quantity, (at_p, at_q) in expected.items():
+            for quantity, (at_p, at_q) in shared(analysis, index, expected).items():
                 values = found.point_data[f"selfstress_{k}_{quantity}"]
                 assert values[first] == pytest.approx(at_p, abs=1e-12)
                 assert values[last] == pytest.approx(at_q, abs=1e-12)
@@ -116,18 +117,27 @@ def check_hinge(
     for k, stress in enumerate(analysis.self_stresses, start=1):
         m = dict(zip(KINDS[keyword].role, stress.moments[index], strict=True))
         about = (Role.ROTATION, Role.TILT_Y, Role.TILT_Z)
-        values = {
-            name: m.get(role, 0.0) for name, role in zip(("T", "My", "Mz"), about, strict=True)
-        }
-        values["Mz"] += m.get(Role.ANGLE, 0.0)
-        for quantity, value in values.items():
+        moment = analysis.given.frames.frame[index] @ [m.get(role, 0.0) for role in about]
+        moment[2] += m.get(Role.ANGLE, 0.0)
+        axis = analysis.given.frames.frame[index][:, 0]
+        for quantity, value in sizes(analysis.given.across[index], axis, moment).items():
             array = found.point_data[f"selfstress_{k}_{quantity}"]
             assert array[point] == pytest.approx(value, abs=1e-12)
             assert array[found.points_of(number, QUAD)] == pytest.approx(value, abs=1e-12)
 
 
+def sizes(across: np.ndarray, axis: np.ndarray, moment: np.ndarray) -> dict[str, float]:
+    """Of a hinge: about its axis, and as it bends to the directions across it."""
+    one, two = np.cross(across, axis) @ moment
+    made = {"twist_moment": axis @ moment, "in_plane_moment": one, "out_of_plane_moment": two}
+    return {name: abs(value) for name, value in made.items()}
+
+
 def resultants(keyword: str, f: np.ndarray, m: np.ndarray) -> dict[str, tuple[float, float]]:
-    """By the definition of the deformations: deck language, eqs. (3) and (4)."""
+    """N, T and moments about ey and ez by the definition of the deformations.
+
+    Deck language, eqs. (3) and (4).
+    """
     zero = (0.0, 0.0)
     if keyword == "BEAM":
         torsion = (m[1], m[1])
@@ -144,6 +154,24 @@ def link_resultants(length: float, f: np.ndarray) -> dict[str, tuple[float, floa
         "T": (0.0, 0.0),
         "My": (-length * f[2], 0.0),
         "Mz": (length * f[1], 0.0),
+    }
+
+
+def shared(
+    analysis: flexact.Analysis, index: int, local: dict[str, tuple[float, float]]
+) -> dict[str, tuple[float, float]]:
+    """The arrays of a mesh from moments about local axes.
+
+    A moment M on the face with the outward normal ex stretches the side of d by M . (d x ex).
+    """
+    ex, ey, ez = analysis.given.frames.frame[index].T
+    one, two = np.cross(analysis.given.across[index], ex)
+    ends = [my * ey + mz * ez for my, mz in zip(local["My"], local["Mz"], strict=True)]
+    return {
+        "normal_force": local["N"],
+        "twist_moment": local["T"],
+        "in_plane_moment": (one @ ends[0], one @ ends[1]),
+        "out_of_plane_moment": (two @ ends[0], two @ ends[1]),
     }
 
 
@@ -173,10 +201,10 @@ def test_arrays_have_their_names_sizes_and_components(name: str, tmp_path: Path)
     for k in range(1, len(analysis.motions) + 1):
         shapes |= {f"motion_{k}": (count, 3), f"motion_{k}_rotation": (count, 3)}
     for k in range(1, len(analysis.self_stresses) + 1):
-        shapes |= {f"selfstress_{k}_{q}": (count,) for q in ("N", "T", "My", "Mz")}
+        shapes |= {f"selfstress_{k}_{q}": (count,) for q in ARRAYS}
     assert {key: values.shape for key, values in found.point_data.items()} == shapes
     assert set(found.cell_data) == {"element", "kind", "form", "name"}
-    arrays, data = analysis.data.arrays, analysis.data
+    arrays, data = analysis.given.arrays, analysis.given
     of_element = {
         number: (kind, name)
         for number, kind, name in zip(
@@ -238,7 +266,7 @@ def test_the_shown_motion_is_a_tenth_of_the_size(name: str, tmp_path: Path) -> N
     if motion is None:
         assert not moved.any() and not turned.any()
         return
-    arrays = analysis.data.arrays
+    arrays = analysis.given.arrays
     positions = arrays.node_value[:3, arrays.node_kind <= 2]
     size = np.linalg.norm(np.ptp(positions, axis=1))
     scale = scale_by_nodes(analysis, found, motion)

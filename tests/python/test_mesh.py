@@ -84,7 +84,7 @@ def test_collinear_bars(analyse: Read) -> None:
     np.testing.assert_allclose(np.abs(motion[:4, 1]), [0, 1, 1, 0], atol=1e-15)
     np.testing.assert_array_equal(motion[1], motion[2])
     np.testing.assert_array_equal(mesh.cell_data["element"][0], [7, 9])
-    force = mesh.point_data["selfstress_1_N"]
+    force = mesh.point_data["selfstress_1_normal_force"]
     np.testing.assert_allclose(np.abs(force), np.sqrt(0.5), atol=1e-15)
 
 
@@ -97,12 +97,15 @@ def test_moments_of_a_clamped_sheet(analyse: Read) -> None:
     analysis = analyse(CLAMPED_SHEET)
     mesh = to_meshio(analysis)
     names = [f"selfstress_{k}_" for k in (1, 2, 3)]
-    forces = np.array([at_ends(mesh, name + "N", 1)[0] for name in names])
+    forces = np.array([at_ends(mesh, name + "normal_force", 1)[0] for name in names])
     assert forces @ forces == pytest.approx(1.0, abs=1e-14)
     for name, stress in zip(names, analysis.self_stresses, strict=True):
         ends = 2.0 * stress.vector[[row[1] in (3, 4) for row in analysis.row_labels]]
-        assert at_ends(mesh, name + "My", 1) == pytest.approx(tuple(ends), abs=1e-14)
-        assert not mesh.point_data[name + "T"].any() and not mesh.point_data[name + "Mz"].any()
+        assert at_ends(mesh, name + "in_plane_moment", 1) == pytest.approx(tuple(ends), abs=1e-14)
+        assert (
+            not mesh.point_data[name + "twist_moment"].any()
+            and not mesh.point_data[name + "out_of_plane_moment"].any()
+        )
 
 
 def test_a_hinge_is_a_vertex_that_its_parts_share(analyse: Read) -> None:
@@ -143,15 +146,17 @@ def test_both_hinges_of_a_cardan_joint_sit_at_its_centre(analyse: Read) -> None:
 
 
 def test_planar_moments_count_as_in_space(analyse: Read) -> None:
-    """A beam clamped at both ends in the plane and in space: opposite raw signs of bending.
+    """A beam along x, clamped at both ends: positive where its upper side, to y, is stretched.
 
-    Planar e2 = -l0 el.ey(p), spatial e5 = +l0 el.ey(p); references: deck language, eq. (4).
+    Planar e2 = -l0 el.ey(p), references: deck language. Power M_z times rotation of the far end:
+    a moment about +z there, which stretches the lower side, has -2 sigma_2 and -2 sigma_3.
     """
     analysis = analyse(PLANAR_CLAMPED)
     mesh = to_meshio(analysis)
     for k, stress in enumerate(analysis.self_stresses, start=1):
-        bending = tuple(-2.0 * stress.vector[1:])
-        assert at_ends(mesh, f"selfstress_{k}_Mz", 1) == pytest.approx(bending, abs=1e-14)
+        bending = tuple(2.0 * stress.vector[1:])
+        found = at_ends(mesh, f"selfstress_{k}_out_of_plane_moment", 1)
+        assert found == pytest.approx(bending, abs=1e-14)
 
 
 @pytest.mark.parametrize(

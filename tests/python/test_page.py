@@ -115,7 +115,7 @@ def test_no_path_of_the_machine_is_in_the_page() -> None:
 
 
 def test_the_page_tells_how_to_make_it_again() -> None:
-    analysis = flexact.analyse(CLAMPED, method="jacobi", tolerance=1e-9)
+    analysis = flexact.analyse(CLAMPED, method="jacobi", tolerance=1e-9, accuracy=(20e-6, 1e-4))
     words = words_of(page(analysis))
     digest = hashlib.sha256(CLAMPED.read_bytes()).hexdigest()
     for told in (
@@ -127,7 +127,7 @@ def test_the_page_tells_how_to_make_it_again() -> None:
         "tolerance 1e-09 (as asked for)",
         f"SHA-256 of the deck {digest}",
         "flexact report folded_sheet_clamped.dat -o folded_sheet_clamped.html --method jacobi "
-        "--tolerance 1e-09",
+        "--tolerance 1e-09 --accuracy 2e-05,0.0001",
     ):
         assert told in words
 
@@ -182,7 +182,7 @@ def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
         assert told in head, told
     over = head_of(page(flexact.analyse(CLAMPED.with_name("six_folded_sheets.dat"))))
     assert "(RLSE 21 2); element 1 (upper 90, ground to fold)" in over
-    assert over.count("element") == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
+    assert len(re.findall(r"element \d", over)) == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
     exact = head_of(page(flexact.analyse(CLAMPED.with_name("five_wires.dat"))))
     assert "rank proven" in exact and "remove" not in exact
 
@@ -225,7 +225,10 @@ def test_degrees_of_freedom_that_cannot_move_are_told() -> None:
 
 
 def test_only_quantities_that_there_are_can_be_chosen() -> None:
-    for deck, expected in (("six_folded_sheets", ["T", "My"]), ("twelve_trusses", ["N"])):
+    for deck, expected in (
+        ("six_folded_sheets", ["twist moment", "in-plane moment"]),
+        ("twelve_trusses", ["normal force"]),
+    ):
         text = page(flexact.analyse(CLAMPED.with_name(f"{deck}.dat")))
         inputs = [attributes for tag, attributes in Elements(text).tags if tag == "input"]
         chosen = [each["value"] for each in inputs if each.get("name") == "quantity"]
@@ -257,9 +260,11 @@ def test_values_of_the_drawing_are_those_of_the_analysis() -> None:
     assert data["size"] == pytest.approx(np.linalg.norm(high - low))
     force = analysis.self_stresses[0].forces[:, 0]
     assert np.allclose(
-        unpacked(data["stresses"][0]["members"]["N"]).reshape(-1, 2), force[:, None], atol=1e-7
+        unpacked(data["stresses"][0]["members"]["normal force"]).reshape(-1, 2),
+        force[:, None],
+        atol=1e-7,
     )
-    assert list(data["stresses"][0]["members"]) == ["N"], "bars carry nothing else"
+    assert list(data["stresses"][0]["members"]) == ["normal force"], "bars carry nothing else"
 
 
 def test_only_what_moves_has_tracks() -> None:
@@ -330,7 +335,7 @@ def test_what_does_not_fit_is_left_out_and_told(monkeypatch: pytest.MonkeyPatch)
     assert unpacked(data["members"]["number"]).tolist() == [1, 2, 3, 4, 5, 6, 7]
     assert unpacked(data["reference"]["centre"]).size == 7 * 2 * 3
     assert unpacked(data["reference"]["section"]).size == 7 * 4
-    assert unpacked(data["stresses"][0]["members"]["N"]).size == 14
+    assert unpacked(data["stresses"][0]["members"]["normal force"]).size == 14
 
 
 def test_many_motions_are_cut_and_told() -> None:

@@ -93,12 +93,12 @@ def test_quantities_of_a_self_stress_change_the_colours(browser: Browser, tmp_pa
     analysis = browser.show(ROOT / "input_decks/paper/six_folded_sheets.dat", tmp_path)
     assert analysis.over_constrained == 1
     seen = browser.pixels()
-    assert browser.run("return flexact.quantity") == "My"
+    assert browser.run("return flexact.quantity") == "in-plane moment"
     assert browser.run("return document.querySelector('#legend').checkVisibility()")
     assert browser.run("return document.querySelector('#legend-name').innerText").endswith(
         "[N\N{NO-BREAK SPACE}m]"
     )
-    browser.press('[name="quantity"][value="T"]')
+    browser.press('[name="quantity"][value="twist moment"]')
     assert changed(seen, browser.pixels()) > 1000
     low, high = (
         browser.run("return document.getElementById(arguments[0]).innerText", f"legend-{end}")
@@ -111,7 +111,7 @@ def test_quantities_of_a_self_stress_change_the_colours(browser: Browser, tmp_pa
     enabled = browser.run(
         "return Array.from(document.querySelectorAll('[name=quantity]:enabled'), i => i.value)"
     )
-    assert enabled == ["T", "My"]
+    assert enabled == ["twist moment", "in-plane moment"]
 
 
 def test_the_colours_agree_with_the_signs(browser: Browser, tmp_path: Path) -> None:
@@ -217,6 +217,8 @@ VIEWED = ("paper/six_folded_sheets", "linkages/bennett", "flexures/planar_parall
 def free_room(browser: Browser) -> np.ndarray:
     """Pixels left free at the left, right, top and bottom, in the whole cycle."""
     browser.run("document.querySelector('#overlay').hidden = true; flexact.play(false)")
+    # A picture of an element ends where the window does.
+    browser.run("document.querySelector('.stage').scrollIntoView({block: 'center'})")
     inked = np.False_
     for phase in (-1, 0, 1):
         browser.run("flexact.movePhase(arguments[0])", phase)
@@ -343,7 +345,9 @@ def test_the_tip_tells_values_of_the_self_stress(browser: Browser, tmp_path: Pat
     browser.press('[name="movement"][value=""]')
     browser.press('[name="stress"][value="0"]')
     lines = browser.run("return flexact.describe({kind: 'member', row: 3})")
-    value = float(re.fullmatch(r"N = (\S+) N", lines[-1])[1].replace("\N{MINUS SIGN}", "-"))
+    value = float(
+        re.fullmatch(r"normal force: (\S+) N", lines[-1])[1].replace("\N{MINUS SIGN}", "-")
+    )
     assert value == pytest.approx(analysis.self_stresses[0].forces[3, 0], rel=1e-3)
     lines = browser.run("return flexact.describe({kind: 'node', row: 0})")
     assert lines == ["Node 1", "held: x, y, z"]

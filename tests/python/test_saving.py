@@ -21,7 +21,7 @@ def test_pictures_are_saved(trusses: flexact.Analysis, tmp_path: Path) -> None:
     trusses.save(tmp_path / "a.png", motion=1, view="top")
     trusses.save(str(tmp_path / "b.SVG"), stress=1)
     assert Image.open(tmp_path / "a.png").width > 300
-    assert b"normal force N" in (tmp_path / "b.SVG").read_bytes()
+    assert b"normal force, tension positive" in (tmp_path / "b.SVG").read_bytes()
 
 
 def test_pages_are_saved(trusses: flexact.Analysis, tmp_path: Path) -> None:

@@ -13,11 +13,12 @@ from flexact.cli.decks import take
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_deck, add_shown, number, one_deck
 from flexact.cli.terminal import say
+from flexact.drawing import quantity_named
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import plan_file, write_together
 from flexact.picture import check_packages, check_suffix, check_view, picture_bytes
 
-_QUANTITIES = ("N", "T", "My", "Mz")
+_QUANTITIES = ("normal-force", "twist-moment", "in-plane-moment", "out-of-plane-moment")
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -30,8 +31,10 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--quantity",
-        choices=_QUANTITIES,
-        help="of the self-stress: normal force, torsion, bending (default: the dominant one)",
+        type=_quantity,
+        metavar="QUANTITY",
+        help=f"of the self-stress: {', '.join(_QUANTITIES)} (default: the dominant one); N, T, My "
+        "and Mz are older names of the four",
     )
     parser.add_argument(
         "--view",
@@ -43,6 +46,14 @@ def fill(parser: argparse.ArgumentParser) -> None:
     add_decision(parser)
     add_accuracy(parser)
     parser.set_defaults(run=draw_deck)
+
+
+def _quantity(text: str) -> str:
+    """A quantity by any of its names, as an option's type."""
+    if (found := quantity_named(text)) is None:
+        choices = ", ".join(_QUANTITIES)
+        raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
+    return found
 
 
 def draw_deck(chosen: argparse.Namespace) -> ExitCode:

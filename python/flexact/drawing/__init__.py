@@ -6,19 +6,22 @@ Members with their sizes, symbols, poses, shapes, resultants and views; `picture
 """
 
 from ..model.parts.forms import Form
-from .colours import QUANTITIES
+from ..result.resultants import QUANTITIES
 from .drawing import Drawing, drawing_of, joints_of
 from .hinges import Hinges
 from .members import Members
 from .movement import Movement, move, reach_of
 from .pose import Moving, Pose, reference_pose
+from .quantities import BENDING, UNITS, meanings_in, names_in, quantity_named, sides_in
 from .resultants import Resultants, resultants
 from .shapes import Field, Strip, field_along, stations
 from .solids import axes_of, cylinders, solid
 from .supports import Arrows, Support, Supports
 
 __all__ = [
+    "BENDING",
     "QUANTITIES",
+    "UNITS",
     "Arrows",
     "Drawing",
     "Field",
@@ -37,10 +40,14 @@ __all__ = [
     "drawing_of",
     "field_along",
     "joints_of",
+    "meanings_in",
     "move",
+    "names_in",
+    "quantity_named",
     "reach_of",
     "reference_pose",
     "resultants",
+    "sides_in",
     "solid",
     "stations",
 ]

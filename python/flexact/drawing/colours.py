@@ -8,17 +8,6 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..model.parts.forms import Form
 
-#: Resultants along a member: normal force, torsion, bending in the local xz and xy planes.
-QUANTITIES = ("N", "T", "My", "Mz")
-
-#: What they are called.
-MEANINGS = {
-    "N": "normal force N, tension positive",
-    "T": "torsional moment T",
-    "My": "bending moment My in the local xz plane",
-    "Mz": "bending moment Mz in the local xy plane",
-}
-
 #: (7, 3) from the most negative value over zero to the most positive: blue, grey, red, even in
 #: lightness to both sides and told apart by colour-blind people (Moreland, Diverging Color Maps
 #: for Scientific Visualization, 2009: "cool to warm").

@@ -87,6 +87,7 @@ class Members(Elements):
         round: (k,) whether the section is an ellipse, else a rectangle.
         stiff: (k,) whether every deformation is held: drawn without any change of length.
         bends: (k,) whether it is drawn as a beam's cubic curve.
+        across: (k, 2, 2) along ey and ez, the directions across it of `ModelData.across`.
         edge_colour: (k, 3) like their colours; NaN where none is given.
     """
 
@@ -96,6 +97,7 @@ class Members(Elements):
     round: np.ndarray
     stiff: np.ndarray
     bends: np.ndarray
+    across: FloatArray
     edge_colour: FloatArray
 
 
@@ -143,6 +145,7 @@ def members_of(data: ModelData, size: float) -> Members:
         round=round_,
         stiff=stiff,
         bends=is_member(kind, Member.BEAM) & ~stiff,
+        across=data.across[index] @ frame[..., 1:],
         edge_colour=appearance.edge_colour[index],
     )
 

@@ -10,6 +10,7 @@ from ..base.errors import BatchError, FlexactError
 from ..base.frozen import Frozen
 from ..result.freedoms import Freedom
 from ..result.result import Result
+from .freedoms import way_of
 from .pose import Moving
 
 #: How many degrees of freedom are tried, whether they can move, where none was asked for.
@@ -89,6 +90,6 @@ def _of_freedom(analysis: Result, number: int) -> Selection:
     count = len(analysis.freedoms)
     require_there(number, count, "degree of freedom", "degrees of freedom")
     chosen = analysis.freedoms[number - 1]
-    if (found := chosen.motion) is None:
+    if (found := way_of(chosen)) is None:
         raise NotThereError(f"degree of freedom {number} cannot move: a self-stress stops it")
     return Selection(found, number, chosen)

@@ -22,12 +22,12 @@ Point data
     gives it, at the nodes to the last bit, between them likewise. The far end of a rigid link
     turns with its near end, a hinge with the first of its two orientation nodes, a truss with
     its axis.
-    ``selfstress_k_N``, ``_T``, ``_My``, ``_Mz``: normal force [N], torsion, and the bending
-    moments in the local xz and xy planes [N m] of self-stress k at that station of the member:
-    the stress resultants of the analysis at its ends, linear between. Equal values at both ends
-    are a constant moment, of planar beams too. A rigid link has the components of its force at
-    its far end: N along itself, and the moments that the others make on the way. HINGE: T
-    about its axis, My and Mz the other two. PLHINGE: Mz.
+    ``selfstress_k_normal_force`` [N], ``_twist_moment``, ``_in_plane_moment`` and
+    ``_out_of_plane_moment`` [N m] of self-stress k at that station of the member: the stress
+    resultants of the analysis at its ends, linear between, with the signs of
+    ``flexact.result.resultants``, which depend on geometry alone. Equal values at both ends are
+    a constant moment. A rigid link has the components of its force at its far end: the normal
+    force along itself, and the moments that the others make on the way. Hinges have sizes.
 Cell data
     ``element``: number of the element; ``kind``: its code, see ``flexact.core.elements``; ``form``:
     what it is to the eye, see ``flexact.drawing.Form``, 0 for hinges; ``name``: its name, in the

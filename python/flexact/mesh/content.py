@@ -173,7 +173,8 @@ class Meshes:
             values |= {f"motion_{k}": moved, f"motion_{k}_rotation": turned}
         for k, stress in enumerate(self.analysis.self_stresses[:most], start=1):
             for quantity, of_points in layout.stress(stress).items():
-                values[f"selfstress_{k}_{quantity}"] = of_points
+                name = quantity.replace("-", "_").replace(" ", "_")
+                values[f"selfstress_{k}_{name}"] = of_points
         return values
 
 

@@ -85,7 +85,7 @@ class Layout(Frozen):
         return made, about
 
     def stress(self, stress: SelfStress) -> dict[str, FloatArray]:
-        """(n,) each: N [N], T, My, Mz [N m] at the points; see `flexact.drawing.Resultants`."""
+        """(n,) each: the `QUANTITIES` [N, N m] at the points; see `flexact.drawing.Resultants`."""
         found = resultants(self.drawing, stress)
         made = {}
         for column, quantity in enumerate(QUANTITIES):

@@ -12,13 +12,14 @@ import numpy as np
 
 from ..base.frozen import Frozen
 from ..core import calls
-from ..core.arrays import IntArray, ModelArrays, PackedModel, packed
+from ..core.arrays import FloatArray, IntArray, ModelArrays, PackedModel, packed
 from ..core.raw import RawCount, RawFrames
 from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
 from ..diagnostics.source import Source, decode
 from .appearance import Appearance
 from .parts.chains import Chain, chains_of
+from .parts.directions import directions_across
 from .properties import Properties
 
 #: As the core says it of a deck.
@@ -158,6 +159,11 @@ class ModelData(Frozen):
     def frames(self) -> RawFrames:
         """Reference frames and lengths of the elements, of a sound model."""
         return calls.find_frames(self.packed)
+
+    @cached_property
+    def across(self) -> FloatArray:
+        """(elements, 2, 3) unit vectors across the elements (`flexact.model.parts.directions`)."""
+        return directions_across(self.arrays, self.frames.frame, self.chains)
 
     def require_sound(self) -> None:
         """Raise where the model cannot be analysed.

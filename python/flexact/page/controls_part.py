@@ -101,7 +101,9 @@ def choices_part(data: dict[str, Any], stuck: Sequence[Freedom]) -> str:
     """
     stresses = [_choice(k, stress) for k, stress in enumerate(data["stresses"])]
     found = {each for stress in data["stresses"] for each in stress["largest"]}
-    quantities = [(each, each, data["meaning"][each]) for each in QUANTITIES if each in found]
+    quantities = [
+        (each, data["names"][each], data["meaning"][each]) for each in QUANTITIES if each in found
+    ]
     return (
         '<section id="choices" class="choices" aria-label="What is shown" hidden>'
         + _movements(data["movements"])

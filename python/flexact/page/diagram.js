@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Bending moments as a diagram: ordinates from the axis of each member, in the plane of bending.
+// Bending moments as a diagram: ordinates from the axis of each member, on the stretched side.
 
 const Diagram = (() => {
   const HEIGHT = 0.12; // of the largest ordinate, in sizes of the drawing
-  // Where the frame of a station has the axis along which a quantity is drawn.
-  const AXIS = { My: 6, Mz: 3 };
 
   class Diagram {
     constructor(members) {
@@ -46,20 +44,24 @@ const Diagram = (() => {
 
     /** Draw a quantity, given at p and q, in the present shapes; nothing without one. */
     show(quantity, values, largest) {
-      const axis = AXIS[quantity];
-      this.group.visible = Boolean(axis && largest);
+      const { data } = this.members;
+      const bending = data.bending[quantity];
+      this.group.visible = Boolean(bending !== undefined && largest);
       if (!this.group.visible) return;
-      const { plan, shape, data } = this.members;
+      const { plan, shape } = this.members;
+      const across = PageData.array(data.members.across);
       const rgb = [0, 0, 0];
       for (let m = 0; m < plan.count; m++) {
         const last = plan.stations[m] - 1;
+        const [y, z] = across.subarray(4 * m + 2 * bending, 4 * m + 2 * bending + 2);
         for (let s = 0; s <= last; s++) {
           const share = s / last, station = plan.station[m] + s;
           const value = ((1 - share) * values[2 * m] + share * values[2 * m + 1]) / largest;
           PageData.diverging(data.stops, value, rgb);
           for (let k = 0; k < 3; k++) {
             const base = shape.centre[3 * station + k];
-            const way = HEIGHT * value * shape.frame[9 * station + axis + k];
+            const off = y * shape.frame[9 * station + 3 + k] + z * shape.frame[9 * station + 6 + k];
+            const way = HEIGHT * value * off;
             this.place.array[6 * station + k] = base;
             this.place.array[6 * station + 3 + k] = base + way;
             const part = Math.round(235 * rgb[k]);

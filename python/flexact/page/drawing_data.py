@@ -16,7 +16,19 @@ import numpy as np
 from ..base.plain_text import harmless
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind, coordinate_name
-from ..drawing import QUANTITIES, Drawing, Form, Support, colours, joints_of
+from ..drawing import (
+    BENDING,
+    QUANTITIES,
+    UNITS,
+    Drawing,
+    Form,
+    Support,
+    colours,
+    joints_of,
+    meanings_in,
+    names_in,
+    sides_in,
+)
 from ..drawing.places import turned_at
 from ..drawing.rotations import euler_of
 from ..drawing.view import ISO, view_of
@@ -28,11 +40,6 @@ from .packing import flags, floats, integers
 _THICK = 0.6
 #: An edge where no colour is given: so much of the member's own.
 _EDGE = 0.45
-
-_SIDES = {
-    "N": "blue: compression; red: tension",
-    **dict.fromkeys(("T", "My", "Mz"), "blue and red: opposite senses"),
-}
 
 
 @dataclass(frozen=True)
@@ -83,8 +90,11 @@ def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
             "freedom": colours.FREEDOM,
         },
         "quantities": list(QUANTITIES),
-        "meaning": colours.MEANINGS,
-        "sides": _SIDES,
+        "bending": BENDING,
+        "units": UNITS,
+        "names": names_in(drawing),
+        "meaning": meanings_in(drawing),
+        "sides": sides_in(drawing),
         "forms": {int(form): form.name.lower() for form in Form},
         "nodes": _nodes(analysis, frame),
         "members": _members(frame),
@@ -138,6 +148,7 @@ def _members(frame: Frame) -> dict[str, Any]:
         "section": floats(every.section[some] / frame.drawing.size),
         "round": flags(every.round[some]),
         "bends": flags(every.bends[some]),
+        "across": floats(every.across[some]),
         "colour": flags(_bytes(own)),
         "edge": flags(_bytes(edge)),
         "opacity": floats(every.opacity[some]),

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
-from ..drawing import QUANTITIES, Drawing, Movement, Moving, move, reach_of, resultants
+from ..drawing import QUANTITIES, UNITS, Drawing, Movement, Moving, move, reach_of, resultants
+from ..drawing.freedoms import way_of
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..text.naming import freedom_in_words
@@ -45,7 +46,7 @@ def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
 
 def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
     for freedom in looked_at(analysis):
-        if (motion := freedom.motion) is not None:
+        if (motion := way_of(freedom)) is not None:
             words = plain(freedom_in_words(freedom))
             yield "freedom", words, f"Degree of freedom: {words}", motion
 
@@ -74,7 +75,7 @@ def stresses(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
     made = []
     for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
         found = resultants(frame.drawing, stress)
-        weight = {each: 1.0 if each == "N" else 1.0 / found.length for each in QUANTITIES}
+        weight = {each: 1.0 if UNITS[each] == "N" else 1.0 / found.length for each in QUANTITIES}
         sizes = {each: found.largest(each) * weight[each] for each in QUANTITIES}
         there = [each for each in QUANTITIES if sizes[each] > _NOTHING * max(sizes.values())]
         hinges = {each: found.hinges[rows, QUANTITIES.index(each)] for each in there}

@@ -166,7 +166,8 @@ const Viewer = (() => {
       if (!stress) return;
       const largest = stress.largest[quantity] || 0;
       $("legend-bar").style.background = PageData.gradient(data.stops);
-      $("legend-name").textContent = `${quantity} [${Words.unitOf(quantity)}]`;
+      $("legend-name").textContent = quantity
+        ? `${data.names[quantity]} [${Words.unitOf(data, quantity)}]` : "";
       $("legend-low").textContent = largest ? Words.number(-largest) : "";
       $("legend-high").textContent = largest ? Words.number(largest) : "";
       $("legend-note").textContent = data.sides[quantity];
@@ -256,7 +257,7 @@ const Viewer = (() => {
         this.controls.refresh({
           movement, stress, quantity, playing: player.playing,
           quantities: stress ? Object.keys(stress.members).concat(Object.keys(stress.hinges)) : [],
-          bending: quantity.startsWith("M"),
+          bending: quantity in this.data.bending,
         });
       }
       $("shown").textContent = this.caption();

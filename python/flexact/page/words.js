@@ -4,7 +4,7 @@
 
 const Words = (() => {
   const AXES = ["x", "y", "z"];
-  const unitOf = (quantity) => (quantity === "N" ? "N" : "N\u00a0m");
+  const unitOf = (data, quantity) => data.units[quantity].replace(" ", "\u00a0");
 
   /** A number in four digits, with a real minus sign. */
   function number(value) {
@@ -24,7 +24,7 @@ const Words = (() => {
       const [p, q] = ends(PageData.array(values[each]));
       const one = Math.abs(p - q) <= 1e-6 * Math.max(Math.abs(p), Math.abs(q));
       const text = one ? number(p) : `${number(p)} at p, ${number(q)} at q`;
-      return `${each} = ${text} ${unitOf(each)}`;
+      return `${data.names[each]}: ${text} ${unitOf(data, each)}`;
     });
   }
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..base.plain_text import harmless
 from ..core.arrays import FloatArray
-from ..drawing import Drawing, reach_of
-from ..drawing.colours import MEANINGS, diverging
+from ..drawing import UNITS, Drawing, meanings_in, reach_of
+from ..drawing.colours import diverging
 from ..drawing.movement import AMPLITUDE
 from ..drawing.view import View
 from ..text.describe import verdict_in_words
@@ -21,7 +21,7 @@ from ..text.margin import margin_in_short, margin_line
 from ..text.sentences import plain as without_links
 from .canvas import Box
 from .panel import Panel, is_simplified, paint
-from .stress import UNITS, Stress
+from .stress import Stress
 from .subject import Subject
 
 if TYPE_CHECKING:
@@ -214,7 +214,8 @@ def _add_panel(
     if not plain:
         _add_values(frame, axes, panel)
         if subject.stress is not None:
-            _add_legend(frame, subject.stress, (left + pad, right - pad), bottom)
+            told = meanings_in(drawing)[subject.stress.quantity]
+            _add_legend(frame, subject.stress, told, (left + pad, right - pad), bottom)
         if not drawing.planar:
             _add_triad(frame, panel.canvas.view, left + 3.4 * pad, bottom - 3.0 * pad)
 
@@ -256,13 +257,15 @@ def _about(drawing: Drawing, subject: Subject) -> str:
     return f"Enlarged: {size}; grey: the reference shape. {movement.remark}"
 
 
-def _add_legend(frame: _Frame, stress: Stress, sides: tuple[float, float], top: float) -> None:
-    """A bar of the colours, with the values at its ends."""
+def _add_legend(
+    frame: _Frame, stress: Stress, told: str, sides: tuple[float, float], top: float
+) -> None:
+    """A bar of the colours, with what they mean and the values at its ends."""
     from matplotlib.collections import PolyCollection
 
     line = frame.line("legend")
-    unit = UNITS[stress.quantity]
-    frame.text(sides[0], top, f"{MEANINGS[stress.quantity]} [{unit}]", "legend")
+    where = ", drawn on the stretched side" * stress.has_diagram
+    frame.text(sides[0], top, f"{told} [{UNITS[stress.quantity]}]{where}", "legend")
     width = min(320 * frame.scale, sides[1] - sides[0])
     axes = frame.axes(sides[0], top + 1.25 * line, sides[0] + width, top + 2.0 * line)
     # Each piece reaches to the end, so that there are no seams between them.

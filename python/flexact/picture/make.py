@@ -95,7 +95,8 @@ def draw(
         motion: Number of a motion, from 1.
         freedom: Number of a declared degree of freedom, from 1.
         stress: Number of a self-stress, from 1.
-        quantity: `N`, `T`, `My` or `Mz` of the self-stress; by default the dominant one.
+        quantity: Of the self-stress, one of `flexact.drawing.QUANTITIES`; by default the dominant
+            one.
         view: `iso`, `front`, `back`, `left`, `right`, `top`, `bottom`, or the azimuth and the
             elevation of the eye in degrees, as in `-60,25`; z is up. Planar models are drawn
             in their plane.

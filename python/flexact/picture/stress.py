@@ -4,21 +4,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..drawing import QUANTITIES, Drawing, Resultants, stations
+from ..drawing import BENDING, QUANTITIES, Drawing, Resultants, Strip, stations
 from ..drawing.colours import diverging
+from ..model.parts.directions import signs_of
 from .canvas import Canvas
 from .surfaces import OUTLINE
 
-UNITS = {"N": "N", "T": "N m", "My": "N m", "Mz": "N m"}
 #: Height of the largest bending moment in a diagram, a part of the drawing's size.
 _HEIGHT = 0.08
-#: Column of the local frame along which a diagram stands off the axis.
-_OFF = {"My": 2, "Mz": 1}
 #: A diagram in the plane of a sheet is seen on it: it counts as nearer to the eye by this part
 #: and half the thickness, along the line of sight, of which the cosine is at least so large.
 _ABOVE, _OBLIQUE = 0.006, 0.25
@@ -54,13 +53,13 @@ class Stress(Frozen):
     def colours(self, member: np.ndarray, at: FloatArray) -> FloatArray:
         """(k, s - 1, 3) of the pieces between stations (s,) of members (k,)."""
         middle = (at[1:] + at[:-1]) / 2
-        return diverging(self._relative(self.values.along(self.quantity, member, middle)))
+        return self.colours_of(self.values.along(self.quantity, member, middle))
 
     def member_colours(self) -> FloatArray:
         """(k, 3) of the members by the larger of the values at their ends."""
         ends = self.values[self.quantity]
-        larger = np.abs(ends).argmax(axis=1)[:, None]
-        return diverging(self._relative(np.take_along_axis(ends, larger, axis=1)[:, 0]))
+        high, low = ends.max(axis=1), ends.min(axis=1)
+        return self.colours_of(np.where(high >= -low * (1.0 - _EVEN), high, low))
 
     def is_loud(self) -> np.ndarray:
         """(k,) whether a member has more than a small part of the largest value."""
@@ -68,10 +67,11 @@ class Stress(Frozen):
 
     def hinge_colours(self) -> FloatArray:
         """(h, 3) of the hinges."""
-        return diverging(self._relative(self.values.hinges[:, QUANTITIES.index(self.quantity)]))
+        return self.colours_of(self.values.hinges[:, QUANTITIES.index(self.quantity)])
 
-    def _relative(self, values: FloatArray) -> FloatArray:
-        return values / self.largest if self.largest > 0.0 else np.zeros_like(values)
+    def colours_of(self, values: FloatArray) -> FloatArray:
+        """(..., 3) of values (...)."""
+        return diverging(values / self.largest if self.largest > 0.0 else np.zeros_like(values))
 
     @property
     def pieces(self) -> int:
@@ -83,7 +83,7 @@ class Stress(Frozen):
     @property
     def has_diagram(self) -> bool:
         """Whether it is a bending moment."""
-        return self.quantity in _OFF
+        return self.quantity in BENDING
 
 
 @dataclass(frozen=True)
@@ -104,44 +104,73 @@ def stress_of(values: Resultants, quantity: str | None) -> Stress:
 def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]:
     """Draw bending diagrams beside the members; where their peaks are.
 
-    The diagram stands off the axis in the plane of bending, on the side of the local axis where
-    the moment is positive.
+    The diagram stands off the axis in the plane of bending, on the side that is stretched.
     """
     if not stress.has_diagram or not stress.largest > 0.0:
         return []
     peaks: list[Peak] = []
-    column, height = _OFF[stress.quantity], _HEIGHT * drawing.size / stress.largest
+    row_across = BENDING[stress.quantity]
+    height = _HEIGHT * drawing.size / stress.largest
     for strip in stations(drawing.members, drawing.reference, PIECES, drawing.members.seen):
         value = stress.values.along(stress.quantity, strip.member, strip.at)
         rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
         if not rows.size:
             continue
-        at = np.concatenate(([0.0], (np.arange(PIECES) + _BESIDE) / PIECES, [1.0]))
-        centre = _between(strip.centre[rows], at)
-        off = _between(strip.frame[rows][..., column], at)
-        value = stress.values.along(stress.quantity, strip.member[rows], at)
-        tops = centre + height * value[..., None] * off
-        colour = stress.colours(strip.member[rows], at)
-        above = _ABOVE * drawing.size + _depth(canvas, drawing, strip.member[rows], column)
+        part = _Diagram.of(drawing, stress, strip, rows)
+        centre, value = part.centre, part.value
+        tops = centre + height * value[..., None] * part.off
+        member = strip.member[rows]
+        colour = stress.colours_of((value[:, 1:] + value[:, :-1]) / 2)
+        above = _ABOVE * drawing.size + _depth(canvas, drawing, member, 1 - row_across)
         _add_outlined(canvas, centre, tops, colour, above)
-        for row, peak in enumerate(np.abs(value).argmax(axis=1).tolist()):
+        for row, peak in enumerate(_peaks(value)):
             place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
             peaks.append(Peak(place, foot, float(value[row, peak])))
     return _to_be_named(peaks, stress.largest)
 
 
-def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, column: int) -> FloatArray:
-    """(k,) how far behind a member's surface its axis lies, where a diagram is along a column."""
-    other = 3 - column
-    normal = drawing.members.frame[member][..., other]
+class _Diagram(NamedTuple):
+    """Diagrams from the same end, whichever is called p."""
+
+    centre: FloatArray
+    """(k, s, 3) axes [m]."""
+    off: FloatArray
+    """(k, s, 3) unit vectors to the side that a positive moment stretches."""
+    value: FloatArray
+    """(k, s) moments."""
+
+    @classmethod
+    def of(cls, drawing: Drawing, stress: Stress, strip: Strip, rows: np.ndarray) -> _Diagram:
+        """Those of some rows of a strip."""
+        member = strip.member[rows]
+        across = drawing.members.across[member, BENDING[stress.quantity]]
+        centre = strip.centre[rows][:, [0, -1]]
+        off = np.einsum("ksxd,kd->ksx", strip.frame[rows][:, [0, -1], :, 1:], across)
+        value = stress.values[stress.quantity][member]
+        at = np.concatenate(([0.0], (np.arange(PIECES) + _BESIDE) / PIECES, [1.0]))
+        turned = signs_of(centre[:, 1] - centre[:, 0]) < 0.0
+        ends = np.concatenate((centre, off, value[..., None]), axis=2)
+        ends[turned] = ends[turned, ::-1]
+        every = (1 - at)[None, :, None] * ends[:, :1] + at[None, :, None] * ends[:, 1:]
+        return cls(every[..., :3], every[..., 3:6], every[..., 6])
+
+
+def _peaks(value: FloatArray) -> list[int]:
+    """(k,) the station of the largest value; where a moment is constant the middle."""
+    size = np.abs(value)
+    first = size >= (1.0 - _EVEN) * size.max(axis=1, keepdims=True)
+    constant = first.all(axis=1)
+    made: list[int] = np.where(constant, value.shape[1] // 2, first.argmax(axis=1)).tolist()
+    return made
+
+
+def _depth(canvas: Canvas, drawing: Drawing, member: np.ndarray, row: int) -> FloatArray:
+    """(k,) how far behind a member's surface its axis lies, along a direction across it."""
+    across = drawing.members.across[member, row]
+    normal = np.einsum("kxd,kd->kx", drawing.members.frame[member][..., 1:], across)
     cosine = np.maximum(np.abs(normal @ canvas.view.axes[2]), _OBLIQUE)
-    return np.asarray(drawing.members.section[member, other - 1] / 2 / cosine)
-
-
-def _between(points: FloatArray, at: FloatArray) -> FloatArray:
-    """(k, s, 3) values at stations (s,) of straight members, between those at their ends."""
-    share = at[None, :, None]
-    return np.asarray((1 - share) * points[:, :1] + share * points[:, -1:])
+    thick = np.sum(np.abs(across) * drawing.members.section[member], axis=1)
+    return np.asarray(thick / 2 / cosine)
 
 
 def _add_outlined(

@@ -9,7 +9,7 @@ from typing import SupportsIndex
 
 from ..base.errors import BatchError, require_kind
 from ..base.plain_text import harmless
-from ..drawing import QUANTITIES, Drawing, Movement, move, resultants
+from ..drawing import QUANTITIES, Drawing, Movement, move, quantity_named, resultants
 from ..drawing.selection import Selection, require_there, select_motion
 from ..result.result import Result
 from ..text.naming import motion_in_words
@@ -58,7 +58,7 @@ class Chosen:
                 _require_whole(number, name)
         if self.quantity is not None:
             require_kind(self.quantity, str, "a quantity is given by its name")
-        if self.quantity is not None and self.quantity not in QUANTITIES:
+        if self.quantity is not None and quantity_named(self.quantity) is None:
             raise SubjectError(
                 f"there is no quantity {self.quantity!r}: it is one of {', '.join(QUANTITIES)}"
             )
@@ -141,8 +141,9 @@ def _stressed(analysis: Result, drawing: Drawing, number: int, quantity: str | N
     stresses = analysis.self_stresses
     require_there(number, len(stresses), "self-stress", "self-stresses")
     values = resultants(drawing, stresses[number - 1])
+    known = None if quantity is None else quantity_named(quantity)
     words = f"self-stress {number} of {analysis.over_constrained}"
-    return Subject(_heading(words), stress=stress_of(values, quantity))
+    return Subject(_heading(words), stress=stress_of(values, known))
 
 
 def _heading(words: str) -> str:

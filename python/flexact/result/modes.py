@@ -168,7 +168,10 @@ class SelfStress(Frozen):
 
     @property
     def parts(self) -> tuple[PartStress, ...]:
-        """The flexible parts that carry something: the largest first, of equal ones by name."""
+        """The flexible parts that carry something: the largest first, of equal ones by name.
+
+        Where bodies alone carry, they are given.
+        """
         return self._pressing.parts
 
     @property

@@ -116,8 +116,7 @@ class PartStress(Frozen):
     def __str__(self) -> str:
         """In words."""
         told = []
-        rest = 1.0e2 * _REST * max(end.wrench.size for end in self.ends)
-        length = self._last.length
+        length, rest = self._last.length, 1.0e2 * self._last.rest
         if abs(self.normal_force) * length > rest:
             kind = "tension" if self.normal_force > 0.0 else "compression"
             told.append(f"{kind} {abs(self.normal_force):.4g} N")
@@ -195,9 +194,13 @@ class Pressing(Frozen):
 
     @cached_property
     def parts(self) -> tuple[PartStress, ...]:
-        """The flexible parts that carry something: the largest first, of equal ones by name."""
-        made = [self._part_stress(part) for part in self._ends if part.kind is not PartKind.BODY]
-        carrying = [one for one in made if one.share > _REST]
+        """The flexible parts that carry something: the largest first, of equal ones by name.
+
+        Where bodies alone carry, they are given.
+        """
+        made = [self._part_stress(part) for part in self._ends]
+        flexible = [one for one in made if one.part.kind is not PartKind.BODY]
+        carrying = [one for one in flexible if one.share > _REST] or made
         return tuple(sorted(carrying, key=lambda one: (-round(one.share, 9), *self._key(one.part))))
 
     def of(self, part: object) -> PartStress:
@@ -241,13 +244,14 @@ class Pressing(Frozen):
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
-        """Bodies on which parts press, by name, then joints; what holds nothing is left out."""
+        """Bodies on which parts press, by name, then joints; clamps are left out."""
         bodies = sorted(self._carriers.bodies, key=self._key)
         made = [Conflict(body, self.on(body)) for body in bodies]
         for joint in self._carriers.joints:
             nodes = {node for node in (joint.position, joint.orientation) if node is not None}
-            made.append(Conflict(joint, self._loads(nodes, None)))
-        return tuple(one for one in made if len([x for x in one.loads if x.part]) > 0)
+            if not self._is_held(joint):
+                made.append(Conflict(joint, self._loads(nodes, None)))
+        return tuple(one for one in made if any(load.part for load in one.loads))
 
     # What it is made of -----------------------------------------------------
 
@@ -344,7 +348,7 @@ class Pressing(Frozen):
             part,
             ends,
             size / self._largest if self._largest > 0.0 else 0.0,
-            way / length if length > 0.0 else np.zeros(3),
+            way / length if length > 0.0 and part.kind is not PartKind.HINGE else np.zeros(3),
             self._normal(part),
         )
 
@@ -363,13 +367,17 @@ class Pressing(Frozen):
             body = parts.body_at.get(node)
             if body is not None:
                 return parts.of_body(body)
+        joint = self._joint_at.get(end[1], self._joint_at.get(end[0]))
+        return None if joint is None or self._is_held(joint) else joint
+
+    @cached_property
+    def _joint_at(self) -> dict[int, Joint]:
+        made: dict[int, Joint] = {}
         for joint in self._carriers.joints:
-            if end[1] >= 0 and joint.orientation == end[1]:
-                return None if self._is_held(joint) else joint
-        for joint in self._carriers.joints:
-            if end[0] >= 0 and joint.position == end[0]:
-                return None if self._is_held(joint) else joint
-        return None
+            for node in (joint.orientation, joint.position):
+                if node is not None:
+                    made.setdefault(node, joint)
+        return made
 
     def _is_held(self, joint: Joint) -> bool:
         return all(

@@ -21,6 +21,9 @@ from ..data import ModelData
 from ..names import part_name
 from .chains import Chain
 
+#: Sine below which a vector is taken for one along the chord.
+_ALONG = 1.0e-3
+
 
 @dataclass(frozen=True, eq=False)
 class Condensed(Frozen):
@@ -257,13 +260,31 @@ def _ends(chain: Chain) -> Sequence[int]:
 
 
 def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
-    """The y vector of the one beam: the one given to all, or the mean of their local y axes."""
-    given = data.arrays.element_vector[:, list(chain.elements)].T
-    if np.all(given == given[0]):
+    """The y vector of the one beam: the one given to all, or the mean of their local y axes.
+
+    A vector and its opposite are one; along the chord it says nothing.
+    """
+    beams = list(chain.elements)
+    axes: FloatArray = data.frames.frame[beams, :, 1]
+    # From neighbour to neighbour: along an arc they turn round without changing sides.
+    same = np.sum(axes[1:] * axes[:-1], axis=1) >= 0.0
+    signs = np.cumprod([1.0, *np.where(same, 1.0, -1.0)])[:, None]
+    given = signs * data.arrays.element_vector[:, beams].T
+    if np.all(given == given[0]) and (not given.any() or not _is_along(given[0], data, chain)):
         return np.asarray(given[0])
-    axes: FloatArray = data.frames.frame[list(chain.elements), :, 1]
-    signs = np.where(axes @ axes[0] < 0.0, -1.0, 1.0)
-    return np.asarray(np.sum(signs[:, None] * axes, axis=0))
+    mean = np.sum(signs * axes, axis=0)
+    if not _is_along(mean, data, chain):
+        return np.asarray(mean)
+    return np.zeros(3)
+
+
+def _is_along(vector: FloatArray, data: ModelData, chain: Chain) -> bool:
+    """Whether a vector is practically parallel to the chord of a row."""
+    ends = data.arrays.node_value[:3, [chain.positions[0], chain.positions[-1]]].T
+    chord = ends[1] - ends[0]
+    unit = vector / np.abs(vector).max()
+    across = np.cross(unit, chord / np.abs(chord).max())
+    return bool(np.abs(across).max() < _ALONG)
 
 
 def _some(appearance: Appearance | None, elements: IntArray) -> Appearance | None:
