@@ -8,7 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from ..base.loading import load
+from ..base.plain_text import in_short
 from ..core.progress import Progress
+from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
 from ..model.parts.declaring import declared
@@ -22,6 +24,9 @@ from .rank_evidence import Evidence
 from .sensitivity import Pair
 from .spaces import Spaces
 from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
+
+#: How many degrees of freedom a message names.
+_MOST_LABELS = 12
 
 if TYPE_CHECKING:
     from .exact import ExactBases
@@ -62,6 +67,22 @@ class Result(Spaces):
     def freedoms(self) -> tuple[Freedom, ...]:
         """The declared degrees of freedom, with the motion of each (`flexact.result.freedoms`)."""
         return freedoms_of(self)
+
+    def freedom(self, label: str) -> Freedom:
+        """The declared degree of freedom of a label, such as "stage z".
+
+        Raises:
+            ModelError: there is none.
+        """
+        found = next((each for each in self.freedoms if each.label == label), None)
+        if found is None:
+            there = ", ".join(each.label for each in self.freedoms[:_MOST_LABELS])
+            raise model_error(
+                "no-such-freedom",
+                f"there is no degree of freedom {in_short(label)}",
+                f"there are {there}" if there else "none is declared",
+            )
+        return found
 
     @cached_property
     def with_internal_declared(self) -> Result | None:
