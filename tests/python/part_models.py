@@ -11,7 +11,7 @@ import numpy as np
 
 from flexact import Model, Node
 
-EY, EZ = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+EX, EY, EZ = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def turn_about(axis: Sequence[float], angle: float) -> np.ndarray:

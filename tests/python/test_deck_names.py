@@ -70,7 +70,7 @@ def test_names_survive_decks_and_changes() -> None:
 def test_names_from_python() -> None:
     model = flexact.Model()
     clamp = model.node(0, 0, 0, name="clamp")
-    fold = model.node(1, 0, 0, "  %fold\n1 ")
+    fold = model.node(1, 0, 0, name="  %fold\n1 ")
     end = model.node(2, 0, 0)
     model.sheet(clamp, fold, (0, 1, 0))
     model.sheet(fold, end, (0, 1, 0), beams=2)

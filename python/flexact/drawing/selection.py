@@ -4,16 +4,13 @@
 from __future__ import annotations
 
 import contextlib
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import dataclass
 
 from ..base.errors import BatchError, FlexactError
 from ..base.frozen import Frozen
 from ..result.freedoms import Freedom
-from ..result.modes import Velocities
 from ..result.result import Result
-from ..result.signs import sign_of_motion
+from .freedoms import way_of
 from .pose import Moving
 
 #: How many degrees of freedom are tried, whether they can move, where none was asked for.
@@ -70,30 +67,6 @@ def select_motion(
             if each.motion is not None:
                 return _of_freedom(analysis, number)
     return None
-
-
-def way_of(freedom: Freedom) -> Moving | None:
-    """The motion of a declared degree of freedom as it is drawn; None where it cannot move.
-
-    A coordinate grows. The sign of a deformation depends on which end is p; its motion is
-    drawn with the sign of `flexact.result.signs`.
-
-    Raises:
-        AnalysisError: The motion cannot be found.
-    """
-    motion = freedom.motion
-    if motion is None or freedom.is_coordinate:
-        return motion
-    length = freedom.analysis.characteristic_length
-    data, moved, turned = (
-        motion.analysed.data,
-        motion.analysed.displacement,
-        motion.analysed.rotation,
-    )
-    both = moved + length * turned
-    node, axis = np.nonzero(both)
-    sign = sign_of_motion(data, node, axis, both[node, axis])
-    return replace(motion, analysed=Velocities(data, sign * moved, sign * turned))
 
 
 def require_there(number: int, count: int, what: str, plural: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..base.plain_text import in_short
 from ..diagnostics.errors import model_error
 from . import arguments
 from .appearance_arguments import indices_of, numbers_of_size
@@ -58,6 +59,8 @@ class CopyMethods(AssemblyMethods):
         """
         if model is self:
             raise model_error("same-model", "a model cannot be inserted into itself", "pattern it")
+        if not isinstance(model, Making):
+            raise model_error("not-a-model", f"a model is wanted, not {in_short(model)}")
         source, target = model._change(), self._change()
         if source.planar != target.planar:
             raise model_error(

@@ -8,11 +8,13 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..core.elements import AXES, Class, Member, NodeKind, is_position, member_table
+from ..core.elements import AXES, Class, NodeKind, Role, element_kinds, is_position
+from ..core.elements import Vector as StatedVector
 from ..diagnostics.errors import model_error
 from .arguments import unit
 from .draft import NO_VECTOR, Draft, Vector
 from .point_arguments import is_rigid, pivot, whole_point
+from .sheet_geometry import normal_to
 from .transform import Transform
 
 #: Of the size of a model: points nearer than this are at one place.
@@ -96,6 +98,7 @@ def copy_parts(
     nodes = _nodes_of(source, indices, further)
     made = Copy()
     _check_classes(source, nodes, move)
+    _check_axes(source, indices, move)
     _copy_nodes(source, nodes, target, move, tolerance, made)
     _copy_elements(source, indices, target, move, made)
     _copy_classes(source, nodes, target, move, made)
@@ -200,17 +203,48 @@ def _ends_of(kind: int, slots: tuple[int, int, int, int]) -> tuple[int, frozense
 
 
 def _vector(source: Draft, index: int, move: Transform) -> Vector:
-    """The vector of an element's image; a beam that had none gets the image of its default."""
+    """The vector of an element's image; one that had none gets the image of its default."""
     given = source.vectors[index]
-    beam = int(member_table()[source.kinds[index]]) == Member.BEAM
-    if given == NO_VECTOR and beam and not source.planar and not is_rigid(source, index):
+    kind = element_kinds()[source.kinds[index] - 1]
+    optional = kind.vector == StatedVector.OPTIONAL
+    if given == NO_VECTOR and optional and not source.planar and not is_rigid(source, index):
         p, _, q, _ = source.slots[index]
         a, b = source.node_value[p], source.node_value[q]
-        along = unit((b[0] - a[0], b[1] - a[1], b[2] - a[2]))
-        least = min(range(3), key=lambda k: abs(along[k]))
-        x, y, z = (float(k == least) for k in range(3))
-        given = x, y, z
+        given = _default((b[0] - a[0], b[1] - a[1], b[2] - a[2]))
     return given if given == NO_VECTOR else move.turned(given)
+
+
+def _default(along: Vector) -> Vector:
+    """The global axis along which a direction is smallest, from which a frame is made."""
+    parts = unit(along)
+    least = min(range(3), key=lambda k: abs(parts[k]))
+    x, y, z = (float(k == least) for k in range(3))
+    return x, y, z
+
+
+#: What an element with an axis does across it, in a frame that no statement gives.
+_ACROSS = ((Role.TILT_Y, Role.TILT_Z), (Role.OFFSET_Y, Role.OFFSET_Z))
+
+
+def _check_axes(source: Draft, indices: Iterable[int], move: Transform) -> None:
+    """Raise where a joint does different things across its axis, which do not turn with it."""
+    for index in indices:
+        kind = element_kinds()[source.kinds[index] - 1]
+        if kind.vector != StatedVector.REQUIRED:
+            continue
+        classes = dict(zip(kind.role, source.classes[index], strict=True))
+        axis = source.vectors[index]
+        alike = all(classes.get(a) == classes.get(b) for a, b in _ACROSS)
+        if (
+            alike
+            or normal_to(move.turned(_default(axis)), _default(move.turned(axis))) == NO_VECTOR
+        ):
+            continue
+        raise model_error(
+            "turned-class",
+            f"{source.element_words(index)} has classes across its axis that would not turn",
+            "copy first and give the classes afterwards",
+        )
 
 
 def _check_classes(source: Draft, nodes: Iterable[int], move: Transform) -> None:
@@ -277,6 +311,7 @@ def turn(draft: Draft, move: Transform) -> None:
         ModelError: a class of single coordinates is not along the axes any more.
     """
     _check_classes(draft, draft.node_kind, move)
+    _check_axes(draft, range(len(draft.kinds)), move)
     draft.vectors = [_vector(draft, index, move) for index in range(len(draft.kinds))]
     classes: dict[tuple[int, int], int] = {}
     for number, kind in draft.node_kind.items():

@@ -23,9 +23,8 @@ def delete_elements(draft: Draft, indices: Iterable[int]) -> None:
     for name in ("kinds", "numbers", "slots", "vectors", "classes"):
         values = getattr(draft, name)
         values[:] = [values[i] for i in kept]
-    for name in ("names", "stiffness", "mass"):
-        values = getattr(draft, name)
-        setattr(draft, name, {new[i]: each for i, each in values.items() if i in new})
+    draft.names = {new[i]: each for i, each in draft.names.items() if i in new}
+    draft.properties.renumber(new)
     said = draft.appearance.said
     draft.appearance.said = {new[i]: each for i, each in said.items() if i in new}
     draft.stated = {(new[i], k): value for (i, k), value in draft.stated.items() if i in new}

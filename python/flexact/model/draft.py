@@ -382,6 +382,9 @@ class Draft:
         rigid[list(self.rigid)] = True
         needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
         needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        # Two links that end at one point carry it both, so that they are one body.
+        far, times = np.unique(slots[rigid, 3], return_counts=True)
+        needed.update(far[times > 1].tolist())
         stated = {index for index, _ in self.stated}
         short = kind_of("PLRBEAM" if self.planar else "RBEAM")
         for index in self.rigid:

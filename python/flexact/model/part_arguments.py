@@ -9,7 +9,7 @@ from ..base.plain_text import in_short
 from ..core.elements import Class, Member, member_table
 from ..diagnostics.errors import model_error
 from .arguments import whole
-from .draft import Draft
+from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import ambiguous, unknown
 from .point_arguments import is_rigid, require_own
@@ -143,4 +143,6 @@ def planes_of(draft: Draft, made: Part | Element, indices: list[int]) -> Planes 
     shape = draft.appearance.said.get(indices[0], {}).get("shape")
     if shape is not None and shape.y != shape.z:
         return WIDE_Z if shape.z > shape.y else WIDE_Y
-    return WIDE_Z if isinstance(made, Sheet) else None
+    # A round wire has no vector as a rule, a sheet of the builder has one.
+    own = draft.vectors[indices[0]] != NO_VECTOR
+    return WIDE_Z if own or isinstance(made, Sheet) else None

@@ -62,7 +62,9 @@ def between(draft: Draft, p: Node, q: Node, parts: int) -> list[Vector]:
     """Points that divide the way from p to q into equal parts."""
     parts = whole(parts, "the number of beams must be a whole number")
     if not 1 <= parts <= LARGEST:
-        raise model_error("out-of-range", f"it cannot be divided into {in_short(parts)} beams")
+        raise model_error(
+            "out-of-range", f"a flexure cannot be divided into {in_short(parts)} beams"
+        )
     start, end = place_of(draft, p), place_of(draft, q)
     made = []
     for i in range(1, parts):

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import Any
 
 from ..drawing import QUANTITIES, UNITS, Drawing, Movement, Moving, move, reach_of, resultants
-from ..drawing.selection import way_of
+from ..drawing.freedoms import way_of
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..text.naming import freedom_in_words

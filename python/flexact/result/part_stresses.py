@@ -116,8 +116,7 @@ class PartStress(Frozen):
     def __str__(self) -> str:
         """In words."""
         told = []
-        rest = 1.0e2 * _REST * max(end.wrench.size for end in self.ends)
-        length = self._last.length
+        length, rest = self._last.length, 1.0e2 * self._last.rest
         if abs(self.normal_force) * length > rest:
             kind = "tension" if self.normal_force > 0.0 else "compression"
             told.append(f"{kind} {abs(self.normal_force):.4g} N")

@@ -13,6 +13,7 @@ from ..result.carriers import Joint
 from ..result.modes import SelfStress
 from ..result.outcome import Outcome
 from ..result.part_stresses import Conflict, PartStress
+from ..result.resultants import QUANTITIES, shared_resultants
 from ..result.screws import ROUNDING
 from ..result.wrenches import Wrench, WrenchKind
 from .motions import MOST_NODES, line_words
@@ -44,7 +45,7 @@ def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
     return tuple(
         (
             named_element(outcome, int(numbers[one.part.elements[0]])),
-            f": {listed(list(_carried(outcome, one))) or 'nothing'}",
+            f": {listed(list(_carried(outcome, stress, one))) or 'nothing'}",
         )
         for one in stress.parts[: most + 1]
     )
@@ -110,7 +111,7 @@ def _against(over: Wrench) -> str:
     }.get(over.kind, "with opposite forces and moments")
 
 
-def _carried(outcome: Outcome, one: PartStress) -> Iterator[str]:
+def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[str]:
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
     rest = _REST * max(wrench.size for wrench in ends)
@@ -120,25 +121,19 @@ def _carried(outcome: Outcome, one: PartStress) -> Iterator[str]:
         yield f"{kind} {abs(one.normal_force):.4g} N"
     if abs(one.twist_moment) > rest:
         yield f"twist moment {one.twist_moment:.4g} N m"
-    bending = list(_bending(outcome, one, rest))
+    bending = list(_bending(outcome, stress, one, rest))
     yield from bending
     if not bending and float(np.linalg.norm(one.shear_force)) * length > rest:
         yield f"shear force {_vector(one.shear_force, 'N along')}"
 
 
-def _bending(outcome: Outcome, one: PartStress, rest: float) -> Iterator[str]:
-    """Bending moments at the ends: in the plane of a sheet, and the rest."""
+def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
+    """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
-        first, last = one.in_plane_moments
-        # Of the cross-section, so that a constant moment is the same at both ends.
-        at_ends = (first, -last)
-        moments = [m - (m @ one.normal) * one.normal for m in one.moments]
-        if max(map(abs, at_ends)) > rest:
-            yield _along(outcome, one, "in-plane moment", at_ends, rest)
-        if any(float(np.linalg.norm(m)) > rest for m in moments):
-            across = np.cross(one.normal, one.direction)
-            values = (float(moments[0] @ across), -float(moments[1] @ across))
-            yield _along(outcome, one, "out-of-plane moment", values, rest)
+        for quantity in ("in-plane moment", "out-of-plane moment"):
+            at_ends = _at_ends(outcome, stress, one, quantity)
+            if max(map(abs, at_ends)) > rest:
+                yield _along(outcome, one, quantity, at_ends, rest)
         return
     told = list(zip(one.ends, one.moments, strict=True))
     if not one.direction.any():
@@ -148,6 +143,24 @@ def _bending(outcome: Outcome, one: PartStress, rest: float) -> Iterator[str]:
         if float(np.linalg.norm(moment)) > rest:
             where = "" if end.position is None else f" at {_end(outcome, one.part, end.position)}"
             yield f"moment {_vector(moment, 'N m about')}{where}"
+
+
+def _at_ends(
+    outcome: Outcome, stress: SelfStress, one: PartStress, quantity: str
+) -> tuple[float, float]:
+    """A moment at both ends of a sheet, with the sign that pictures give it."""
+    elements = np.array([one.part.elements[0], one.part.elements[-1]])
+    values = shared_resultants(outcome.given, elements, (stress.forces + stress.moments)[elements])[
+        :, QUANTITIES.index(quantity)
+    ]
+    positions = outcome.given.arrays.element_node[[0, 2]][:, elements].T - 1
+    found = {
+        int(node): float(value)
+        for nodes, ends in zip(positions, values, strict=True)
+        for node, value in zip(nodes, ends, strict=True)
+    }
+    first, last = (found[end.position] for end in one.ends if end.position is not None)
+    return first, last
 
 
 def _along(

@@ -24,6 +24,7 @@ from .chains import Chain
 #: Sine below which a vector is taken for one along the chord.
 _ALONG = 1.0e-3
 
+
 @dataclass(frozen=True, eq=False)
 class Condensed(Frozen):
     """A model and the one that is analysed in its place.
