@@ -17,6 +17,7 @@ from ..core.elements import Dual, coordinate_name, keywords_of
 from ..result.result import Result
 from ..result.weights import row_duals, row_factors
 from .deformation import deformation_word
+from .json_mechanics import of_motion, of_self_stress
 from .naming import node_name, unit_of_coordinate
 
 #: Components of a mode below this part of its largest are left out.
@@ -40,12 +41,15 @@ class ModesTable(NamedTuple):
     keys: tuple[str, ...]
     basis: Basis
     columns: Columns
+    more: Callable[[int], dict[str, Any]]
+    """What else is said of a mode, by its index."""
 
     def dictionaries(self) -> list[dict[str, Any]]:
         """The modes as the JSON has them."""
         return [
             {"components": [dict(zip(self.keys, row, strict=True)) for row in mode]}
-            for mode in self._rows(lambda text: text)
+            | self.more(index)
+            for index, mode in enumerate(self._rows(lambda text: text))
         ]
 
     def text(self) -> Iterator[str]:
@@ -54,8 +58,10 @@ class ModesTable(NamedTuple):
         of_row = f"{{{form}}}".__mod__
         before = ""
         yield "["
-        for mode in self._rows(cache(json.dumps)):
-            yield f'{before}{{"components": [{", ".join(map(of_row, mode))}]}}'
+        for index, mode in enumerate(self._rows(cache(json.dumps))):
+            more = json.dumps(self.more(index), allow_nan=False)[1:-1]
+            yield f'{before}{{"components": [{", ".join(map(of_row, mode))}]'
+            yield f"{', ' if more else ''}{more}}}"
             before = ", "
         yield "]"
 
@@ -102,7 +108,7 @@ def motions(result: Result) -> ModesTable:
         )
 
     keys = ("node", "name", "coordinate", "value", "unit")
-    return ModesTable(keys, result.motion_basis, columns)
+    return ModesTable(keys, result.motion_basis, columns, partial(of_motion, result))
 
 
 def self_stresses(result: Result) -> ModesTable:
@@ -128,4 +134,4 @@ def self_stresses(result: Result) -> ModesTable:
         )
 
     keys = ("element", "name", "keyword", "deformation", "word", "value", "unit", "raw")
-    return ModesTable(keys, result.stress_basis, columns)
+    return ModesTable(keys, result.stress_basis, columns, partial(of_self_stress, result))

@@ -20,7 +20,8 @@ from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..result.verdict import Margin
 from .deformation import deformation_word
-from .naming import node_name, unit_of_coordinate
+from .naming import freedom_in_words, node_name, part_in_words, unit_of_coordinate
+from .sentences import plain
 
 #: Of so many declared degrees of freedom, in models of so many elements, the motions are given:
 #: they take one further decomposition.
@@ -102,7 +103,14 @@ def _one_advice(result: Result, about: str, item: Advice) -> Entries:
         "about": about,
         "removes": "all" if item.step in _ALL else "one",
         "step": item.step.value,
-        "parts": [_part(result, part) for part in item.parts],
+        "parts": [
+            {
+                **_part(result, part),
+                "words": plain(part_in_words(result, part)),
+                "operands": part.operands,
+            }
+            for part in item.parts
+        ],
         "more": item.more,
         "statements": [
             {"keyword": keyword, "operands": item.parts[0].operands} for keyword in item.keywords
@@ -132,7 +140,12 @@ def _freedom(result: Result, freedom: Freedom, is_sought: bool) -> Entries:
         place = coordinate_place(result, number, freedom.part)
     else:
         place = deformation_place(result, number, freedom.place[0] + 1)
-    made: Entries = {"label": freedom.label, **place, "moves": None, "largest": []}
+    made: Entries = {
+        "label": plain(freedom_in_words(freedom)),
+        **place,
+        "moves": None,
+        "largest": [],
+    }
     try:
         if is_sought:
             made["moves"] = freedom.motion is not None

@@ -25,6 +25,7 @@ from .sentences import Pieces
 _REST = 1.0e2 * ROUNDING
 #: How many parts that fight are named.
 _MOST_NAMES = 3
+_MOMENTS = ("in-plane moment", "out-of-plane moment")
 
 
 def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
@@ -130,8 +131,8 @@ def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[
 def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
     """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
-        for quantity in ("in-plane moment", "out-of-plane moment"):
-            at_ends = _at_ends(outcome, stress, one, quantity)
+        moments = moments_at_ends(stress, one).values()
+        for quantity, at_ends in zip(_MOMENTS, moments, strict=True):
             if max(map(abs, at_ends)) > rest:
                 yield _along(outcome, one, quantity, at_ends, rest)
         return
@@ -145,22 +146,22 @@ def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float)
             yield f"moment {_vector(moment, 'N m about')}{where}"
 
 
-def _at_ends(
-    outcome: Outcome, stress: SelfStress, one: PartStress, quantity: str
-) -> tuple[float, float]:
-    """A moment at both ends of a sheet, with the sign that pictures give it."""
+def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[float, float]]:
+    """Moments at both ends of a sheet, with the signs that pictures give them.
+
+    In its plane and out of it, by `QUANTITIES` with underscores.
+    """
+    outcome = stress.analysis
     elements = np.array([one.part.elements[0], one.part.elements[-1]])
-    values = shared_resultants(outcome.given, elements, (stress.forces + stress.moments)[elements])[
-        :, QUANTITIES.index(quantity)
-    ]
+    values = shared_resultants(outcome.given, elements, (stress.forces + stress.moments)[elements])
     positions = outcome.given.arrays.element_node[[0, 2]][:, elements].T - 1
-    found = {
-        int(node): float(value)
-        for nodes, ends in zip(positions, values, strict=True)
-        for node, value in zip(nodes, ends, strict=True)
-    }
-    first, last = (found[end.position] for end in one.ends if end.position is not None)
-    return first, last
+    made = {}
+    for quantity in _MOMENTS:
+        at_nodes = values[:, QUANTITIES.index(quantity)]
+        found = dict(zip(positions.ravel().tolist(), at_nodes.ravel().tolist(), strict=True))
+        first, last = (found[end.position] for end in one.ends if end.position is not None)
+        made[f"{quantity.replace('-', '_').replace(' ', '_')}s"] = (first, last)
+    return made
 
 
 def _along(
