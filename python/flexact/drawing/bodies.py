@@ -76,18 +76,25 @@ class Solid(Frozen):
         normal = np.zeros((0, 3)) if self.hull is None else self.hull.normal @ turn
         return Placed(corners, normal)
 
-    def quads(self, corners: FloatArray, chosen: np.ndarray | slice = slice(None)) -> FloatArray:
-        """(q, 4, 3) its surface, or some of its triangles, three a triangle; corners as placed.
+    @property
+    def triangles(self) -> np.ndarray:
+        """(t, 3) indices of corners; in the plane parts of the polygon."""
+        if self.hull is not None:
+            return self.hull.triangles
+        rest = self.outline[1:]
+        first = np.repeat(self.outline[:1], len(rest) - 1)
+        return np.stack((first, rest[:-1], rest[1:]), axis=1)
 
-        In the plane the parts of the polygon.
-        """
-        if self.hull is None:
-            rest = self.outline[1:]
-            first = np.repeat(self.outline[:1], len(rest) - 1)
-            triangles = np.stack((first, rest[:-1], rest[1:]), axis=1)
-        else:
-            triangles = self.hull.triangles
-        corner = corners[triangles[chosen]]
+    @property
+    def edges(self) -> np.ndarray:
+        """(e, 2) indices of corners."""
+        if self.hull is not None:
+            return self.hull.edges
+        return np.stack((self.outline, np.roll(self.outline, -1)), axis=1)
+
+    def quads(self, corners: FloatArray, chosen: np.ndarray | slice = slice(None)) -> FloatArray:
+        """(q, 4, 3) its surface, or some of its triangles, three a triangle; corners as placed."""
+        corner = corners[self.triangles[chosen]]
         middle = corner.mean(axis=1)
         side = (corner + np.roll(corner, -1, axis=1)) / 2
         parts = [np.stack((corner[:, k], side[:, k], middle, side[:, k - 1]), 1) for k in range(3)]

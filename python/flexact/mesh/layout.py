@@ -214,13 +214,13 @@ def _bodies(
         starts = behind + np.arange(strip.member.size) * strip.at.size
         first.update(zip(strip.member.tolist(), starts.tolist(), strict=True))
         behind += strip.member.size * strip.at.size
-    for solid in drawing.solids:
-        row = int(solid.rows[0])
+    for body in drawing.solids:
+        row = int(body.rows[0])
         index = drawing.members.index[row]
         if not skinned[index]:
             continue
-        corners = solid.placed(drawing.members, drawing.reference, pose).corners
-        points = solid.quads(corners).reshape(-1, 3)
+        corners = body.placed(drawing.members, drawing.reference, pose).corners
+        points = body.quads(corners).reshape(-1, 3)
         quads = np.arange(len(points)).reshape(1, -1, 4)
         owner = np.full(len(points), first[row])
         yield _Skin(points, owner, quads, np.array([index]), stressed=False)
