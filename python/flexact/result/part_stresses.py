@@ -376,9 +376,10 @@ class Pressing(Frozen):
     def _normal(self, part: Part) -> FloatArray:
         if part.kind is not PartKind.SHEET:
             return np.zeros(3)
-        element = part.elements[0]
-        wide = int(self.outcome.parts.wide[element])
-        axis: FloatArray = self.outcome.given.frames.frame[element][:, 3 - wide]
+        # Of a divided sheet that is one beam, that of the one beam.
+        index = int(np.searchsorted(self.outcome.condensed.elements, part.elements[0]))
+        wide = int(self.outcome.parts.wide[part.elements[0]])
+        axis: FloatArray = self.outcome.data.frames.frame[index][:, 3 - wide]
         return sense_of(axis) * axis
 
     def _receiver(self, end: _End) -> Part | Joint | None:
