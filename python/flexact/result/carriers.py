@@ -33,6 +33,8 @@ class Joint(NamedTuple):
         if self.name:
             return self.name
         names = [part.name for part in self.parts]
+        if not names:
+            return "a joint"
         if len(names) > _MOST_NAMED:
             names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
         return f"the joint of {' and '.join(names)}" if len(names) > 1 else f"the end of {names[0]}"
