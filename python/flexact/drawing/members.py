@@ -15,7 +15,6 @@ from ..core.elements import Member, keywords_of, planar_table
 from ..model.appearance import Appearance, CrossSection
 from ..model.data import ModelData
 from ..model.parts.forms import Form, all_held, bending_held, forms_of, is_member
-from .chains import chain_lengths
 from .colours import of_forms
 from .places import slots_of
 
@@ -38,8 +37,6 @@ _LIMITS = {
 }
 #: Thickness of what is to be drawn as a line, as a part of the drawing's size.
 _LINE = 0.004
-#: Beyond so many members, beams in a row are not looked for.
-_MANY = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +84,7 @@ class Members(Elements):
         round: (k,) whether the section is an ellipse, else a rectangle.
         stiff: (k,) whether every deformation is held: drawn without any change of length.
         bends: (k,) whether it is drawn as a beam's cubic curve.
+        joined: (k, 2) whether the same sheet or wire goes on at p and at q.
         across: (k, 2, 2) along ey and ez, the directions across it of `ModelData.across`.
         edge_colour: (k, 3) like their colours; NaN where none is given.
     """
@@ -97,6 +95,7 @@ class Members(Elements):
     round: np.ndarray
     stiff: np.ndarray
     bends: np.ndarray
+    joined: np.ndarray
     across: FloatArray
     edge_colour: FloatArray
 
@@ -130,7 +129,7 @@ def members_of(data: ModelData, size: float) -> Members:
     kind = arrays.element_kind[index]
     frame, length = data.frames.frame[index], data.frames.length[index]
     stiff = all_held(arrays)[index]
-    section = _sections(nodes, form, wide, frame, length, size)
+    section = _sections(form, wide, _whole_lengths(data)[index], size)
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
     in_xz, in_xy = bending_held(arrays)[:, index]
     plainly = np.abs(in_xz - in_xy) == 2
@@ -145,23 +144,34 @@ def members_of(data: ModelData, size: float) -> Members:
         round=round_,
         stiff=stiff,
         bends=is_member(kind, Member.BEAM) & ~stiff,
+        joined=_joined(data)[index],
         across=data.across[index] @ frame[..., 1:],
         edge_colour=appearance.edge_colour[index],
     )
 
 
-def _sections(
-    nodes: np.ndarray,
-    form: np.ndarray,
-    wide: np.ndarray,
-    frame: FloatArray,
-    length: FloatArray,
-    size: float,
-) -> FloatArray:
+def _whole_lengths(data: ModelData) -> FloatArray:
+    """(elements,) length [m], of the beams of a divided sheet or wire that of the whole."""
+    made = data.frames.length.copy()
+    for chain in data.chains:
+        made[list(chain.elements)] = made[list(chain.elements)].sum()
+    return made
+
+
+def _joined(data: ModelData) -> np.ndarray:
+    """(elements, 2) whether the same sheet or wire goes on at p and at q."""
+    made = np.zeros((data.arrays.element_number.size, 2), bool)
+    drawn = data.appearance.drawn
+    for chain in data.chains:
+        row, against = np.array(chain.elements), np.array(chain.reversed).astype(int)
+        goes_on = drawn[row[:-1]] & drawn[row[1:]]
+        made[row[:-1], 1 - against[:-1]] = goes_on
+        made[row[1:], against[1:]] = goes_on
+    return made
+
+
+def _sections(form: np.ndarray, wide: np.ndarray, whole: FloatArray, size: float) -> FloatArray:
     """(k, 2) sizes across members that tell their forms apart."""
-    whole = length
-    if len(form) <= _MANY:
-        whole = chain_lengths(nodes[:, [0, 2]], form, frame[..., 0], length)
     section = np.zeros((len(form), 2))
     for each in Form:
         chosen = form == each
