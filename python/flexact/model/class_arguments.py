@@ -182,7 +182,11 @@ def nodes_of(draft: Draft, target: object) -> list[int]:
     Raises:
         ModelError: there is no such point or node.
     """
-    if isinstance(target, (Element, Part)) and not isinstance(target, Body):
+    if isinstance(target, Assembly):
+        raise model_error(
+            "several-points", f"{in_short(target)} has several points", "fix(*assembly.ground)"
+        )
+    if isinstance(target, (Element, Part, FoldedSheet)) and not isinstance(target, Body):
         raise model_error("not-a-node", "an element has deformations, not coordinates")
     if isinstance(target, (Node, Body, str, Iterable)):
         found = existing(draft, target)

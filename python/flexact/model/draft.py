@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bisect import insort
 from collections.abc import Iterable
 
 import numpy as np
@@ -165,11 +166,18 @@ class Draft:
 
     def name_element(self, index: int, name: str) -> None:
         """Name an element, or with an empty name take its name away."""
-        self.names.pop(index, None)
+        old = self.names.pop(index, None)
         made = one_line(name)
         if made:
             self.names[index] = made
-        self._of_part = None
+        if self._of_part is not None:
+            if old is not None:
+                before = self._of_part[part_name(old)]
+                before.remove(index)
+                if not before:
+                    del self._of_part[part_name(old)]
+            if made:
+                insort(self._of_part.setdefault(part_name(made), []), index)
 
     def name_of(self, number: int) -> str:
         """Name of an element by its number, empty without one or without the element."""

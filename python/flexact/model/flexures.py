@@ -202,7 +202,8 @@ class FlexureMethods(PointMethods):
         Returns:
             The point beyond the hinge.
         """
-        return self.notch(p, axis, q, name, independent=independent).q
+        with call("hinge", name):
+            return self._hinge(p, axis, q, name, independent).q
 
     def notch(
         self,
@@ -222,25 +223,30 @@ class FlexureMethods(PointMethods):
         Returns:
             The notch, with its points p and q.
         """
+        with call("notch", name):
+            return self._hinge(p, axis, q, name, independent)
+
+    def _hinge(
+        self, p: Point, axis: Direction | None, q: Node | None, name: str, independent: bool
+    ) -> Notch:
         draft = self._change()
-        with call("notch" if name else "hinge", name):
-            name = arguments.text(name, "the name of an element")
-            direction = arguments.axis(draft, axis)
-            near = points.point(draft, p)
-            if q is None:
-                q = self.pivot(near)
-            elif points.point(draft, q).position != near.position:
-                raise model_error(
-                    "two-positions",
-                    "a hinge joins two points at one position node",
-                    "make the second point with pivot(p), or leave it out",
-                )
-            slots = (0, near.orientation, 0, q.orientation)
-            number = draft.add_element(self._kind("HINGE"), slots, name, direction, (1,))
-            if independent:
-                index = draft.index_of(number)
-                draft.state_deformations([(index, 1)], Class.INDEPENDENT)
-                draft.set_deformation(index, 1, Class.INDEPENDENT)
+        name = arguments.text(name, "the name of an element")
+        direction = arguments.axis(draft, axis)
+        near = points.point(draft, p)
+        if q is None:
+            q = self.pivot(near)
+        elif points.point(draft, q).position != near.position:
+            raise model_error(
+                "two-positions",
+                "a hinge joins two points at one position node",
+                "make the second point with pivot(p), or leave it out",
+            )
+        slots = (0, near.orientation, 0, q.orientation)
+        number = draft.add_element(self._kind("HINGE"), slots, name, direction, (1,))
+        if independent:
+            index = draft.index_of(number)
+            draft.state_deformations([(index, 1)], Class.INDEPENDENT)
+            draft.set_deformation(index, 1, Class.INDEPENDENT)
         return Notch((Element(number, self._owner),), (near, q))
 
     def _sheet_make(
