@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from bisect import insort
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
 from .handles import Owner
 from .names import part_name
+
+if TYPE_CHECKING:
+    from .rigid_components import RigidComponents
 
 Vector = tuple[float, float, float]
 
@@ -70,6 +74,8 @@ class Draft:
         self._of_part: dict[str, list[int]] | None = None
         self._of_name: dict[str, list[int]] | None = None
         self._of_place: dict[tuple[float, ...], list[int]] | None = None
+        #: Which points rigid links join, as far as that was found out.
+        self.components: RigidComponents | None = None
         #: The first orientation of each point by its position node, and the other way round.
         self.orientation_at: dict[int, int] = {}
         self.position_of: dict[int, int] = {}
@@ -188,6 +194,7 @@ class Draft:
     def changed_names_or_places(self) -> None:
         """Forget what was found by names, numbers and places; it is found anew when asked for."""
         self._index_of = self._of_part = self._of_name = self._of_place = None
+        self.components = None
 
     def give_node_mass(self, number: int, values: tuple[float, ...]) -> None:
         """Give a node the values of XM: a mass [kg], or moments of inertia [kg m2]."""
@@ -297,6 +304,8 @@ class Draft:
         classes = list(self.classes[index])
         classes[number - 1] = value
         self.classes[index] = tuple(classes)
+        if self.components is not None and index < self.components.seen:
+            self.components = None
 
     def state_coordinates(self, places: Iterable[tuple[int, int]], value: Class) -> None:
         """Give coordinates (node number, axis) a class, all or none of them.
