@@ -116,16 +116,28 @@ def _end(draft: Draft, what: str, indices: list[int], at: object) -> str:
     """Which end of a part is meant: "p", "q", or empty for both."""
     if at is None or (isinstance(at, str) and at in ("p", "q")):
         return at or ""
-    point = existing(draft, at)
     ends = end_positions(draft, indices)
+    body = _body(draft, at)
+    if body is not None:
+        met = [number in {node.position for node in body.nodes} for number in ends]
+        if met[0] != met[1]:
+            return "p" if met[0] else "q"
+    point = existing(draft, at)
     if point.position in ends:
         return "pq"[ends.index(point.position)]
     values = [draft.node_value.get(end) for end in ends]
     if draft.node_value[point.position] in values:
         return "pq"[values.index(draft.node_value[point.position])]
     raise model_error(
-        "no-end", f"{what} does not end at {point!r}", "give one of its two ends, or p or q"
+        "no-end", f"{what} does not end at {point.words}", "give one of its two ends, or p or q"
     )
+
+
+def _body(draft: Draft, at: object) -> Body | None:
+    """The body that is meant where an end is said by what it is fastened to."""
+    if isinstance(at, str) and at not in draft.points_by_name and at in draft.parts_by_name:
+        at = part(draft, at)
+    return at if isinstance(at, Body) else None
 
 
 def give_deformations(
@@ -194,17 +206,23 @@ def nodes_of(draft: Draft, target: object) -> list[int]:
     return [node_number(draft, target)]
 
 
-def give_coordinates(draft: Draft, target: object, names: Sequence[object], value: Class) -> None:
-    """Give coordinates of a point or a node a class; all where none is named."""
-    numbers = nodes_of(draft, target)
+def give_coordinates(
+    draft: Draft, targets: Iterable[object], names: Sequence[object], value: Class
+) -> None:
+    """Give coordinates of points or nodes a class; all where none is named.
+
+    Raises:
+        ModelError: something of it is wrong; then nothing has changed.
+    """
+    nodes = [nodes_of(draft, target) for target in targets]
     if names:
-        named = [_coordinate(draft, numbers, name) for name in names]
+        named = [_coordinate(draft, numbers, name) for numbers in nodes for name in names]
         draft.state_coordinates(named, value)
         draft.named.update(named)
     else:
-        every = ((number, k) for number in numbers for k in AXES[draft.node_kind[number]])
+        every = [(n, k) for numbers in nodes for n in numbers for k in AXES[draft.node_kind[n]]]
         draft.state_coordinates(every, value)
-        draft.whole.append((numbers[0], numbers[-1]))
+        draft.whole += [(numbers[0], numbers[-1]) for numbers in nodes]
 
 
 def clear_coordinates(draft: Draft, target: object, names: Sequence[object]) -> None:

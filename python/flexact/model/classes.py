@@ -43,9 +43,8 @@ class ClassMethods(Making):
                     f"there is no coordinate or point {in_short(each)}",
                     hint or "coordinates are x, y, z, rx, ry, rz",
                 )
-        for target in targets:
-            with call("fix", target):
-                classes.give_coordinates(draft, target, names, Class.FIXED)
+        with call("fix", targets[0] if len(targets) == 1 else ""):
+            classes.give_coordinates(draft, targets, names, Class.FIXED)
 
     def independent(
         self,
@@ -68,7 +67,7 @@ class ClassMethods(Making):
             if at is not None or classes.means_part(draft, target, which):
                 classes.give_deformations(draft, target, which, Class.INDEPENDENT, at)
             else:
-                classes.give_coordinates(draft, target, which, Class.INDEPENDENT)
+                classes.give_coordinates(draft, [target], which, Class.INDEPENDENT)
 
     def release(
         self, part: PartLike | FoldedSheet, *which: str | int, at: Point | None = None
@@ -83,7 +82,8 @@ class ClassMethods(Making):
             *which: "elongation", "twist", "in-plane bending" (which a sheet holds),
                 "out-of-plane bending", "bending", "bending about y" or "about z" (local
                 axes); of a hinge "rotation", "tilt"; or numbers, from 1.
-            at: The end at which it bends: a point, its name, "p" or "q"; by default both.
+            at: The end at which it bends: a point, its name, the body there, "p" or "q"; by
+                default both.
 
         Raises:
             ModelError: the part has no such deformation, does not end there, or the deformation

@@ -57,6 +57,7 @@ def call(method: str, name: object = "") -> Iterator[None]:
     try:
         yield
     except ModelError as error:
+        name = name if isinstance(name, str) else getattr(name, "name", "")
         if not isinstance(name, str) or not name or len(error.diagnostics) != 1:
             raise
         (problem,) = error.diagnostics

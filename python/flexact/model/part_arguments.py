@@ -60,6 +60,12 @@ def named(draft: Draft, name: str) -> Part | Element:
         single = [i for i, each in draft.names.items() if each == name]
         if len(single) == 1:
             return of_indices(draft, single)
+        if name in draft.points_by_name:
+            raise model_error(
+                "not-an-element",
+                f"{in_short(name)} is a point and has no deformations",
+                "name a part",
+            )
         raise unknown("no-such-part", "part", name, draft.parts_by_name)
     exact = [i for i in indices if draft.names[i] == name]
     if len(exact) > 1 or (exact and len(indices) > 1):

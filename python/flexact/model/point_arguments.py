@@ -68,7 +68,18 @@ def named(draft: Draft, name: str) -> Node:
     if indices and all(is_rigid(draft, index) for index in indices):
         p, op, _, _ = draft.slots[indices[0]]
         return Node(p, op, draft.owner)
-    raise unknown("no-such-point", "point", name, draft.node_names.values())
+    if indices:
+        raise model_error(
+            "not-a-node",
+            f"{in_short(name)} is a part and has no coordinates",
+            "name a point, such as one of its ends",
+        )
+    raise unknown("no-such-point", "point", name, [*draft.points_by_name, *_bodies(draft)])
+
+
+def _bodies(draft: Draft) -> list[str]:
+    """Names of the bodies, which stand for their first points."""
+    return [name for name, found in draft.parts_by_name.items() if is_rigid(draft, found[0])]
 
 
 def is_rigid(draft: Draft, index: int) -> bool:
