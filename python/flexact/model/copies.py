@@ -11,14 +11,15 @@ from ..diagnostics.errors import model_error
 from . import arguments
 from .appearance_arguments import indices_of, numbers_of_size
 from .arguments import Direction
-from .assemblies import AssemblyMethods
 from .copied_names import Names, Naming, is_of_one_body, split
-from .copying import ROUNDING, Copy, Copying, size_of, turn
+from .copying import Copy, Copying, turn
 from .draft import Draft, Vector
 from .handles import Assembly, Element, FoldedSheet, Named, Part
+from .hexapods import HexapodMethods
 from .making import Making
 from .names import part_name
 from .part_arguments import PartLike, of_indices
+from .places import ROUNDING, size_of
 from .point_arguments import place, whole_point
 from .transform import Transform, reflection, rotation, translation
 
@@ -26,7 +27,7 @@ _ORIGIN = (0.0, 0.0, 0.0)
 Parts = Iterable[PartLike | FoldedSheet | Assembly]
 
 
-class CopyMethods(AssemblyMethods):
+class CopyMethods(HexapodMethods):
     """Methods that copy parts, or turn the whole model."""
 
     def insert(

@@ -3,22 +3,15 @@
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..core.elements import AXES, Class, NodeKind, Role, element_kinds, is_position
-from ..core.elements import Vector as StatedVector
-from ..diagnostics.errors import model_error
-from .arguments import unit
-from .draft import NO_VECTOR, Draft, Vector
-from .point_arguments import is_rigid, pivot, whole_point
-from .sheet_geometry import normal_to
+from ..core.elements import AXES, NodeKind, is_position
+from .draft import Draft
+from .places import Places
+from .point_arguments import pivot, whole_point
 from .transform import Transform
-
-#: Of the size of a model: points nearer than this are at one place.
-ROUNDING = 1.0e-9
+from .turning import axes_of, check_axes, check_classes, vector
 
 
 @dataclass
@@ -30,52 +23,6 @@ class Copy:
 
     nodes: dict[int, int] = field(default_factory=dict)
     elements: dict[int, int] = field(default_factory=dict)
-
-
-class Places:
-    """Position nodes of a draft by their places, within a tolerance [m]."""
-
-    def __init__(self, draft: Draft, tolerance: float) -> None:
-        """Of all position nodes that there are now."""
-        self._draft = draft
-        self._tolerance = tolerance
-        self._cells: dict[tuple[int, ...], list[int]] = {}
-        for number, kind in draft.node_kind.items():
-            if is_position(kind):
-                self.add(number)
-
-    def add(self, number: int) -> None:
-        """Take in a position node."""
-        self._cells.setdefault(self._cell(self._draft.node_value[number]), []).append(number)
-
-    def _cell(self, place: Iterable[float]) -> tuple[int, ...]:
-        size = 4.0 * self._tolerance or 1.0
-        return tuple(round(x / size) for x in itertools.islice(place, 3))
-
-    def near(self, place: Vector) -> list[int]:
-        """Numbers of the nodes at a place, in the order they were made."""
-        cell = self._cell(place)
-        found = []
-        for offset in itertools.product((-1, 0, 1), repeat=3):
-            key = tuple(a + b for a, b in zip(cell, offset, strict=True))
-            for number in self._cells.get(key, []):
-                value = self._draft.node_value[number]
-                if all(abs(value[k] - place[k]) <= self._tolerance for k in range(3)):
-                    found.append(number)
-        return sorted(found)
-
-
-def size_of(draft: Draft) -> float:
-    """The largest coordinate of a draft [m]."""
-    return max(
-        (
-            abs(x)
-            for number, kind in draft.node_kind.items()
-            if is_position(kind)
-            for x in draft.node_value[number][:3]
-        ),
-        default=0.0,
-    )
 
 
 class Copying:
@@ -105,7 +52,7 @@ class Copying:
         self._own = {_ends(source, i): i for i in indices} if source is target else {}
         chosen, nodes = set(indices), set(self.nodes)
         self._stated = [(at, value) for at, value in source.stated.items() if at[0] in chosen]
-        self._axes = {n: _axes_of(source, n) for n in self.nodes}
+        self._axes = {n: axes_of(source, n) for n in self.nodes}
         self._named = {place for place in source.named if place[0] in nodes}
         self._whole = [both for both in dict.fromkeys(source.whole) if nodes.issuperset(both)]
         self._mass = {n: source.node_mass[n] for n in self.nodes if n in source.node_mass}
@@ -116,8 +63,8 @@ class Copying:
         Raises:
             ModelError: a class of single coordinates has no image along the axes.
         """
-        _check_classes(self.source, self.nodes, move)
-        _check_axes(self.source, self.indices, move)
+        check_classes(self.source, self.nodes, move)
+        check_axes(self.source, self.indices, move)
         made = Copy()
         taken: set[int] = set()
         for number in self.nodes:
@@ -160,8 +107,8 @@ class Copying:
         if same is not None:
             return same
         new = len(target.kinds)
-        vector = _vector(source, index, move)
-        target.append_element(source.kinds[index], image, vector, source.classes[index])
+        turned = vector(source, index, move)
+        target.append_element(source.kinds[index], image, turned, source.classes[index])
         if index in source.rigid:
             target.rigid.add(new)
         said = source.appearance.said.get(index)
@@ -236,94 +183,18 @@ def _ends_of(kind: int, slots: tuple[int, int, int, int]) -> tuple[int, frozense
     return kind, frozenset((slots[:2], slots[2:]))
 
 
-def _vector(source: Draft, index: int, move: Transform) -> Vector:
-    """The vector of an element's image; one that had none gets the image of its default."""
-    given = source.vectors[index]
-    kind = element_kinds()[source.kinds[index] - 1]
-    optional = kind.vector == StatedVector.OPTIONAL
-    if given == NO_VECTOR and optional and not source.planar and not is_rigid(source, index):
-        p, _, q, _ = source.slots[index]
-        a, b = source.node_value[p], source.node_value[q]
-        given = _default((b[0] - a[0], b[1] - a[1], b[2] - a[2]))
-    return given if given == NO_VECTOR else move.turned(given)
-
-
-def _default(along: Vector) -> Vector:
-    """The global axis along which a direction is smallest, from which a frame is made."""
-    parts = unit(along)
-    least = min(range(3), key=lambda k: abs(parts[k]))
-    x, y, z = (float(k == least) for k in range(3))
-    return x, y, z
-
-
-#: What an element with an axis does across it, in a frame that no statement gives.
-_ACROSS = ((Role.TILT_Y, Role.TILT_Z), (Role.OFFSET_Y, Role.OFFSET_Z))
-
-
-def _check_axes(source: Draft, indices: Iterable[int], move: Transform) -> None:
-    """Raise where a joint does different things across its axis, which do not turn with it."""
-    for index in indices:
-        kind = element_kinds()[source.kinds[index] - 1]
-        if kind.vector != StatedVector.REQUIRED:
-            continue
-        classes = dict(zip(kind.role, source.classes[index], strict=True))
-        axis = source.vectors[index]
-        alike = all(classes.get(a) == classes.get(b) for a, b in _ACROSS)
-        if (
-            alike
-            or normal_to(move.turned(_default(axis)), _default(move.turned(axis))) == NO_VECTOR
-        ):
-            continue
-        raise model_error(
-            "turned-class",
-            f"{source.element_words(index)} has classes across its axis that would not turn",
-            "copy first and give the classes afterwards",
-        )
-
-
-def _check_classes(source: Draft, nodes: Iterable[int], move: Transform) -> None:
-    for number in nodes:
-        for value, axes in _axes_of(source, number).items():
-            if move.axes(axes) is None:
-                here = _place(source, number)
-                if math.dist(move.place(here), here) > ROUNDING * math.hypot(*here):
-                    raise model_error(
-                        "turned-class",
-                        f"{source.node_words(number)} has {value.name.lower()} coordinates that "
-                        "are not along x, y or z any more in the copy",
-                        "copy first and give the class afterwards",
-                    )
-
-
-def _place(source: Draft, number: int) -> Vector:
-    position = source.position_of.get(number, number)
-    x, y, z = source.node_value[position][:3]
-    return x, y, z
-
-
-def _axes_of(source: Draft, number: int) -> dict[Class, set[int]]:
-    """Axes of a node by the classes that they were given."""
-    found: dict[Class, set[int]] = {}
-    axes = AXES[source.node_kind[number]]
-    for axis in axes:
-        value = source.coordinate_class.get((number, axis))
-        if value is not None:
-            found.setdefault(Class(value), set()).add(axis)
-    return found
-
-
 def turn(draft: Draft, move: Transform) -> None:
     """Turn all that there is.
 
     Raises:
         ModelError: a class of single coordinates is not along the axes any more.
     """
-    _check_classes(draft, draft.node_kind, move)
-    _check_axes(draft, range(len(draft.kinds)), move)
-    draft.vectors = [_vector(draft, index, move) for index in range(len(draft.kinds))]
+    check_classes(draft, draft.node_kind, move)
+    check_axes(draft, range(len(draft.kinds)), move)
+    draft.vectors = [vector(draft, index, move) for index in range(len(draft.kinds))]
     classes: dict[tuple[int, int], int] = {}
     for number, kind in draft.node_kind.items():
-        for given, axes in _axes_of(draft, number).items():
+        for given, axes in axes_of(draft, number).items():
             classes.update({(number, k): int(given) for k in move.axes(axes) or ()})
         value = draft.node_value[number]
         if is_position(kind):

@@ -11,7 +11,7 @@ from ..core.arrays import IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
 from .appearance import Appearance, CrossSection
 from .data import ModelData
-from .draft import one_line
+from .lookup import one_line
 
 _IDENTITY = {
     NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],

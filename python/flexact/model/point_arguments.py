@@ -9,8 +9,9 @@ from ..base.plain_text import in_short
 from ..core.elements import Class, Member, NodeKind, is_position, member_table
 from ..diagnostics.errors import model_error
 from .arguments import UNORDERED, text, vector, whole
-from .draft import Draft, one_line
+from .draft import Draft
 from .handles import Body, Element, Node, Part
+from .lookup import one_line
 from .names import COORDINATES, ambiguous, unknown
 
 #: A point: its handle, its name, its place [m], or a body, which stands for its first point.

@@ -30,7 +30,10 @@ def span(draft: Draft, p: Node, q: Node) -> Vector:
 def normal_to(a: Vector, b: Vector) -> Vector:
     """The unit normal of the plane of two vectors; zero where they are parallel."""
     made = cross(unit(a), unit(b))
-    return unit(made) if math.hypot(*made) > _PARALLEL else NO_VECTOR
+    if math.hypot(*made) <= _PARALLEL:
+        return NO_VECTOR
+    x, y, z = unit(made)
+    return x + 0.0, y + 0.0, z + 0.0
 
 
 def sheet_normal(draft: Draft, p: Node, q: Node, width: Direction | None) -> Vector | None:
