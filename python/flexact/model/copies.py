@@ -16,7 +16,7 @@ from .copying import Copy, Copying, turn
 from .draft import Draft, Vector
 from .handles import Assembly, Element, FoldedSheet, Named, Part
 from .hexapods import HexapodMethods
-from .making import Making
+from .making import Making, all_or_nothing
 from .names import part_name
 from .part_arguments import PartLike, of_indices
 from .places import ROUNDING, size_of
@@ -72,8 +72,10 @@ class CopyMethods(HexapodMethods):
         move = Transform(turn.matrix, _vector(target, at, "place"))
         naming = Naming(source, target, names)
         every = list(range(len(source.kinds))), list(source.node_kind)
-        made = Copying(source, *every, target, _tolerance(join, source, target)).run(move)
-        naming.name(made, 2)
+        copying = Copying(source, *every, target, _tolerance(join, source, target))
+        with all_or_nothing(target):
+            made = copying.run(move)
+            naming.name(made, 2)
         return _assembly(source, target, made)
 
     def pattern(
@@ -123,9 +125,10 @@ class CopyMethods(HexapodMethods):
         ]
         made = [Copy({n: n for n in draft.node_kind}, {i: i for i in indices})]
         copying = Copying(draft, indices, further, draft, _tolerance(join, draft, draft))
-        for k, move in enumerate(moves, 2):
-            made.append(copying.run(move))
-            naming.name(made[-1], k)
+        with all_or_nothing(draft):
+            for k, move in enumerate(moves, 2):
+                made.append(copying.run(move))
+                naming.name(made[-1], k)
         results = tuple(_assembly(draft, draft, each) for each in made)
         if isinstance(names, str) and names.format("a", 1) != names.format("a", 2):
             shared = {i for each in made[1:] for i, new in each.elements.items() if new == i}
@@ -168,8 +171,10 @@ class CopyMethods(HexapodMethods):
             raise model_error("no-coordinate", "a planar model is mirrored in a plane along z")
         indices, further = self._chosen(parts)
         naming = Naming(draft, draft, names)
-        made = Copying(draft, indices, further, draft, _tolerance(join, draft, draft)).run(move)
-        naming.name(made, 2)
+        copying = Copying(draft, indices, further, draft, _tolerance(join, draft, draft))
+        with all_or_nothing(draft):
+            made = copying.run(move)
+            naming.name(made, 2)
         return _assembly(draft, draft, made)
 
     def rotate(self, axis: Direction, degrees: float, *, at: Sequence[float] = _ORIGIN) -> None:

@@ -63,7 +63,8 @@ class Copying:
         Raises:
             ModelError: a class of single coordinates has no image along the axes.
         """
-        check_classes(self.source, self.nodes, move)
+        shared = self.source is self.target and self._places is not None
+        check_classes(self.source, self.nodes, move, shared)
         check_axes(self.source, self.indices, move)
         made = Copy()
         taken: set[int] = set()

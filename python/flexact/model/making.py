@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from copy import copy
 from dataclasses import replace
 
 from ..base.plain_text import in_short
@@ -49,6 +50,24 @@ class Making:
 
     def _kind(self, keyword: str) -> ElementKind:
         return kind_of("PL" + keyword if self._planar else keyword)
+
+
+@contextmanager
+def all_or_nothing(draft: Draft) -> Iterator[None]:
+    """Leave the draft as it was where an error is raised; takes time for all that there is."""
+    before = {name: copy(value) for name, value in vars(draft).items() if name not in _KEPT}
+    said = dict(draft.appearance.said)
+    try:
+        yield
+    except ModelError:
+        vars(draft).update(before)
+        draft.appearance.said = said
+        draft.changed_names_or_places()
+        raise
+
+
+#: Of a draft: what is no table of its own.
+_KEPT = ("owner", "appearance", "components")
 
 
 @contextmanager

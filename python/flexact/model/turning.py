@@ -62,20 +62,23 @@ def check_axes(source: Draft, indices: Iterable[int], move: Transform) -> None:
         )
 
 
-def check_classes(source: Draft, nodes: Iterable[int], move: Transform) -> None:
+def check_classes(
+    source: Draft, nodes: Iterable[int], move: Transform, shared: bool = False
+) -> None:
     """Raise where coordinates that were given a class are not along the axes after a move.
 
-    Nodes that stay where they are keep their classes.
+    Where nodes that stay at their places are `shared`, these keep their classes as they are.
     """
     for number in nodes:
         for value, axes in axes_of(source, number).items():
             if move.axes(axes) is None:
                 here = _place(source, number)
-                if math.dist(move.place(here), here) > ROUNDING * math.hypot(*here):
+                stays = math.dist(move.place(here), here) <= ROUNDING * math.hypot(*here)
+                if not (shared and stays):
                     raise model_error(
                         "turned-class",
                         f"{source.node_words(number)} has {value.name.lower()} coordinates that "
-                        "are not along x, y or z any more in the copy",
+                        "are not along x, y or z any more",
                         "copy first and give the class afterwards",
                     )
 
