@@ -64,6 +64,10 @@ def test_names_of_a_pattern_are_numbered() -> None:
     )
     assert (first["clamp"].name, second["clamp"].name) == ("clamp 1", "clamp 2")
     assert model.part("flexure 2, leaf 1") == second["flexure, leaf 1"]
+    again = leg()
+    again.pattern(2, "z", parts=["flexure, leaf 1", "flexure, leaf 2"], names="{} {}")
+    assert again.element_names == model.element_names
+    assert again.point("clamp 1").place == (0.1, -0.05, 0)
 
 
 def test_parts_of_a_copy_keep_sections_material_and_classes() -> None:

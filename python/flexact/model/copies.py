@@ -131,15 +131,7 @@ class CopyMethods(HexapodMethods):
                 naming.name(made[-1], k)
         results = tuple(_assembly(draft, draft, each) for each in made)
         if isinstance(names, str) and names.format("a", 1) != names.format("a", 2):
-            shared = {i for each in made[1:] for i, new in each.elements.items() if new == i}
-            shared |= {
-                i
-                for each in made[1:]
-                for i, new in each.elements.items()
-                if is_of_one_body(draft, draft, i, new)
-            }
-            further = [n for n in further if all(each.nodes.get(n) != n for each in made[1:])]
-            _rename_originals(draft, [i for i in indices if i not in shared], further, names)
+            _rename_originals(draft, copying, made[1:], names)
         return results
 
     def mirror(
@@ -251,13 +243,19 @@ def _is_clamped(draft: Draft, number: int) -> bool:
     return all(draft.coordinate_class.get((number, axis)) == Class.FIXED for axis in axes)
 
 
-def _rename_originals(draft: Draft, indices: list[int], further: list[int], names: str) -> None:
-    """Give the originals of a pattern the number 1."""
-    nodes = set(further)
-    for index in indices:
-        if index in draft.names:
+def _rename_originals(draft: Draft, copying: Copying, made: list[Copy], names: str) -> None:
+    """Give the originals of a pattern the number 1, but for what their copies share."""
+
+    def is_shared(index: int, new: int) -> bool:
+        return new == index or is_of_one_body(draft, draft, index, new)
+
+    for index in copying.indices:
+        shared = any(is_shared(index, each.elements[index]) for each in made)
+        if index in draft.names and not shared:
             head, tail = split(draft.names[index])
             draft.name_element(index, names.format(head, 1) + tail)
-    for number in nodes & draft.node_names.keys():
-        head, tail = split(draft.node_names[number])
-        draft.name_node(number, names.format(head, 1) + tail)
+    for number in copying.nodes:
+        shared = any(each.nodes[number] == number for each in made)
+        if number in draft.node_names and not shared:
+            head, tail = split(draft.node_names[number])
+            draft.name_node(number, names.format(head, 1) + tail)

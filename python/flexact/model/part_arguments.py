@@ -12,7 +12,7 @@ from .arguments import whole
 from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import ambiguous, unknown
-from .point_arguments import is_rigid, require_own
+from .point_arguments import is_rigid, require_own, whole_point
 from .words import SIDE_VIEW, WIDE_Y, WIDE_Z, Planes
 
 #: A part: its handle, its name, or the number of an element.
@@ -99,8 +99,10 @@ def _points(draft: Draft, indices: list[int]) -> tuple[Node, ...]:
     found: dict[int, Node] = {}
     for index in indices:
         p, op, q, oq = draft.slots[index]
-        for position, orientation in ((p, op), (q, oq or draft.orientation_at.get(q, 0))):
-            found.setdefault(position, Node(position, orientation, draft.owner))
+        found.setdefault(p, Node(p, op, draft.owner))
+        if q not in found:
+            # An RBEAM of a deck carries no orientation at q.
+            found[q] = Node(q, oq, draft.owner) if oq else whole_point(draft, q)
     return tuple(found.values())
 
 

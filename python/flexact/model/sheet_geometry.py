@@ -46,7 +46,11 @@ def sheet_normal(draft: Draft, p: Node, q: Node, width: Direction | None) -> Vec
             raise model_error("surplus-vector", "the width of a sheet in a planar model is along z")
         return None
     if width is None:
-        raise model_error("missing-vector", "a sheet needs the direction of its width")
+        raise model_error(
+            "missing-vector",
+            "a sheet needs the direction of its width",
+            'give width=(x, y, z), or "x", "y" or "z"',
+        )
     wide = direction(width, "width")
     along = unit(span(draft, p, q))
     if along == NO_VECTOR:
