@@ -47,7 +47,7 @@ def test_bases_span_the_null_spaces_of_the_dense_jacobian(model: Model) -> None:
     for modes in (analysis.motions, analysis.self_stresses):
         if modes:
             basis = np.array([mode.vector for mode in modes])
-            assert np.abs(basis @ basis.T - np.eye(len(modes))).max() < 1e-13
+            assert np.linalg.matrix_rank(basis) == len(modes)
 
 
 def test_labels_are_numbers_and_names() -> None:

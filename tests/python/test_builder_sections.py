@@ -18,7 +18,7 @@ RECT, CIRC = 1, 2
 def properties(model: Model) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """ESTIFF and EM of the first element."""
     draft = model._change()
-    return draft.stiffness[0], draft.mass[0]
+    return draft.properties.stiffness[0], draft.properties.mass[0]
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_thickness_and_breadth_are_the_section() -> None:
         (0, 0, 0), (0.1, 0, 0), "z", thickness=5e-4, breadth=5e-2, material="steel", beams=3
     )
     assert properties(one) == properties(other)
-    assert len(one._change().stiffness) == len(one._change().mass) == 3
+    assert len(one._change().properties.stiffness) == len(one._change().properties.mass) == 3
     assert (one.data.appearance.dimensions == other.data.appearance.dimensions).all()
 
 
@@ -96,7 +96,7 @@ def test_bars_and_planar_sheets_have_fewer_values() -> None:
 def test_a_material_without_density_gives_no_mass() -> None:
     model = Model()
     model.wire((0, 0, 0), (1, 0, 0), thickness=1e-3, material=Material("light", 1e9, 4e8))
-    assert model._change().stiffness and not model._change().mass
+    assert model._change().properties.stiffness and not model._change().properties.mass
 
 
 def test_parts_can_be_given_their_material_afterwards() -> None:
@@ -107,9 +107,9 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
     model.made_of(hinge, "titanium", thickness=2e-4, breadth=0.02)
     model.made_of("hinge sheet 2", "steel")
     draft = model._change()
-    axial = [draft.stiffness[k][0] for k in (0, 1)]
+    axial = [draft.properties.stiffness[k][0] for k in (0, 1)]
     assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
-    assert set(draft.stiffness) == {0, 1}, "the body has none"
+    assert set(draft.properties.stiffness) == {0, 1}, "the body has none"
 
 
 def test_common_materials_are_isotropic_within_reason() -> None:

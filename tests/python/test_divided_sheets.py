@@ -30,6 +30,7 @@ from reference_decks import text_of
 import flexact
 from flexact import Model, analyse
 from flexact.core.elements import Class
+from flexact.drawing import Form, drawing_of
 
 SHAPES = {
     "straight": Division(),
@@ -248,6 +249,29 @@ def test_forces_are_the_same_along_a_wire() -> None:
         force = stress.forces[:, 0].reshape(6, 3)
         np.testing.assert_allclose(force, force[:, :1] * np.ones(3), atol=1e-15)
         assert abs(force[:, 0] @ np.cos(angles)) + abs(force[:, 0] @ np.sin(angles)) < 1e-14
+
+
+@pytest.mark.parametrize("shape", ["straight", "wavy at 1e-3", "at mid-stroke"])
+def test_a_divided_sheet_is_drawn_as_wide_all_along(shape: str) -> None:
+    how = SHAPES[shape]
+    one, several = (
+        drawing_of(parallel_guide(each).data) for each in (how, replace(how, beams=16, seed=5))
+    )
+    sections = several.members.section[several.members.form == Form.SHEET]
+    np.testing.assert_allclose(sections, np.tile(sections[0], (32, 1)), rtol=1e-12)
+    # What is off the line may make the drawing larger.
+    np.testing.assert_allclose(sections[0], one.members.section[0], rtol=0.1)
+
+
+@pytest.mark.parametrize("make", [parallel_guide, cross_hinge])
+def test_a_wavy_sheet_holds_what_one_beam_holds(make: Callable[[Division], Model]) -> None:
+    (one,) = analyse(make(Division())).self_stresses
+    (several,) = analyse(make(Division(beams=5, amplitude=1e-3, against=True))).self_stresses
+    for name in ("sheet 1", "sheet 2"):
+        mine, wanted = several.of(name), one.of(name)
+        np.testing.assert_allclose(mine.normal, wanted.normal, atol=1e-14)
+        np.testing.assert_allclose(mine.direction, wanted.direction, atol=1e-14)
+        np.testing.assert_allclose(mine.in_plane_moments, wanted.in_plane_moments, rtol=1e-9)
 
 
 # What is no sheet

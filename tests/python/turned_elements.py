@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models whose elements are told otherwise: vectors turned round, ends exchanged, all renumbered."""
+"""Models whose elements are told otherwise: vectors turned round, and ends exchanged."""
 
 from dataclasses import replace
 

@@ -15,7 +15,6 @@ from ..core.elements import Member, keywords_of, planar_table
 from ..model.appearance import Appearance, CrossSection
 from ..model.data import ModelData
 from ..model.parts.forms import Form, all_held, bending_held, forms_of, is_member
-from .chains import chain_lengths
 from .colours import of_forms
 from .places import slots_of
 
@@ -38,8 +37,6 @@ _LIMITS = {
 }
 #: Thickness of what is to be drawn as a line, as a part of the drawing's size.
 _LINE = 0.004
-#: Beyond so many members, beams in a row are not looked for.
-_MANY = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +127,7 @@ def members_of(data: ModelData, size: float) -> Members:
     kind = arrays.element_kind[index]
     frame, length = data.frames.frame[index], data.frames.length[index]
     stiff = all_held(arrays)[index]
-    section = _sections(nodes, form, wide, frame, length, size)
+    section = _sections(form, wide, _whole_lengths(data)[index], size)
     round_ = np.isin(form, (Form.WIRE, Form.BAR))
     in_xz, in_xy = bending_held(arrays)[:, index]
     plainly = np.abs(in_xz - in_xy) == 2
@@ -150,18 +147,18 @@ def members_of(data: ModelData, size: float) -> Members:
     )
 
 
-def _sections(
-    nodes: np.ndarray,
-    form: np.ndarray,
-    wide: np.ndarray,
-    frame: FloatArray,
-    length: FloatArray,
-    size: float,
-) -> FloatArray:
+def _whole_lengths(data: ModelData) -> FloatArray:
+    """(elements,) lengths [m]: of a divided sheet or wire from end to end."""
+    made = data.frames.length.copy()
+    place = data.arrays.node_value[:3].T
+    for chain in data.chains:
+        ends = place[[chain.positions[0], chain.positions[-1]]]
+        made[list(chain.elements)] = np.linalg.norm(ends[1] - ends[0])
+    return made
+
+
+def _sections(form: np.ndarray, wide: np.ndarray, whole: FloatArray, size: float) -> FloatArray:
     """(k, 2) sizes across members that tell their forms apart."""
-    whole = length
-    if len(form) <= _MANY:
-        whole = chain_lengths(nodes[:, [0, 2]], form, frame[..., 0], length)
     section = np.zeros((len(form), 2))
     for each in Form:
         chosen = form == each

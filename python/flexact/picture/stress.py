@@ -111,7 +111,7 @@ def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]
     peaks: list[Peak] = []
     row_across = BENDING[stress.quantity]
     height = _HEIGHT * drawing.size / stress.largest
-    for strip in stations(drawing.members, drawing.reference, PIECES, drawing.members.seen):
+    for strip in stations(drawing.members, drawing.reference, PIECES, drawing.seen):
         value = stress.values.along(stress.quantity, strip.member, strip.at)
         rows = np.flatnonzero(np.abs(value).max(axis=1) > _LEAST * stress.largest)
         if not rows.size:

@@ -14,7 +14,7 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..diagnostics.errors import model_error
 from ..model.parts.parts import Part, PartKind, natural
-from .carriers import Carriers, Joint
+from .carriers import Joint
 from .handles import part_of, position_of
 from .outcome import Outcome
 from .screws import ROUNDING, Screw, screw_of
@@ -100,7 +100,7 @@ class Moving(Frozen):
         Raises:
             ModelError: there is no such body, or it is none.
         """
-        bodies = self._carriers.bodies
+        bodies = self.outcome.carriers.bodies
         if isinstance(body, int) and not isinstance(body, bool):
             if not 0 <= body < len(bodies):
                 raise model_error("no-such-part", f"there is no body {body} of {len(bodies)}")
@@ -146,15 +146,11 @@ class Moving(Frozen):
         """The sheets and wires inside of which something moves, by name."""
         return tuple(
             inside.part
-            for inside in self._carriers.insides
+            for inside in self.outcome.carriers.insides
             if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
         )
 
     # What it is made of -----------------------------------------------------
-
-    @cached_property
-    def _carriers(self) -> Carriers:
-        return Carriers(self.outcome.parts)
 
     @property
     def _length(self) -> float:
@@ -187,7 +183,7 @@ class Moving(Frozen):
 
     @cached_property
     def _items(self) -> tuple[_Item, ...]:
-        carriers = self._carriers
+        carriers = self.outcome.carriers
         order = sorted(range(len(carriers.bodies)), key=self._key_of_body)
         made = [_Item(self._of_body(k), carriers.bodies[k], None) for k in order]
         joints = [_Item(self._of_joint(joint), None, joint) for joint in carriers.joints]
@@ -195,7 +191,7 @@ class Moving(Frozen):
         return (*made, *joints)
 
     def _key_of_body(self, body: int) -> tuple[object, ...]:
-        part = self._carriers.bodies[body]
+        part = self.outcome.carriers.bodies[body]
         name = natural(part.name) if part.is_named else ()
         return name, tuple(np.round(self._of_body(body).centre / self._length, 9).tolist())
 
@@ -210,7 +206,7 @@ class Moving(Frozen):
         )
 
     def _of_joint(self, joint: Joint) -> Screw:
-        place = self._carriers.place_of(joint)
+        place = self.outcome.carriers.place_of(joint)
         none = np.zeros(3)
         return self._screw(
             none if joint.orientation is None else self.rotation[joint.orientation],

@@ -9,7 +9,7 @@ Self-stresses: as few flexible parts as can be; of those of one set as few defor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -20,10 +20,11 @@ from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.basis import Basis
 from ..core.elements import NodeKind, Role, role_table
 from ..model.parts.parts import Part, PartKind
-from .carriers import Carriers
 from .group_sparse import (
+    MOST_DIMENSIONS,
     Cost,
     Groups,
+    Piece,
     classes_of_rows,
     columns_of,
     null_of,
@@ -74,8 +75,11 @@ def motion_basis(outcome: Outcome, space: Basis) -> Basis:
     key = _kept(partial(column_key, outcome))
     support, dense = _held(space, key)
     groups = _MotionGroups(outcome, support)
+    found = groups.basis(dense)
+    if found is None:
+        return scaled_motions(outcome)
     return _scaled(
-        groups.basis(dense),
+        found,
         _Rows(support, column_weights(outcome), np.ones(space.size), groups.owner, groups.outside),
         key,
         lambda row: 1.0,
@@ -92,8 +96,11 @@ def stress_basis(outcome: Outcome, space: Basis) -> Basis:
     key = _kept(partial(row_key, outcome))
     support, dense = _held(space, key)
     each, every = np.arange(support.size), np.ones(support.size, bool)
+    found = _StressGroups(outcome, support).basis(dense)
+    if found is None:
+        return scaled_stresses(outcome)
     return _scaled(
-        _StressGroups(outcome, support).basis(dense),
+        found,
         _Rows(support, row_weights(outcome), row_factors(outcome), each, every),
         key,
         partial(_sense_of_row, outcome),
@@ -108,7 +115,7 @@ def internal_motions(outcome: Outcome, basis: Basis) -> int:
     """
     if not basis.vectors:
         return 0
-    inner = list(Carriers(outcome.parts).inner)
+    inner = list(outcome.carriers.inner)
     if not inner:
         return 0
     node = outcome.condensed.nodes[outcome.raw.column_label[0] - 1]
@@ -229,6 +236,13 @@ def _entries(space: FloatArray) -> FloatArray:
     return columns_of(pieces_of(space, classes, costs, lambda left: left), space.shape[0])
 
 
+def _is_undivided(pieces: Sequence[Piece]) -> bool:
+    """Whether many vectors of many groups were left as they are."""
+    return any(
+        len(piece.support) > 1 and piece.vectors.shape[1] > MOST_DIMENSIONS for piece in pieces
+    )
+
+
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
@@ -238,13 +252,17 @@ class _MotionGroups:
         self.owner = np.unique(self.node, return_inverse=True)[1]
         kinds = outcome.given.arrays.node_kind[self.node]
         self.turns = kinds > NodeKind.POSITION
-        self.carriers = Carriers(outcome.parts)
+        self.carriers = outcome.carriers
         self.outside: BoolArray = ~np.isin(self.node, list(self.carriers.inner))
 
-    def basis(self, space: FloatArray) -> FloatArray:
-        """All vectors: bodies and joints before the insides of parts."""
+    def basis(self, space: FloatArray) -> FloatArray | None:
+        """All vectors: bodies and joints before the insides of parts; None of a large space."""
+        if space.shape[1] < 2:
+            return space
         groups, costs, _ = self._groups(one_by_one=False)
         pieces = pieces_of(space, groups, costs, self._by_points)
+        if _is_undivided(pieces):
+            return None
         pieces.sort(key=lambda piece: piece.cost[:2] == (0, 0))
         return columns_of(pieces, space.shape[0])
 
@@ -330,9 +348,13 @@ class _StressGroups:
         ]
         self.bodies = [np.array(rows) for part, rows in parts.items() if part.kind is PartKind.BODY]
 
-    def basis(self, space: FloatArray) -> FloatArray:
-        """All vectors: those of flexible parts before those inside of bodies."""
+    def basis(self, space: FloatArray) -> FloatArray | None:
+        """All vectors: of flexible parts, then inside of bodies; None of a large space."""
+        if space.shape[1] < 2:
+            return space
         pieces = pieces_of(space, self.flexible, [(1,)] * len(self.flexible), self._by_bodies)
+        if _is_undivided(pieces):
+            return None
         pieces.sort(key=lambda piece: not piece.support)
         return columns_of(pieces, space.shape[0])
 

@@ -159,15 +159,20 @@ class SelfStress(Frozen):
 
     @cached_property
     def _at_elements(self) -> tuple[FloatArray, FloatArray]:
+        made = self.analysis.condensed.stress(*self.analysed)
+        for array in made:
+            array.flags.writeable = False
+        return made
+
+    @cached_property
+    def analysed(self) -> tuple[FloatArray, FloatArray]:
+        """Moments and forces, (elements, 6) each, of the elements of the model as analysed."""
         place, value = self.analysis.stress_basis.entries(self.index)
         element, deformation = self.analysis.raw.row_label[:, place] - 1
         is_force = (row_duals(self.analysis, place) == Dual.FORCE).astype(int)
         both = np.zeros((2, self.analysis.data.arrays.element_number.size, 6))
         both[is_force, element, deformation] = value * row_factors(self.analysis, place)
-        made = self.analysis.condensed.stress(*both)
-        for array in made:
-            array.flags.writeable = False
-        return made
+        return both[0], both[1]
 
     @cached_property
     def _pressing(self) -> Pressing:
@@ -185,6 +190,11 @@ class SelfStress(Frozen):
     def conflicts(self) -> tuple[Conflict, ...]:
         """Bodies on which parts press, then joints, with what each part exerts on them."""
         return self._pressing.conflicts
+
+    @property
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Of the conflicts those on bodies."""
+        return self._pressing.on_bodies
 
     def of(self, part: object) -> PartStress:
         """The stress resultants of a part; see `flexact.result.part_stresses.Pressing.of`."""

@@ -38,17 +38,20 @@ class Result(Spaces):
 
     @property
     def motions(self) -> Modes[Motion]:
-        """Motions that nothing determines: an orthonormal basis, from V of eq. (16).
+        """Motions that nothing determines: a basis of the null space V of eq. (16).
 
-        Where there are several, single ones depend on the choice of the basis. Where there
-        are so many that they would not fit, only the first are here; where thousands belong
-        to one component of D(c), they need not be orthogonal.
+        Where there are several, they are chosen so that as few bodies as can be move in each
+        (`flexact.result.mode_basis`); in each the largest displacement or rotation is 1. Where
+        there are so many that they would not fit, only the first are here.
         """
         return Modes(Motion, self)
 
     @property
     def self_stresses(self) -> Modes[SelfStress]:
-        """Stresses without load: an orthonormal basis, from U of eq. (16); see `motions`."""
+        """Stresses without load: a basis of the null space U of eq. (16); see `motions`.
+
+        As few parts as can be are stressed in each; the largest force or moment is 1.
+        """
         return Modes(SelfStress, self)
 
     def exact(self) -> ExactBases:

@@ -41,14 +41,14 @@ class Spaces(Outcome):
         The largest entry of each is 1, rotations compared by the characteristic length. Of
         large spaces they are those of the core, scaled (`flexact.result.mode_basis`).
         """
-        if is_large(self.raw.motions):
+        if self.raw.motions.vectors < self.under_constrained or is_large(self.raw.motions):
             return scaled_motions(self)
         return motion_basis(self, self.motion_space)
 
     @cached_property
     def stress_basis(self) -> Basis:
         """The self-stresses as they are told: sparse over parts, the largest force or moment 1."""
-        if is_large(self.raw.stresses):
+        if self.raw.stresses.vectors < self.over_constrained or is_large(self.raw.stresses):
             return scaled_stresses(self)
         return stress_basis(self, self.stress_space)
 

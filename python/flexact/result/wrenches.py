@@ -121,7 +121,7 @@ class Wrench(Frozen):
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
-        return self.kind is not WrenchKind.NONE
+        return self.size > self.rest
 
     def __str__(self) -> str:
         """In words."""

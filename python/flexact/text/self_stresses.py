@@ -74,15 +74,16 @@ def _clearest(stress: SelfStress) -> Conflict | None:
 
     A joint is told where nothing else can be and no more than three parts are stressed.
     """
-    free = [conflict for conflict in stress.conflicts if _is_between_parts(conflict)]
-    bodies = [conflict for conflict in free if not isinstance(conflict.on, Joint)]
+    bodies = [conflict for conflict in stress.on_bodies if _is_between_parts(conflict)]
     few = [one for one in bodies if one.over is not None and len(one.loads) <= _MOST_NAMES]
     if few:
         return few[0]
     if bodies:
         return max(bodies, key=lambda one: len(one.loads))
-    joints = [one for one in free if one.over is not None and len(stress.parts) <= _MOST_NAMES]
-    return joints[0] if joints else None
+    if len(stress.parts) > _MOST_NAMES:
+        return None
+    joints = (one for one in stress.conflicts if _is_between_parts(one))
+    return next((one for one in joints if one.over is not None), None)
 
 
 def _is_between_parts(conflict: Conflict) -> bool:
@@ -153,8 +154,14 @@ def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[floa
     """
     outcome = stress.analysis
     elements = np.array([one.part.elements[0], one.part.elements[-1]])
-    values = shared_resultants(outcome.given, elements, (stress.forces + stress.moments)[elements])
-    positions = outcome.given.arrays.element_node[[0, 2]][:, elements].T - 1
+    known = outcome.condensed.elements
+    # Of a row of beams that is one beam that one.
+    both_ends = [e for e in (one.part.elements[0], one.part.elements[-1]) if e in known]
+    elements = np.searchsorted(known, np.array(both_ends))
+    moments, forces = stress.analysed
+    values = shared_resultants(outcome.data, elements, (moments + forces)[elements])
+    nodes = outcome.data.arrays.element_node[[0, 2]][:, elements].T - 1
+    positions = outcome.condensed.nodes[nodes]
     made = {}
     for quantity in _MOMENTS:
         at_nodes = values[:, QUANTITIES.index(quantity)]

@@ -91,26 +91,28 @@ class Condensed(Frozen):
     def _bent(
         self, chain: Chain, inner: InnerNodes, frame: FloatArray, moments: FloatArray
     ) -> FloatArray:
-        """(beams, 6) moments of the beams of a chain, from those of the one beam, (6,)."""
+        """(beams, 6) moments of the beams of a chain, from those of the one beam, (6,).
+
+        They are about the axes of the one beam: a beam that is not in line with it is given
+        those about the axis of its own that is nearest.
+        """
         beams = list(chain.elements)
         sense = np.where(chain.reversed, -1.0, 1.0)[:, None]
         ends = np.array([0.0, *inner.share, 1.0])
         shares = np.stack((ends[:-1], ends[1:]), axis=1)
         shares = np.where(sense < 0.0, shares[:, ::-1], shares)
-        frames = self.given.frames.frame[beams]
         made = np.tile(moments, (len(beams), 1))
         # Bending about local y at p and q, and about local z; a planar beam bends about z alone.
         planes = ((2, 1, 2),) if inner.is_planar else ((1, 2, 3), (2, 4, 5))
-        at = [
-            sum(
-                (moments[p] * (1.0 - share) + moments[q] * share)[:, None] * frame[:, axis]
-                for axis, p, q in planes
-            )
-            for share in shares.T
-        ]
-        for axis, p, q in planes:
-            for slot, vector in ((p, at[0]), (q, at[1])):
-                made[:, slot] = sense[:, 0] * np.sum(vector * frames[:, :, axis], axis=1)
+        axes = [axis for axis, _, _ in planes]
+        # (beams, own axes, axes of the one beam)
+        cosines = np.swapaxes(self.given.frames.frame[beams][:, :, axes], 1, 2) @ frame[:, axes]
+        nearest = np.argmax(np.abs(cosines), axis=2)
+        sign = np.sign(np.take_along_axis(cosines, nearest[:, :, None], axis=2)[:, :, 0])
+        of_p, of_q = (moments[[plane[end] for plane in planes]][nearest] for end in (1, 2))
+        for k, (_, p, q) in enumerate(planes):
+            linear = of_p[:, [k]] * (1.0 - shares) + of_q[:, [k]] * shares
+            made[:, [p, q]] = sense * sign[:, [k]] * linear
         return made
 
     def in_given(self, element: int, deformation: int) -> tuple[int, int]:
