@@ -93,7 +93,9 @@ class ModesTable(NamedTuple):
 def motions(result: Result) -> ModesTable:
     """The motions: displacements [m] and rotations [rad] of nodes."""
     raw, arrays = result.raw, result.data.arrays
-    name_of = cache(partial(node_name, result))
+    # Where no point has a name, nobody has to look for each.
+    named = result.motion_basis.vectors > 0 and any(result.given.node_names)
+    name_of = cache(partial(node_name, result)) if named else lambda _: ""
 
     def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
         node, axis = raw.column_label[:, places] - 1
