@@ -243,6 +243,8 @@ def test_a_self_stress_is_in_newton_metres_beside_the_raw_column() -> None:
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 def test_components_are_those_of_motions_and_self_stresses(path: Path) -> None:
     analysis = analyse(path)
+    if analysis.data is not analysis.given:
+        pytest.skip("components are those of one beam a sheet, see test_divided_sheets.py")
     made, model = analysis.to_dict(), analysis.model
     for motion, mode in zip(analysis.motions, made["motions"], strict=True):
         moved, turned = np.zeros_like(motion.displacement), np.zeros_like(motion.rotation)
