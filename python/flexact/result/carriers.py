@@ -35,6 +35,8 @@ class Joint(NamedTuple):
         names = [part.name for part in self.parts]
         if len(names) > _MOST_NAMED:
             names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
+        if not names:
+            return "a free joint"
         return f"the joint of {' and '.join(names)}" if len(names) > 1 else f"the end of {names[0]}"
 
 
