@@ -151,6 +151,43 @@ def test_points_without_an_orientation_have_a_velocity_alone() -> None:
     assert motion.at(5).rotation is None
 
 
+@pytest.mark.parametrize("planar", [False, True])
+def test_points_that_move_as_a_body_would_are_told_so(planar: bool) -> None:
+    # A triangle of bars that one point holds; in space further bars stop the other turns.
+    model = Model(planar=planar)
+    here = [(0.0, 0.0), (1.0, 0.0), (0.3, 0.8)]
+    corners = [model.node(*place) for place in here]
+    for k in range(3):
+        model.truss(corners[k], corners[(k + 1) % 3], name=f"side {k + 1}")
+    model.fix(corners[0])
+    if not planar:
+        for corner in corners[1:]:
+            model.fix(corner, "z")
+    (motion,) = analyse(model).motions
+    if not planar:
+        # They could turn about the line between them as well: nothing is claimed.
+        assert [len(moving.joints) for moving in motion.bodies] == [1, 1]
+        return
+    (together,) = motion.bodies
+    assert together.is_joint and len(together.joints) == 2
+    assert together.screw.kind is ScrewKind.ROTATION
+    assert together.screw.point == pytest.approx([0, 0, 0], abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("deck", "legs"), [("prism_twist_30", 3), ("octahedral_platform_yaw_90", 3)]
+)
+def test_a_platform_of_bars_in_a_singular_position_screws_about_its_axis(
+    deck: str, legs: int
+) -> None:
+    # By its threefold symmetry (Hunt, *Kinematic Geometry of Mechanisms*, 1978).
+    (motion,) = analyse(ROOT / "input_decks" / "frameworks" / f"{deck}.dat").motions
+    (together,) = motion.bodies
+    assert len(together.joints) == legs and together.screw.kind is ScrewKind.SCREW
+    assert np.abs(together.screw.direction) == pytest.approx([0, 0, 1], abs=1e-12)
+    assert together.screw.point[:2] == pytest.approx([0, 0], abs=1e-9)
+
+
 def inner_dimension(analysis: Analysis) -> int:
     """How many motions of inner nodes of rows of beams D(c) allows, by its columns of them."""
     data = analysis.data

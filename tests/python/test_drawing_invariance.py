@@ -193,7 +193,8 @@ def page_of(analysis: flexact.Analysis, as_in: ModelData) -> dict[str, Any]:
 
 def pixels(analysis: flexact.Analysis, **chosen: Any) -> np.ndarray:
     with Image.open(io.BytesIO(picture_bytes(analysis, ".png", **chosen))) as image:
-        return np.asarray(image.convert("RGB")).astype(int)
+        # Below the words of the head.
+        return np.asarray(image.convert("RGB")).astype(int)[100:]
 
 
 PICTURED = ["guide at 30 degrees", "wires", *(each for each in CASES if "/" in each)]

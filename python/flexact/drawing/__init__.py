@@ -7,6 +7,7 @@ Members with their sizes, symbols, poses, shapes, resultants and views; `picture
 
 from ..model.parts.forms import Form
 from ..result.resultants import QUANTITIES
+from .bodies import Solid
 from .drawing import Drawing, drawing_of, joints_of
 from .hinges import Hinges
 from .members import Members
@@ -32,6 +33,7 @@ __all__ = [
     "Moving",
     "Pose",
     "Resultants",
+    "Solid",
     "Strip",
     "Support",
     "Supports",

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.data import ModelData
+from .bodies import Solid, solids_of
 from .hinges import Hinges, hinges_of
 from .members import Members, members_of
 from .pose import Pose, reference_pose
@@ -43,6 +45,24 @@ class Drawing(Frozen):
     reference: Pose
     low: FloatArray
     high: FloatArray
+
+    @cached_property
+    def solids(self) -> list[Solid]:
+        """The rigid bodies that are drawn as solids."""
+        return solids_of(self.data, self.members, self.size, self.reference.position)
+
+    @cached_property
+    def in_solid(self) -> np.ndarray:
+        """(members,) whether a member is a part of a solid, in whose place it is not drawn."""
+        made = np.zeros(len(self.members), bool)
+        for solid in self.solids:
+            made[solid.rows] = True
+        return made
+
+    @property
+    def seen(self) -> np.ndarray:
+        """(members,) which members are drawn themselves."""
+        return np.asarray(self.members.seen & ~self.in_solid)
 
     @property
     def planar(self) -> bool:

@@ -48,6 +48,7 @@ class Layout(Frozen):
         frame: (b, 3, 3) cross-sections: columns ex along the axis, ey, ez.
         node: (b,) index of the position node at the point, -1 where there is none.
         axis_point: (n,) the point of an axis that each point belongs to, those themselves.
+        has_stress: (n,) whether a point is of one element, and not on the solid of a body.
         strips: Members in the order of the points, with their stations (s,).
         corners: Points of the cells: (vertices, 1), (lines, 2), (quads, 4).
         element: (cells,) index of each cell's element, in the order of `corners`.
@@ -58,6 +59,7 @@ class Layout(Frozen):
     frame: FloatArray
     node: Integers
     axis_point: Integers
+    has_stress: BoolArray
     strips: tuple[tuple[np.ndarray, FloatArray], ...]
     corners: tuple[Integers, Integers, Integers]
     element: Integers
@@ -90,7 +92,8 @@ class Layout(Frozen):
         made = {}
         for column, quantity in enumerate(QUANTITIES):
             along = [found.along(quantity, member, at).ravel() for member, at in self.strips]
-            made[quantity] = np.concatenate((found.hinges[:, column], *along))[self.axis_point]
+            of_axes = np.concatenate((found.hinges[:, column], *along))
+            made[quantity] = np.where(self.has_stress, of_axes[self.axis_point], 0.0)
         return made
 
 
@@ -108,7 +111,10 @@ def layout_of(drawing: Drawing, pose: Pose, skinned: BoolArray) -> Layout:
     axes = np.concatenate([each.centre.reshape(-1, 3) for each in (hinges, *members)])
     frame = np.concatenate([each.frame.reshape(-1, 3, 3) for each in (hinges, *members)])
     lines, of_lines, nodes = _lines(drawing, hinges.member.size, members)
-    skin = list(_skins(drawing, (hinges, *members), skinned))
+    itself = skinned.copy()
+    itself[drawing.members.index[drawing.in_solid]] = False
+    skin = list(_skins(drawing, (hinges, *members), itself))
+    skin += _bodies(drawing, pose, (hinges, *members), skinned)
     quads, behind = [np.zeros((0, 4), np.int64)], len(axes)
     for each in skin:
         quads.append(behind + each.quads.reshape(-1, 4))
@@ -120,6 +126,9 @@ def layout_of(drawing: Drawing, pose: Pose, skinned: BoolArray) -> Layout:
         frame,
         nodes,
         np.concatenate((np.arange(len(axes)), *(each.axis_point for each in skin))),
+        np.concatenate(
+            (np.ones(len(axes), bool), *(np.full(len(each.points), each.stressed) for each in skin))
+        ),
         tuple((each.member, each.at) for each in members),
         (np.arange(hinges.member.size)[:, None], lines, np.concatenate(quads)),
         np.concatenate((drawing.hinges.index, of_lines, *owners)),
@@ -157,12 +166,16 @@ def _lines(
 
 @dataclass(frozen=True, eq=False)
 class _Skin:
-    """Surfaces: points (m, 3), their points of axes (m,), faces (k, f, 4), elements (k,)."""
+    """Surfaces: points (m, 3), their points of axes (m,), faces (k, f, 4), elements (k,).
+
+    And whether they have the stress of their elements.
+    """
 
     points: FloatArray
     axis_point: Integers
     quads: Integers
     element: Integers
+    stressed: bool = True
 
 
 def _skins(drawing: Drawing, strips: tuple[Strip, ...], skinned: BoolArray) -> Iterator[_Skin]:
@@ -189,3 +202,25 @@ def _skins(drawing: Drawing, strips: tuple[Strip, ...], skinned: BoolArray) -> I
                 index[rows][each.strip],
             )
         behind += strip.member.size * strip.at.size
+
+
+def _bodies(
+    drawing: Drawing, pose: Pose, strips: tuple[Strip, ...], skinned: BoolArray
+) -> Iterator[_Skin]:
+    """The surfaces of bodies that are solids, as those of their first elements."""
+    first: dict[int, int] = {}
+    behind = strips[0].member.size
+    for strip in strips[1:]:
+        starts = behind + np.arange(strip.member.size) * strip.at.size
+        first.update(zip(strip.member.tolist(), starts.tolist(), strict=True))
+        behind += strip.member.size * strip.at.size
+    for body in drawing.solids:
+        row = int(body.rows[0])
+        index = drawing.members.index[row]
+        if not skinned[index]:
+            continue
+        corners = body.placed(drawing.members, drawing.reference, pose).corners
+        points = body.quads(corners).reshape(-1, 3)
+        quads = np.arange(len(points)).reshape(1, -1, 4)
+        owner = np.full(len(points), first[row])
+        yield _Skin(points, owner, quads, np.array([index]), stressed=False)

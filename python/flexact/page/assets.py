@@ -24,6 +24,7 @@ SCRIPTS = (
     "words.js",
     "stage.js",
     "members.js",
+    "bodies.js",
     "diagram.js",
     "symbols.js",
     "overlay.js",

@@ -50,13 +50,15 @@ const Diagram = (() => {
       if (!this.group.visible) return;
       const { plan, shape } = this.members;
       const across = PageData.array(data.members.across);
+      const shown = PageData.array(data.members.shown);
       const rgb = [0, 0, 0];
       for (let m = 0; m < plan.count; m++) {
         const last = plan.stations[m] - 1;
         const [y, z] = across.subarray(4 * m + 2 * bending, 4 * m + 2 * bending + 2);
         for (let s = 0; s <= last; s++) {
           const share = s / last, station = plan.station[m] + s;
-          const value = ((1 - share) * values[2 * m] + share * values[2 * m + 1]) / largest;
+          const there = (1 - share) * values[2 * m] + share * values[2 * m + 1];
+          const value = shown[m] ? there / largest : 0;
           PageData.diverging(data.stops, value, rgb);
           for (let k = 0; k < 3; k++) {
             const base = shape.centre[3 * station + k];

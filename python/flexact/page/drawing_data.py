@@ -98,6 +98,7 @@ def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
         "forms": {int(form): form.name.lower() for form in Form},
         "nodes": _nodes(analysis, frame),
         "members": _members(frame),
+        "bodies": _bodies(analysis, frame),
         "hinges": _hinges(frame),
         "supports": _supports(frame),
         "joints": _joints(frame),
@@ -149,9 +150,42 @@ def _members(frame: Frame) -> dict[str, Any]:
         "round": flags(every.round[some]),
         "bends": flags(every.bends[some]),
         "across": floats(every.across[some]),
+        "joined": flags(every.joined[some]),
+        "shown": flags(~frame.drawing.in_solid[some]),
         "colour": flags(_bytes(own)),
         "edge": flags(_bytes(edge)),
         "opacity": floats(every.opacity[some]),
+    }
+
+
+def _bodies(analysis: Result, frame: Frame) -> dict[str, Any]:
+    """Bodies that are solids: corners in the frame of the member with which each moves."""
+    drawing, members = frame.drawing, frame.drawing.members
+    solids = drawing.solids
+    corners, triangles, owner, edges = [np.zeros((0, 3))], [], [], []
+    behind = 0
+    for number, solid in enumerate(solids):
+        row = solid.rows[0]
+        arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
+        corners.append(arm @ members.frame[row] / drawing.size)
+        triangles.append(behind + solid.triangles)
+        owner.append(np.full(len(solid.triangles), number))
+        edges.append(behind + solid.edges)
+        behind += len(arm)
+    own = np.array([solid.colour for solid in solids]).reshape(-1, 3).clip(0.0, 1.0)
+    edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
+    elements = [int(members.index[solid.rows[0]]) for solid in solids]
+    return {
+        "names": [analysis.parts.of_element(i).name for i in elements],
+        "rows": [solid.rows.tolist() for solid in solids],
+        "corner": floats(np.concatenate(corners)),
+        "count": integers([len(solid.corners) for solid in solids]),
+        "triangles": integers(np.concatenate([np.zeros((0, 3)), *triangles])),
+        "owner": integers(np.concatenate([np.zeros(0), *owner])),
+        "edges": integers(np.concatenate([np.zeros((0, 2)), *edges])),
+        "colour": flags(_bytes(own)),
+        "edge": flags(_bytes(np.where(np.isnan(edge), _EDGE * own, edge))),
+        "opacity": floats([solid.opacity for solid in solids]),
     }
 
 

@@ -48,7 +48,8 @@ const Members = (() => {
 
     makeSolids() {
       const opacity = PageData.array(this.members.opacity);
-      this.seen = Array.from(opacity.keys()).filter((m) => opacity[m] > 0);
+      const shown = PageData.array(this.members.shown);
+      this.seen = Array.from(opacity.keys()).filter((m) => opacity[m] > 0 && shown[m]);
       const detail = this.seen.length > MANY ? Surfaces.PLAIN : Surfaces.FULL;
       this.solids = [];
       for (const translucent of [false, true]) {

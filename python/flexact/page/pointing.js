@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// What lies under the pointer: a node, else a member or a hinge.
+// What lies under the pointer: a node, else a member, a body or a hinge.
 
 const Pointing = (() => {
   const REACH = 8; // pixels
@@ -63,9 +63,11 @@ const Pointing = (() => {
       const pointer = new THREE.Vector2(
         (x / stage.width) * 2 - 1, 1 - (y / stage.height) * 2);
       this.raycaster.setFromCamera(pointer, stage.camera);
-      const bodies = [...state.members.solids, state.hinges.copies.mesh];
-      const [hit] = this.raycaster.intersectObjects(bodies, false);
+      const { members, bodies, hinges } = state;
+      const solids = [...members.solids, ...bodies.solids, hinges.copies.mesh];
+      const [hit] = this.raycaster.intersectObjects(solids, false);
       if (!hit) return this.lineAt(x, y);
+      if (hit.object.body) return { kind: "body", row: hit.object.body[hit.faceIndex], x, y };
       const row = hit.object.owner ? hit.object.owner[hit.faceIndex] : hit.instanceId;
       return { kind: hit.object.owner ? "member" : "hinge", row, x, y };
     }
@@ -74,8 +76,10 @@ const Pointing = (() => {
     lineAt(x, y) {
       const { stage, state } = this;
       const { plan, shape } = state.members;
+      const shown = PageData.array(state.data.members.shown);
       let best = null, least = REACH;
       for (let m = 0; m < plan.count; m++) {
+        if (!shown[m]) continue;
         let before = null;
         for (let s = plan.station[m]; s < plan.station[m + 1]; s++) {
           const place = stage.project(...shape.centre.subarray(3 * s, 3 * s + 3));

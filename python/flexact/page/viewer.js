@@ -19,6 +19,7 @@ const Viewer = (() => {
       this.layers = { diagram: false, ghost: true, arrows: true, symbols: true };
       this.stage = new Stage.Stage($("canvas"), context, data);
       this.members = new Members.Members(data);
+      this.bodies = new Bodies.Bodies(data, this.members);
       this.hinges = new Symbols.Hinges(data);
       this.supports = new Symbols.Supports(data);
       this.joints = new Symbols.Joints(data);
@@ -34,8 +35,8 @@ const Viewer = (() => {
 
     assemble() {
       const { stage } = this;
-      for (const part of [this.members, this.hinges, this.supports, this.joints, this.freedoms,
-        this.displacements, this.diagram]) stage.scene.add(part.group);
+      for (const part of [this.members, this.bodies, this.hinges, this.supports, this.joints,
+        this.freedoms, this.displacements, this.diagram]) stage.scene.add(part.group);
       stage.scene.add(this.nodeMark.mesh);
       stage.before.push((time) => this.player.step(time));
       stage.after.push(() => this.overlay.draw());
@@ -44,6 +45,7 @@ const Viewer = (() => {
       stage.lightened = (on) => this.lighten(on);
       this.follow();
       this.members.keepGhost();
+      this.bodies.keepGhost();
       this.landmarks = this.landmarksNow();
       stage.swing = (look) => this.swing(look);
       stage.look("iso");
@@ -54,7 +56,7 @@ const Viewer = (() => {
       this.members.lighten(on);
       this.showLayers();
       if (!on) return;
-      this.members.ghost.visible = false;
+      this.members.ghost.visible = this.bodies.ghost.visible = false;
       this.supports.group.visible = this.joints.group.visible = false;
     }
 
@@ -78,6 +80,7 @@ const Viewer = (() => {
     /** Draw everything in the present pose. */
     follow() {
       this.members.move(this.pose);
+      this.bodies.move();
       for (const part of [this.hinges, this.supports, this.joints, this.freedoms, this.nodeMark]) {
         part.move(this.pose);
       }
@@ -195,7 +198,8 @@ const Viewer = (() => {
     }
 
     showLayers() {
-      this.members.ghost.visible = Boolean(this.movement && this.layers.ghost);
+      const ghost = Boolean(this.movement && this.layers.ghost);
+      this.members.ghost.visible = this.bodies.ghost.visible = ghost;
       this.displacements.group.visible = Boolean(this.movement && this.layers.arrows);
       this.joints.group.visible = true;
       for (const part of [this.supports, this.freedoms]) part.group.visible = this.layers.symbols;
@@ -203,7 +207,9 @@ const Viewer = (() => {
 
     /** Mark an element or a node by its number. */
     mark({ element, node }) {
-      this.members.mark(this.memberOf.has(element) ? [this.memberOf.get(element)] : []);
+      const row = this.memberOf.get(element), body = this.bodies.bodyOf.get(row);
+      this.members.mark(row === undefined || body !== undefined ? [] : [row]);
+      this.bodies.mark(body === undefined ? -1 : body);
       this.nodeMark.node = this.placeOf(element, node);
       this.nodeMark.move(this.pose);
       this.stage.request();
@@ -238,7 +244,8 @@ const Viewer = (() => {
 
     /** The number by which the tables know what is pointed at. */
     targetOf({ kind, row }) {
-      const { nodes, members, hinges } = this.data;
+      const { nodes, members, hinges, bodies } = this.data;
+      if (kind === "body") return this.targetOf({ kind: "member", row: bodies.rows[row][0] });
       const { number } = { node: nodes, member: members, hinge: hinges }[kind];
       return { [kind === "node" ? "node" : "element"]: PageData.array(number)[row] };
     }
@@ -247,6 +254,7 @@ const Viewer = (() => {
     dress() {
       const chrome = CHROME[Theme.isDark() ? "dark" : "light"];
       this.members.dress(chrome);
+      this.bodies.dress(chrome);
       this.nodeMark.dress(chrome);
       this.stage.request();
     }

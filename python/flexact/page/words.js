@@ -37,6 +37,9 @@ const Words = (() => {
     return [...lines, ...(told.length ? told : ["no stress"])];
   }
 
+  /** Lines about a body. */
+  const body = (data, row) => [data.bodies.names[row], "rigid body"];
+
   function hinge(data, row, stress) {
     const told = stress ? quantities(data, stress.hinges, (values) => [values[row], values[row]]) : [];
     return [...element(data.hinges, row), ...told];
@@ -57,5 +60,5 @@ const Words = (() => {
     return lines;
   }
 
-  return { member, hinge, node, number, unitOf };
+  return { member, body, hinge, node, number, unitOf };
 })();

@@ -49,7 +49,7 @@ def add_members(
     members = drawing.members
     given = members.colour if colour is None else colour
     given = given if given.ndim == 3 else given[:, None]
-    for strip in stations(members, pose, segments, members.seen):
+    for strip in stations(members, pose, segments, drawing.seen):
         for body in solid(strip, members, planar=True):
             points = in_pieces(body.points, given.shape[1])
             pieces = points.shape[1] - 1

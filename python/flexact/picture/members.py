@@ -62,7 +62,7 @@ def add_solids(
         if (stress.pieces > 1 or stress.has_diagram) and len(members) <= FEW:
             segments = PIECES
         pieces = min(stress.pieces, segments)
-    for strip in stations(members, pose, segments, members.seen):
+    for strip in stations(members, pose, segments, drawing.seen):
         for body in solid(strip, members, corners=_corners(drawing, strip, detail)):
             points = in_pieces(body.points, pieces)
             at = np.linspace(0.0, 1.0, points.shape[1])
@@ -70,7 +70,8 @@ def add_solids(
                 stress.colours(body.member, at) if stress else members.colour[body.member][:, None]
             )
             edges = outline_of(members, body.member)
-            grid = Grid(points, own, members.opacity[body.member], edges)
+            joined = members.joined[body.member]
+            grid = Grid(points, own, members.opacity[body.member], edges, joined)
             add_grid(canvas, grid, shade=_SHADE_OF_STRESS if stress else SHADE)
 
 
@@ -85,9 +86,10 @@ def in_pieces(points: FloatArray, pieces: int) -> FloatArray:
 def add_ghosts(canvas: Canvas, drawing: Drawing, detail: Detail) -> None:
     """Draw the reference shape, pale and behind everything else."""
     members = drawing.members
-    for strip in stations(members, drawing.reference, detail.segments, members.seen):
+    for strip in stations(members, drawing.reference, detail.segments, drawing.seen):
         for body in solid(strip, members, corners=_corners(drawing, strip, detail)):
-            grid = Grid(body.points, GHOST_FACE[None, None], np.ones(1), GHOST_EDGE[None])
+            pale, joined = GHOST_FACE[None, None], members.joined[body.member]
+            grid = Grid(body.points, pale, np.ones(1), GHOST_EDGE[None], joined)
             add_grid(canvas, grid, layer=GHOST, shade=1.0)
 
 

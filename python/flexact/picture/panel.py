@@ -11,6 +11,7 @@ from ..drawing import Drawing, Pose, stations
 from ..drawing.view import View
 from . import flat, symbols
 from .arrows import add_displacements, add_freedoms, add_rotations
+from .bodies import add_bodies
 from .canvas import GHOST, Canvas
 from .members import (
     FEW,
@@ -65,6 +66,8 @@ def paint(
     else:
         if movement is not None:
             add_ghosts(canvas, drawing, detail)
+            _add_pale_bodies(canvas, drawing)
+        add_bodies(canvas, drawing, pose)
         add_solids(canvas, drawing, pose, detail, stress)
         symbols.add_joints(canvas, drawing, pose)
         symbols.add_hinges(canvas, drawing, pose, stress.hinge_colours() if stress else None)
@@ -77,6 +80,18 @@ def paint(
         add_displacements(canvas, drawing, pose)
         add_rotations(canvas, drawing, pose, movement.pose(1.0))
     return Panel(canvas, peaks)
+
+
+def _add_pale_bodies(canvas: Canvas, drawing: Drawing) -> None:
+    add_bodies(
+        canvas,
+        drawing,
+        drawing.reference,
+        face=GHOST_FACE,
+        edge=GHOST_EDGE,
+        layer=GHOST,
+        shade=1.0,
+    )
 
 
 def is_simplified(drawing: Drawing) -> bool:
@@ -93,12 +108,14 @@ def _paint_flat(
         flat.add_members(
             canvas, drawing, drawing.reference, detail.segments, pale, edge=GHOST_EDGE, layer=GHOST
         )
+        _add_pale_bodies(canvas, drawing)
     flat.add_supports(canvas, drawing, pose)
     colour, segments = None, 2 * detail.segments
     if stress is not None:
         segments = PIECES if count <= FEW else detail.segments
         colour = stress.colours(np.arange(count), np.linspace(0.0, 1.0, segments + 1))
     flat.add_members(canvas, drawing, pose, segments, colour)
+    add_bodies(canvas, drawing, pose)
     flat.add_hinges(canvas, drawing, pose, stress.hinge_colours() if stress else None)
 
 
@@ -111,3 +128,5 @@ def _leave_room(canvas: Canvas, drawing: Drawing, poses: list[Pose]) -> None:
                 side = wide[..., axis - 1] * strip.frame[..., axis]
                 canvas.room(strip.centre + side)
                 canvas.room(strip.centre - side)
+        for solid in drawing.solids:
+            canvas.room(solid.placed(drawing.members, drawing.reference, pose).corners)

@@ -80,6 +80,7 @@ class Moving(Frozen):
                     groups.append([item])
                 else:
                     same.append(item)
+        groups = self._with_points_as_one(groups)
         made = [
             BodyMotion(
                 tuple(item.body for item in group if item.body is not None),
@@ -190,6 +191,36 @@ class Moving(Frozen):
         joints.sort(key=lambda item: item.joint is not None and item.joint.orientation is None)
         return (*made, *joints)
 
+    def _with_points_as_one(self, groups: list[list[_Item]]) -> list[list[_Item]]:
+        """Groups of points without orientations joined, if they move as one body would."""
+        points = [group for group in groups if _is_of_points(group)]
+        items = [item for group in points for item in group]
+        screw = self._fitted(items) if len(points) > 1 else None
+        if screw is None:
+            return groups
+        joined = [item._replace(screw=self._moved(screw, item)) for item in items]
+        return [*(group for group in groups if not _is_of_points(group)), joined]
+
+    def _fitted(self, items: Sequence[_Item]) -> Screw | None:
+        """The screw that points move by, None where there is none or it is not the only one."""
+        places = np.array([item.screw.centre for item in items])
+        moved = np.array([item.screw.velocity for item in items])
+        centre, mean = places.mean(axis=0), moved.mean(axis=0)
+        arms = (places - centre) / self._length
+        axes = (2,) if self.outcome.given.planar else (0, 1, 2)
+        matrix = np.stack([np.cross(np.eye(3)[axis], arms).ravel() for axis in axes], axis=1)
+        turns, _, rank, _ = np.linalg.lstsq(matrix, (moved - mean).ravel(), rcond=self.rounding)
+        off = np.abs(matrix @ turns - (moved - mean).ravel()).max()
+        if rank < len(axes) or off > 10.0 * self._rest:
+            return None
+        rotation = np.zeros(3)
+        rotation[list(axes)] = turns / self._length
+        return self._screw(rotation, mean, centre)
+
+    def _moved(self, screw: Screw, item: _Item) -> Screw:
+        """A screw as it is seen from a point."""
+        return self._screw(screw.rotation, item.screw.velocity, item.screw.centre)
+
     def _key_of_body(self, body: int) -> tuple[object, ...]:
         part = self.outcome.carriers.bodies[body]
         name = natural(part.name) if part.is_named else ()
@@ -257,6 +288,11 @@ class _Item(NamedTuple):
     screw: Screw
     body: Part | None
     joint: Joint | None
+
+
+def _is_of_points(group: Sequence[_Item]) -> bool:
+    """Whether none of a group is a body or has an orientation."""
+    return all(item.joint is not None and item.joint.orientation is None for item in group)
 
 
 class Moves:
