@@ -179,7 +179,7 @@ def test_insert_turns_first() -> None:
 
 
 def test_a_deck_can_be_inserted() -> None:
-    deck = flexact.read("input_decks/flexures/cross_hinge.dat")
+    deck = flexact.read("input_decks/flexures/cross_hinge_undeclared.dat")
     model = Model()
     model.insert(deck, degrees=40, axis=(1, 2, 3))
     model.insert(deck, at=(1, 0, 0), names="second {}")
