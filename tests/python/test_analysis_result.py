@@ -70,7 +70,8 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
         *("margin", "margins", "accuracy", "degrees_of_freedom", "counts"),
         *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
         *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),
-        *("condition_number", "certainty", "proof", "nearly", "alternatives", "freedoms"),
+        *("condition_number", "certainty", "proof", "nearly", "alternatives", "parts"),
+        *("internal_motions", "freedoms"),
         *("motions", "self_stresses", "advice", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"

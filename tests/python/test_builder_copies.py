@@ -64,6 +64,10 @@ def test_names_of_a_pattern_are_numbered() -> None:
     )
     assert (first["clamp"].name, second["clamp"].name) == ("clamp 1", "clamp 2")
     assert model.part("flexure 2, leaf 1") == second["flexure, leaf 1"]
+    again = leg()
+    again.pattern(2, "z", parts=["flexure, leaf 1", "flexure, leaf 2"], names="{} {}")
+    assert again.element_names == model.element_names
+    assert again.point("clamp 1").place == (0.1, -0.05, 0)
 
 
 def test_parts_of_a_copy_keep_sections_material_and_classes() -> None:
@@ -179,7 +183,7 @@ def test_insert_turns_first() -> None:
 
 
 def test_a_deck_can_be_inserted() -> None:
-    deck = flexact.read("input_decks/flexures/cross_hinge.dat")
+    deck = flexact.read("input_decks/flexures/cross_hinge_undeclared.dat")
     model = Model()
     model.insert(deck, degrees=40, axis=(1, 2, 3))
     model.insert(deck, at=(1, 0, 0), names="second {}")
@@ -255,6 +259,43 @@ def test_classes_of_single_coordinates_turn_along_the_axes_or_not_at_all() -> No
         for wire in wires
     ]
     assert classes == [[2, 1, 1], [1, 2, 1]]
+
+
+def test_single_classes_on_the_axis_stay_where_the_point_is_shared_alone() -> None:
+    model = Model()
+    model.wire((0, 0, 0), (1, 0, 0), name="wire")
+    model.fix((0, 0, 0), "x")
+    model.pattern(3, "z")
+    assert model.coordinate_classes[0].tolist() == [1, 2, 2]
+    other = Model()
+    for call in (
+        lambda: model.pattern(3, "z", join=False),
+        lambda: model.rotate("z", 45),
+        lambda: other.insert(model, degrees=45),
+    ):
+        with pytest.raises(ModelError) as error:
+            call()
+        assert code_of(error) == "turned-class"
+    assert model.element_numbers.size == 3 and other.element_numbers.size == 0
+
+
+def test_a_copy_that_fails_leaves_nothing_behind() -> None:
+    """The clamp comes to lie on a point that is driven: two classes."""
+    model = Model()
+    model.wire((0, 0, 0), (1, 0, 0), name="wire", section=0.001)
+    model.fix((0, 0, 0))
+    model.independent((1, 0, 0), "y")
+    before = model.to_deck()
+    for call in (
+        lambda: model.mirror("yz", at=(0.5, 0, 0)),
+        lambda: model.pattern(3, step=(1, 0, 0)),
+    ):
+        with pytest.raises(ModelError) as error:
+            call()
+        assert code_of(error) == "class-conflict"
+        assert model.to_deck() == before
+    assert model.node(5, 5, 5).position == 5, "no node was added"
+    assert model.part("wire").name == "wire"
 
 
 def test_inertia_turns_with_its_body() -> None:

@@ -139,7 +139,7 @@ def test_deleting_what_was_added_gives_the_model_back(seed: int, planar: bool) -
 
 
 def test_a_deck_can_be_edited() -> None:
-    model = flexact.read("input_decks/flexures/cross_hinge.dat")
+    model = flexact.read("input_decks/flexures/cross_hinge_undeclared.dat")
     model.delete("second sheet")
     model.delete(model.handle(21, 22))
     analysis = analyse(model)

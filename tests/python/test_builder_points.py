@@ -116,6 +116,28 @@ def test_a_place_without_a_point_cannot_be_fixed() -> None:
         assert code_of(error) == "no-such-point"
 
 
+def test_points_and_parts_are_not_mixed_up() -> None:
+    model = Model()
+    model.sheet((0, 0, 0), (1, 0, 0), "z", name="sheet 1")
+    for call in (
+        lambda: model.independent("sheet 1", "y"),
+        lambda: model.fix("sheet 1"),
+        lambda: model.fix(model.part("sheet 1")),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(ModelError) as error:
+            call()
+        assert code_of(error) == "not-a-node"
+
+
+def test_what_is_fixed_with_a_wrong_point_is_not_fixed() -> None:
+    model = Model()
+    a = model.wire((0, 0, 0), (1, 0, 0)).nodes[0]
+    for wrong in ((9, 9, 9), "clamp", 99, Model().node(0, 0, 0)):
+        with pytest.raises(ModelError):
+            model.fix(a, wrong)  # type: ignore[arg-type]
+    assert (model.coordinate_classes == 2).all()
+
+
 def test_handles_are_readable_comparable_and_frozen() -> None:
     model = Model()
     clamp = model.node(0, 0, 0, name="clamp 1")

@@ -110,6 +110,9 @@ def test_parts_can_be_given_their_material_afterwards() -> None:
     axial = [draft.properties.stiffness[k][0] for k in (0, 1)]
     assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
     assert set(draft.properties.stiffness) == {0, 1}, "the body has none"
+    with pytest.raises(ModelError) as error:
+        model.made_of("hinge body", "steel")
+    assert code_of(error) == "no-section"
 
 
 def test_common_materials_are_isotropic_within_reason() -> None:

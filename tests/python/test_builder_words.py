@@ -75,7 +75,7 @@ def test_what_was_released_can_be_held_again() -> None:
         (lambda m: m.release("sheet 1", "bending", at=m.node(5, 5, 5)), "no-end", "ends"),
         (lambda m: m.release("shet 1", "twist"), "no-such-part", "'sheet 1'"),
         (lambda m: m.release("sheet 1", 7), "component-out-of-range", "1 to 6"),
-        (lambda m: m.release("clamp 1", "twist"), "no-such-part", ""),
+        (lambda m: m.release("clamp 1", "twist"), "not-an-element", "part"),
     ],
 )
 def test_wrong_words_name_the_part(call: Callable[[Model], object], code: str, help_: str) -> None:
@@ -87,6 +87,14 @@ def test_wrong_words_name_the_part(call: Callable[[Model], object], code: str, h
     assert problem.message.startswith("release '")
     assert help_ in problem.help
     assert model.deformation_classes.tolist() == [[1, 2, 1, 1, 2, 2]]
+
+
+def test_an_end_is_also_the_body_there() -> None:
+    model = Model()
+    guide = model.parallel_guide((0, 0, 0), (0.1, 0, 0), (0, 0.05, 0))
+    model.release("sheet 1", "in-plane bending", at="stage")
+    model.release("sheet 2", "in-plane bending", at=guide.body)
+    assert model.deformation_classes.tolist()[:2] == [[1, 2, 1, 2, 2, 2]] * 2
 
 
 def test_a_beam_has_a_plane_only_by_its_section() -> None:

@@ -71,6 +71,23 @@ def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> 
             )
 
 
+def components(analysis: flexact.Analysis) -> list[list[tuple[str, str, float]]]:
+    """Of each self-stress in the JSON: part, word and value."""
+    return [
+        [(each["name"], each["word"], round(each["value"], 9)) for each in mode["components"]]
+        for mode in analysis.to_dict()["self_stresses"]
+    ]
+
+
+@pytest.mark.parametrize("name", ["parallel guide", "cross hinge"])
+def test_the_json_has_the_components_of_one_beam(name: str) -> None:
+    one = components(analyse(MAKERS[name](Division())))
+    assert len(one) == 1 and len(one[0]) >= 5
+    for beams, amplitude in ((2, 0.0), (7, 1e-3)):
+        several = Division(beams=beams, amplitude=amplitude, against=True)
+        assert components(analyse(MAKERS[name](several))) == one
+
+
 @pytest.mark.parametrize("name", MAKERS)
 def test_beams_need_no_names(name: str) -> None:
     how = Division(named=False)

@@ -78,8 +78,11 @@ def test_its_verdict_is_known(name: str) -> None:
 
 @pytest.mark.parametrize("name", VERDICTS)
 def test_every_part_has_a_name_of_its_own(name: str) -> None:
-    names = model_of(name).element_names
+    model = model_of(name)
+    names = model.element_names
     assert all(names) and len(set(names)) == len(names)
+    points = list(model._change().node_names.values())
+    assert len(set(points)) == len(points)
 
 
 def test_a_cross_hinge_of_two_steel_sheets_takes_few_statements() -> None:

@@ -84,6 +84,7 @@ class Members(Elements):
         round: (k,) whether the section is an ellipse, else a rectangle.
         stiff: (k,) whether every deformation is held: drawn without any change of length.
         bends: (k,) whether it is drawn as a beam's cubic curve.
+        joined: (k, 2) whether the same sheet or wire goes on at p and at q.
         across: (k, 2, 2) along ey and ez, the directions across it of `ModelData.across`.
         edge_colour: (k, 3) like their colours; NaN where none is given.
     """
@@ -94,6 +95,7 @@ class Members(Elements):
     round: np.ndarray
     stiff: np.ndarray
     bends: np.ndarray
+    joined: np.ndarray
     across: FloatArray
     edge_colour: FloatArray
 
@@ -142,6 +144,7 @@ def members_of(data: ModelData, size: float) -> Members:
         round=round_,
         stiff=stiff,
         bends=is_member(kind, Member.BEAM) & ~stiff,
+        joined=_joined(data)[index],
         across=data.across[index] @ frame[..., 1:],
         edge_colour=appearance.edge_colour[index],
     )
@@ -154,6 +157,18 @@ def _whole_lengths(data: ModelData) -> FloatArray:
     for chain in data.chains:
         ends = place[[chain.positions[0], chain.positions[-1]]]
         made[list(chain.elements)] = np.linalg.norm(ends[1] - ends[0])
+    return made
+
+
+def _joined(data: ModelData) -> np.ndarray:
+    """(elements, 2) whether the same sheet or wire goes on at p and at q."""
+    made = np.zeros((data.arrays.element_number.size, 2), bool)
+    drawn = data.appearance.drawn
+    for chain in data.chains:
+        row, against = np.array(chain.elements), np.array(chain.reversed).astype(int)
+        goes_on = drawn[row[:-1]] & drawn[row[1:]]
+        made[row[:-1], 1 - against[:-1]] = goes_on
+        made[row[1:], against[1:]] = goes_on
     return made
 
 

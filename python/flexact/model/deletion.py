@@ -55,10 +55,10 @@ def delete_point(draft: Draft, point: Node) -> None:
     nodes = {point.position, point.orientation}
     users = [i for i, slots in enumerate(draft.slots) if nodes & set(slots)]
     if users:
-        names = dict.fromkeys(part_name(draft.names.get(i, "")) or _number(draft, i) for i in users)
+        names = dict.fromkeys(_part_words(draft, i) for i in users)
         raise model_error(
             "in-use",
-            f"{point!r} is used by {', '.join(map(in_short, names))}",
+            f"{point.words} is used by {', '.join(names)}",
             "delete these parts first, or move the point",
         )
     for number in nodes:
@@ -66,8 +66,9 @@ def delete_point(draft: Draft, point: Node) -> None:
     draft.changed_names_or_places()
 
 
-def _number(draft: Draft, index: int) -> str:
-    return f"element {draft.numbers[index]}"
+def _part_words(draft: Draft, index: int) -> str:
+    name = part_name(draft.names.get(index, ""))
+    return in_short(name) if name else draft.element_words(index)
 
 
 def _drop_node(draft: Draft, number: int) -> None:

@@ -12,7 +12,7 @@ from .arguments import whole
 from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import ambiguous, unknown
-from .point_arguments import is_rigid, require_own
+from .point_arguments import is_rigid, require_own, whole_point
 from .words import SIDE_VIEW, WIDE_Y, WIDE_Z, Planes
 
 #: A part: its handle, its name, or the number of an element.
@@ -60,6 +60,12 @@ def named(draft: Draft, name: str) -> Part | Element:
         single = [i for i, each in draft.names.items() if each == name]
         if len(single) == 1:
             return of_indices(draft, single)
+        if name in draft.points_by_name:
+            raise model_error(
+                "not-an-element",
+                f"{in_short(name)} is a point and has no deformations",
+                "name a part",
+            )
         raise unknown("no-such-part", "part", name, draft.parts_by_name)
     exact = [i for i in indices if draft.names[i] == name]
     if len(exact) > 1 or (exact and len(indices) > 1):
@@ -93,8 +99,10 @@ def _points(draft: Draft, indices: list[int]) -> tuple[Node, ...]:
     found: dict[int, Node] = {}
     for index in indices:
         p, op, q, oq = draft.slots[index]
-        for position, orientation in ((p, op), (q, oq or draft.orientation_at.get(q, 0))):
-            found.setdefault(position, Node(position, orientation, draft.owner))
+        found.setdefault(p, Node(p, op, draft.owner))
+        if q not in found:
+            # An RBEAM of a deck carries no orientation at q.
+            found[q] = Node(q, oq, draft.owner) if oq else whole_point(draft, q)
     return tuple(found.values())
 
 

@@ -30,7 +30,10 @@ def span(draft: Draft, p: Node, q: Node) -> Vector:
 def normal_to(a: Vector, b: Vector) -> Vector:
     """The unit normal of the plane of two vectors; zero where they are parallel."""
     made = cross(unit(a), unit(b))
-    return unit(made) if math.hypot(*made) > _PARALLEL else NO_VECTOR
+    if math.hypot(*made) <= _PARALLEL:
+        return NO_VECTOR
+    x, y, z = unit(made)
+    return x + 0.0, y + 0.0, z + 0.0
 
 
 def sheet_normal(draft: Draft, p: Node, q: Node, width: Direction | None) -> Vector | None:
@@ -43,7 +46,11 @@ def sheet_normal(draft: Draft, p: Node, q: Node, width: Direction | None) -> Vec
             raise model_error("surplus-vector", "the width of a sheet in a planar model is along z")
         return None
     if width is None:
-        raise model_error("missing-vector", "a sheet needs the direction of its width")
+        raise model_error(
+            "missing-vector",
+            "a sheet needs the direction of its width",
+            'give width=(x, y, z), or "x", "y" or "z"',
+        )
     wide = direction(width, "width")
     along = unit(span(draft, p, q))
     if along == NO_VECTOR:

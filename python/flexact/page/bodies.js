@@ -47,7 +47,7 @@ const Bodies = (() => {
         const index = chosen.flatMap((t) => Array.from(this.triangles.subarray(3 * t, 3 * t + 3)));
         const material = new THREE.MeshLambertMaterial({
           vertexColors: true, flatShading: true, transparent: translucent,
-          depthWrite: !translucent, side: planar ? DoubleSide : THREE.FrontSide,
+          depthWrite: !translucent, ...(planar ? { side: DoubleSide } : {}),
           polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
         });
         const mesh = new Mesh(Members.indexed(attributes, index), material);

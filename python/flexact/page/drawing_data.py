@@ -150,6 +150,7 @@ def _members(frame: Frame) -> dict[str, Any]:
         "round": flags(every.round[some]),
         "bends": flags(every.bends[some]),
         "across": floats(every.across[some]),
+        "joined": flags(every.joined[some]),
         "shown": flags(~frame.drawing.in_solid[some]),
         "colour": flags(_bytes(own)),
         "edge": flags(_bytes(edge)),

@@ -38,7 +38,8 @@ const Shapes = (() => {
       station[m + 1] = station[m] + stations[m];
       vertex[m + 1] = vertex[m] + stations[m] * corners[m];
     }
-    return { count, segments, stations, corners, station, vertex, wide, round, smooth };
+    const joined = PageData.array(members.joined);
+    return { count, segments, stations, corners, station, vertex, wide, round, smooth, joined };
   }
 
   /** The local axis along which a thin section is wide: 1 or 2; 0 of others. */

@@ -71,6 +71,7 @@ const Surfaces = (() => {
         for (let j = 0; j < c; j++) index.push(first + s * c + j, first + (s + 1) * c + j);
       }
       for (const at of [first, first + last * c]) {
+        if (plan.joined[2 * m + (at > first ? 1 : 0)]) continue;
         for (let j = 0; j < (c > 2 ? c : 1); j++) index.push(at + j, at + ((j + 1) % c));
       }
     }

@@ -70,7 +70,8 @@ def add_solids(
                 stress.colours(body.member, at) if stress else members.colour[body.member][:, None]
             )
             edges = outline_of(members, body.member)
-            grid = Grid(points, own, members.opacity[body.member], edges)
+            joined = members.joined[body.member]
+            grid = Grid(points, own, members.opacity[body.member], edges, joined)
             add_grid(canvas, grid, shade=_SHADE_OF_STRESS if stress else SHADE)
 
 
@@ -87,7 +88,8 @@ def add_ghosts(canvas: Canvas, drawing: Drawing, detail: Detail) -> None:
     members = drawing.members
     for strip in stations(members, drawing.reference, detail.segments, drawing.seen):
         for body in solid(strip, members, corners=_corners(drawing, strip, detail)):
-            grid = Grid(body.points, GHOST_FACE[None, None], np.ones(1), GHOST_EDGE[None])
+            pale, joined = GHOST_FACE[None, None], members.joined[body.member]
+            grid = Grid(body.points, pale, np.ones(1), GHOST_EDGE[None], joined)
             add_grid(canvas, grid, layer=GHOST, shade=1.0)
 
 

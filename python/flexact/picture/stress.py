@@ -122,7 +122,7 @@ def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]
         member = strip.member[rows]
         colour = stress.colours_of((value[:, 1:] + value[:, :-1]) / 2)
         above = _ABOVE * drawing.size + _depth(canvas, drawing, member, 1 - row_across)
-        _add_outlined(canvas, centre, tops, colour, above)
+        _add_outlined(canvas, centre, tops, colour, above, part.ends)
         for row, peak in enumerate(_peaks(value)):
             place, foot = (tuple(each[row, peak].tolist()) for each in (tops, centre))
             peaks.append(Peak(place, foot, float(value[row, peak])))
@@ -138,6 +138,8 @@ class _Diagram(NamedTuple):
     """(k, s, 3) unit vectors to the side that a positive moment stretches."""
     value: FloatArray
     """(k, s) moments."""
+    ends: np.ndarray
+    """(k, 2) which ends are those of the whole sheet or wire."""
 
     @classmethod
     def of(cls, drawing: Drawing, stress: Stress, strip: Strip, rows: np.ndarray) -> _Diagram:
@@ -151,8 +153,10 @@ class _Diagram(NamedTuple):
         turned = signs_of(centre[:, 1] - centre[:, 0]) < 0.0
         ends = np.concatenate((centre, off, value[..., None]), axis=2)
         ends[turned] = ends[turned, ::-1]
+        last = ~drawing.members.joined[member]
+        last[turned] = last[turned, ::-1]
         every = (1 - at)[None, :, None] * ends[:, :1] + at[None, :, None] * ends[:, 1:]
-        return cls(every[..., :3], every[..., 3:6], every[..., 6])
+        return cls(every[..., :3], every[..., 3:6], every[..., 6], last)
 
 
 def _peaks(value: FloatArray) -> list[int]:
@@ -179,8 +183,9 @@ def _add_outlined(
     tops: FloatArray,
     colour: FloatArray,
     above: FloatArray,
+    ends: np.ndarray,
 ) -> None:
-    """Strips between an axis and the tops, with their outlines; `above` is (k,)."""
+    """Strips between an axis and the tops, with their outlines; `above` is (k,), `ends` (k, 2)."""
     quads = np.stack((centre[:, :-1], centre[:, 1:], tops[:, 1:], tops[:, :-1]), axis=2)
     pale = 0.55 + 0.45 * colour.reshape(-1, 3)
     canvas.polygons(quads.reshape(-1, 4, 3), pale, nearer=np.repeat(above, quads.shape[1]))
@@ -192,12 +197,16 @@ def _add_outlined(
         nearer = np.repeat(above, pieces.shape[1])
         canvas.lines(pieces.reshape(-1, 2, 3), ink, width, nearer=nearer)
     sides = np.stack((centre[:, [0, -1]], tops[:, [0, -1]]), axis=2).reshape(-1, 2, 3)
-    canvas.lines(sides, ink, 1.1, nearer=np.repeat(above, 2))
+    chosen = ends.ravel()
+    canvas.lines(sides[chosen], ink, 1.1, nearer=np.repeat(above, 2)[chosen])
 
 
 def _to_be_named(peaks: list[Peak], largest: float) -> list[Peak]:
     """The peaks whose values are told; of many, each value once."""
     peaks = [peak for peak in peaks if abs(peak.value) >= _NAMED * largest]
     if len(peaks) > _MOST_NAMED // 2:
-        peaks = list({f"{peak.value:.2g}": peak for peak in peaks}.values())
+        alike: dict[str, list[Peak]] = {}
+        for peak in peaks:
+            alike.setdefault(f"{peak.value:.2g}", []).append(peak)
+        peaks = [every[len(every) // 2] for every in alike.values()]
     return peaks if len(peaks) <= _MOST_NAMED else []

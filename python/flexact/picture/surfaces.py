@@ -38,12 +38,14 @@ class Grid(Frozen):
         colour: (k, s - 1, 3) or what fits that, one a piece between two stations.
         opacity: (k,) or (1,).
         outline: (k, 3) or (1, 3) colour of the edges.
+        joined: (k, 2) which ends, first and last, have no edges.
     """
 
     points: FloatArray
     colour: FloatArray
     opacity: FloatArray
     outline: FloatArray
+    joined: np.ndarray | None = None
 
 
 def lit(normal: FloatArray, view: View, shade: float = SHADE) -> FloatArray:
@@ -81,13 +83,14 @@ def add_grid(canvas: Canvas, grid: Grid, *, layer: int = SOLID, shade: float = S
     member, station, corner = np.nonzero((front | before) & (sharp | (front != before)))
     edges = [np.stack([grid.points[member, station + i, corner] for i in (0, 1)], axis=1)]
     owners = [member]
+    joined = np.zeros((k, 2), bool) if grid.joined is None else grid.joined
     for end, turn in ((0, -1), (-1, 1)):
         ring = grid.points[:, end]
         cap = _normal_of_rings(ring[:, ::turn])
         faces = cap @ canvas.view.axes[2] > 1.0e-9
         shaded = colour[faces, end] * lit(cap[faces], canvas.view, shade)
         canvas.polygons(ring[faces], shaded, opacity=opacity[faces], layer=layer)
-        there = np.any(cap != 0.0, axis=1)[:, None]
+        there = (np.any(cap != 0.0, axis=1) & ~joined[:, end])[:, None]
         member, corner = np.nonzero((front[:, end] | faces[:, None]) & there)
         edges.append(np.stack((ring[member, corner], ring[member, (corner + 1) % c]), axis=1))
         owners.append(member)

@@ -37,6 +37,8 @@ class Joint(NamedTuple):
             return "a joint"
         if len(names) > _MOST_NAMED:
             names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
+        if not names:
+            return "a free joint"
         return f"the joint of {' and '.join(names)}" if len(names) > 1 else f"the end of {names[0]}"
 
 

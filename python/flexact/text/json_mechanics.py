@@ -14,6 +14,7 @@ from ..result.result import Result
 from ..result.screws import Screw, ScrewKind
 from ..result.wrenches import Wrench
 from .motions import MOST_NODES
+from .places import place_words
 from .self_stresses import moments_at_ends
 
 #: With more elements than these the parts are not listed.
@@ -109,6 +110,7 @@ def _stressed(result: Result, index: int, one: PartStress) -> Entries:
         }
     return {
         "part": one.part.name,
+        "ends": [_end(result, one, end.position) for end in one.ends],
         "normal_force": {"value": one.normal_force, "unit": "N"},
         "twist_moment": {"value": one.twist_moment, "unit": "N m"},
         "shear_force": _vector(one.shear_force, "N"),
@@ -117,9 +119,25 @@ def _stressed(result: Result, index: int, one: PartStress) -> Entries:
     }
 
 
+def _end(result: Result, one: PartStress, position: int | None) -> Entries:
+    """An end of a part, in the order of its moments."""
+    if position is None:
+        return {"node": None, "words": ""}
+    number = int(result.given.arrays.node_number[position])
+    return {"node": number, "words": place_words(result.parts, position, one.part)}
+
+
 def _conflict(conflict: Conflict) -> Entries:
+    over = conflict.over
     return {
         "on": _called(conflict.on),
+        "over": None
+        if over is None
+        else {
+            "kind": over.kind.value,
+            "direction": over.direction.tolist(),
+            "point": _vector(over.point, "m"),
+        },
         "loads": [
             {"part": None if load.part is None else load.part.name, **_wrench(load.wrench)}
             for load in conflict.loads

@@ -93,7 +93,9 @@ class ModesTable(NamedTuple):
 def motions(result: Result) -> ModesTable:
     """The motions: displacements [m] and rotations [rad] of nodes."""
     raw, arrays = result.raw, result.data.arrays
-    name_of = cache(partial(node_name, result))
+    # Where no point has a name, nobody has to look for each.
+    named = result.motion_basis.vectors > 0 and any(result.given.node_names)
+    name_of = cache(partial(node_name, result)) if named else lambda _: ""
 
     def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
         node, axis = raw.column_label[:, places] - 1
@@ -113,21 +115,20 @@ def motions(result: Result) -> ModesTable:
 
 def self_stresses(result: Result) -> ModesTable:
     """The self-stresses: forces [N] and moments [N m], beside the raw entries of U."""
-    raw, arrays = result.raw, result.data.arrays
+    arrays = result.given.arrays
     # Names of a deck are cut out of its text.
-    name_of = cache(result.data.element_names.__getitem__)
+    name_of = cache(result.given.element_names.__getitem__)
 
     def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
-        element, deformation = raw.row_label[:, places]
-        index = element - 1
+        index, deformations = _in_given(result, places)
         kinds = arrays.element_kind[index]
         force = row_duals(result, places) == Dual.FORCE
         return (
             arrays.element_number[index].tolist(),
             list(map(name_of, index.tolist())),
             list(keywords_of(kinds)),
-            deformation.tolist(),
-            list(map(deformation_word, kinds.tolist(), deformation.tolist())),
+            deformations,
+            list(map(deformation_word, kinds.tolist(), deformations)),
             (value * row_factors(result, places)).tolist(),
             np.where(force, "N", "N m").tolist(),
             value.tolist(),
@@ -135,3 +136,13 @@ def self_stresses(result: Result) -> ModesTable:
 
     keys = ("element", "name", "keyword", "deformation", "word", "value", "unit", "raw")
     return ModesTable(keys, result.stress_basis, columns, partial(of_self_stress, result))
+
+
+def _in_given(result: Result, places: IntArray) -> tuple[IntArray, list[int]]:
+    """Indices of elements in the model as given, and their deformations, of rows of D(c)."""
+    element, deformation = result.raw.row_label[:, places]
+    condensed = result.condensed
+    if not condensed.chains:
+        return condensed.elements[element - 1], deformation.tolist()
+    found = list(map(cache(condensed.in_given), (element - 1).tolist(), deformation.tolist()))
+    return np.array([index for index, _ in found], np.int32), [own for _, own in found]
