@@ -92,15 +92,18 @@ class Moving(Frozen):
         return tuple(sorted(made, key=lambda one: one.is_joint))
 
     def of(self, body: object) -> Screw:
-        """The screw of a body; one that does not move is of the kind `NONE`.
+        """The screw of a body or joint; one that does not move is of the kind `NONE`.
 
         Args:
             body: Its name, its part, what the model handed out for it, or its index among
-                `analysis.parts.bodies`.
+                `analysis.parts.bodies`; of a joint its name or handle.
 
         Raises:
-            ModelError: there is no such body, or it is none.
+            ModelError: there is no such body or joint, or it is none.
         """
+        joint = self._joint(body)
+        if joint is not None:
+            return self._of_joint(joint)
         bodies = self.outcome.carriers.bodies
         if isinstance(body, int) and not isinstance(body, bool):
             if not 0 <= body < len(bodies):
@@ -150,6 +153,18 @@ class Moving(Frozen):
             for inside in self.outcome.carriers.insides
             if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
         )
+
+    def _joint(self, target: object) -> Joint | None:
+        """The joint of a name, or at the point of a handle; None where there is not just one."""
+        joints = self.outcome.carriers.joints
+        if isinstance(target, str):
+            found = [joint for joint in joints if joint.name == target]
+        elif hasattr(target, "position"):
+            position = position_of(self.outcome.parts, target)
+            found = [joint for joint in joints if joint.position == position]
+        else:
+            return None
+        return found[0] if len(found) == 1 else None
 
     # What it is made of -----------------------------------------------------
 

@@ -143,8 +143,8 @@ class Carriers:
     def _key(self, joint: Joint) -> tuple[object, ...]:
         place = self.place_of(joint)
         rounded = () if place is None else tuple(np.round(place / self._step, 9).tolist())
-        here = joint.parts[0] if joint.parts and joint.parts[0].is_named else None
-        return natural(joint.name or (here.name if here else "")), rounded, joint.orientation or -1
+        here = next((part.name for part in joint.parts if part.is_named), "")
+        return natural(joint.name or here), rounded, joint.orientation or -1
 
     @cached_property
     def _step(self) -> float:
