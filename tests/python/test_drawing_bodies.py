@@ -122,7 +122,7 @@ def test_the_picture_shows_the_solid_where_it_is() -> None:
     inside = np.array([high[0], 0.01, 0.8 * high[2]])
     red, green, blue = pixels.at(inside)
     assert max(red, green, blue) < 200 and np.ptp([red, green, blue]) < 20
-    assert min(pixels.at(inside + [0.0, 0.0, 3.0 * high[2]])) == 255
+    assert min(pixels.at(np.add(inside, [0.0, 0.0, 3.0 * high[2]]))) == 255
 
 
 def test_a_mesh_has_the_solid_as_the_surface_of_its_first_link() -> None:
