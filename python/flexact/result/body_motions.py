@@ -17,7 +17,7 @@ from ..model.parts.parts import Part, PartKind, natural
 from .carriers import Joint
 from .handles import part_of, position_of
 from .outcome import Outcome
-from .screws import ROUNDING, Screw, screw_of
+from .screws import Screw, screw_of
 
 
 class NodeMotion(NamedTuple):
@@ -165,22 +165,8 @@ class Moving(Frozen):
         return made
 
     @cached_property
-    def rounding(self) -> float:
-        """What part of the motion may be rounding: 1e-9, or more where D(c) is nearly singular.
-
-        A null vector is off by the noise over the gap (Wedin 1972; Stewart and Sun, *Matrix
-        Perturbation Theory*, 1990, theorem V.4.4), at most.
-        """
-        above = self.outcome.gap.smallest_nonzero
-        return (
-            max(ROUNDING, min(1.0e-3, 10.0 * self.outcome.raw.noise / above))
-            if above
-            else (ROUNDING)
-        )
-
-    @cached_property
     def _rest(self) -> float:
-        return self.rounding * float(self._size.max(initial=0.0))
+        return self.outcome.rounding * float(self._size.max(initial=0.0))
 
     @cached_property
     def _items(self) -> tuple[_Item, ...]:
@@ -209,7 +195,9 @@ class Moving(Frozen):
         arms = (places - centre) / self._length
         axes = (2,) if self.outcome.given.planar else (0, 1, 2)
         matrix = np.stack([np.cross(np.eye(3)[axis], arms).ravel() for axis in axes], axis=1)
-        turns, _, rank, _ = np.linalg.lstsq(matrix, (moved - mean).ravel(), rcond=self.rounding)
+        turns, _, rank, _ = np.linalg.lstsq(
+            matrix, (moved - mean).ravel(), rcond=self.outcome.rounding
+        )
         off = np.abs(matrix @ turns - (moved - mean).ravel()).max()
         if rank < len(axes) or off > 10.0 * self._rest:
             return None
@@ -249,7 +237,7 @@ class Moving(Frozen):
         return screw_of(
             *(rotation, velocity, centre, self._length),
             rest=self._rest,
-            rounding=self.rounding,
+            rounding=self.outcome.rounding,
         )
 
     def _is_same(self, one: _Item, other: _Item) -> bool:

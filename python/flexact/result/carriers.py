@@ -33,6 +33,8 @@ class Joint(NamedTuple):
         if self.name:
             return self.name
         names = [part.name for part in self.parts]
+        if not names:
+            return "a joint"
         if len(names) > _MOST_NAMED:
             names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
         if not names:

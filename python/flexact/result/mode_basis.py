@@ -123,7 +123,7 @@ def internal_motions(outcome: Outcome, basis: Basis) -> int:
     largest = np.zeros(basis.vectors)
     weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
     np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
-    return int(np.count_nonzero(largest <= _UNSEEN))
+    return int(np.count_nonzero(largest <= outcome.rounding))
 
 
 def _kept(key: Key) -> Key:
