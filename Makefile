@@ -10,13 +10,13 @@ PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist workstea
 
 # What make check asks of the package: see CONTRIBUTING.md.
 QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
-         derivatives certainty advice advice_on_declarations modes broken_decks no_cascades \
+         derivatives certainty accuracy json advice advice_on_declarations modes broken_decks no_cascades \
          diagnostics_rendering reading regress cli outputs wording docs version package_files
 
 # Tests that compare words with files.
 WORDED := wording broken_decks appearance docs element_table
 
-.PHONY: demo test check core-test lint wording attack bench clean
+.PHONY: demo test check core-test lint wording gallery attack bench clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -48,6 +48,10 @@ lint: .venv/ready-to-test
 wording: .venv/ready-to-test
 	$(BIN)/python -m pytest --renew-wording $(WORDED:%=tests/python/test_%.py)
 	git diff --stat -- tests/python/golden tests/python/decks input_decks/broken README.md docs
+
+# Pages of the gallery, and in results/gallery those that move.
+gallery: .venv/ready-to-run
+	$(BIN)/python tools/gallery.py results/gallery
 
 # Random decks with exact counts, until stopped with Ctrl-C; offending ones go to build/attack.
 attack: .venv/ready-to-test

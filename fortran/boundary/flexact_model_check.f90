@@ -26,14 +26,13 @@ contains
                                 'give every element nodes of the kinds that it joins')
          return
       end if
-      call check_model(model, diagnostics)
-      if (diagnostics%has_errors()) return
       names%text => text
       allocate (names%element(model%elements), names%node(model%nodes))
       names%element%first = place(1, :model%elements)
       names%element%last = place(2, :model%elements)
       names%node%first = place(1, model%elements + 1:)
       names%node%last = place(2, model%elements + 1:)
-      call check_silent_mistakes(model, names, diagnostics)
+      call check_model(model, names, diagnostics)
+      if (.not. diagnostics%has_errors()) call check_silent_mistakes(model, names, diagnostics)
    end subroutine check_made_model
 end module flexact_model_check

@@ -28,6 +28,7 @@ contains
       integer, intent(out) :: unused
       type(diagnostics_t), target, intent(inout) :: diagnostics
       type(statement_t), allocatable :: statements(:)
+      type(names_t) :: names
       integer :: count
 
       unused = 0
@@ -45,9 +46,12 @@ contains
             call read_properties(all_statements, deck)
             call read_forms(all_statements, deck)
          end if
-         call check_model(deck%model, diagnostics)
+         names%text => text
+         names%element = deck%element_names
+         names%node = deck%node_names
+         call check_model(deck%model, names, diagnostics)
          if (.not. diagnostics%has_errors()) then
-            call check_silent_mistakes(deck%model, names_t(deck%text, deck%element_names, deck%node_names), diagnostics)
+            call check_silent_mistakes(deck%model, names, diagnostics)
             call note_unused(all_statements, unused, diagnostics)
          end if
       end associate

@@ -5,7 +5,7 @@ module flexact_checks
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_element_table, only: element_kinds, vector_optional, vector_required
    use flexact_kinds, only: wp
-   use flexact_labels, only: element_name, digits_of
+   use flexact_labels, only: names_t, element_label, node_label
    use flexact_model, only: model_t
    use flexact_slots, only: slots, is_position, node_planar_position
    use flexact_vectors, only: coincide, length_of, unit
@@ -21,10 +21,11 @@ module flexact_checks
 
 contains
 
-   !> Report all that is wrong with a model; elements whose nodes are not known
-   !> (their statements were reported) are passed over.
-   subroutine check_model(model, diagnostics)
+   !> Report all that is wrong with a model whose elements and nodes have these names;
+   !> elements whose nodes are not known (their statements were reported) are passed over.
+   subroutine check_model(model, names, diagnostics)
       type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
       type(diagnostics_t), intent(inout) :: diagnostics
       integer :: k
 
@@ -36,12 +37,13 @@ contains
          return
       end if
       do k = 1, model%elements
-         call check_element(model, k, diagnostics)
+         call check_element(model, names, k, diagnostics)
       end do
    end subroutine check_model
 
-   subroutine check_element(model, k, diagnostics)
+   subroutine check_element(model, names, k, diagnostics)
       type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
       integer, intent(in) :: k
       type(diagnostics_t), intent(inout) :: diagnostics
       type(span_t) :: place
@@ -50,18 +52,19 @@ contains
          if (any(kind%slot_kind /= 0 .and. node == 0)) return
          place = span_t(model%element_origin(k), 0)
          if (has_twice(node)) then
-            call diagnostics%error('same-node', place, 'both ends of '//element_name(model, k)//' are one node', &
+            call diagnostics%error('same-node', place, 'both ends of '//element_label(model, names, k)//' are one node', &
                                    'one node at both ends', 'give the two ends different nodes')
             return
          end if
-         if (kind%vector == vector_required) call check_axis(model, k, place, diagnostics)
-         if (node(1) > 0 .and. node(3) > 0) call check_positions(model, k, place, diagnostics)
+         if (kind%vector == vector_required) call check_axis(model, names, k, place, diagnostics)
+         if (node(1) > 0 .and. node(3) > 0) call check_positions(model, names, k, place, diagnostics)
       end associate
    end subroutine check_element
 
    !> The positions of p and q, and a y vector against the line that joins them.
-   subroutine check_positions(model, k, place, diagnostics)
+   subroutine check_positions(model, names, k, place, diagnostics)
       type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
       integer, intent(in) :: k
       type(span_t), intent(in) :: place
       type(diagnostics_t), intent(inout) :: diagnostics
@@ -75,7 +78,7 @@ contains
          if (.not. all(ieee_is_finite(model%node_value(:axes, [p, q])))) then
             ! A deck's own numbers were reported where they stand.
             if (place%first == 0) then
-               call diagnostics%error('not-finite', place, element_name(model, k)//' has a node at no finite place', &
+               call diagnostics%error('not-finite', place, element_label(model, names, k)//' has a node at no finite place', &
                                       'its coordinates are not finite', 'give its nodes finite coordinates')
             end if
             return
@@ -86,16 +89,15 @@ contains
          length = 2*min(length_of(half), huge(length)/2)
          if (coincide(model%node_value(:axes, p), model%node_value(:axes, q))) then
             if (.not. kind%needs_length) return
-            call diagnostics%error('zero-length', place, element_name(model, k)//' has zero length: its nodes '// &
-                                   digits_of(model%node_number(p))//' and '// &
-                                   digits_of(model%node_number(q))//' are at one place', 'zero length', &
-                                   'give the two nodes different positions')
+            call diagnostics%error('zero-length', place, element_label(model, names, k)//' has zero length: '// &
+                                   node_label(model, names, p)//' and '//node_label(model, names, q)//' are at one place', &
+                                   'zero length', 'give the two nodes different positions')
          else if (length > longest .or. length < shortest) then
-            call diagnostics%error('length-out-of-range', place, element_name(model, k)// &
+            call diagnostics%error('length-out-of-range', place, element_label(model, names, k)// &
                                    ' is too long or too short to compute with', 'length out of range', &
                                    'lengths from 1e-90 to 1e90 can be analysed: choose another unit')
          else if (kind%vector == vector_optional) then
-            call check_vector(model, k, unit(half), place, diagnostics)
+            call check_vector(model, names, k, unit(half), place, diagnostics)
          end if
       end associate
    end subroutine check_positions
@@ -105,24 +107,26 @@ contains
       has_twice = (node(1) == node(3) .and. node(1) > 0) .or. (node(2) == node(4) .and. node(2) > 0)
    end function has_twice
 
-   subroutine check_axis(model, k, place, diagnostics)
+   subroutine check_axis(model, names, k, place, diagnostics)
       type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
       integer, intent(in) :: k
       type(span_t), intent(in) :: place
       type(diagnostics_t), intent(inout) :: diagnostics
 
       if (.not. all(ieee_is_finite(model%element_vector(:, k)))) then
-         call diagnostics%error('not-finite', place, 'the axis of '//element_name(model, k)//' is not finite', &
+         call diagnostics%error('not-finite', place, 'the axis of '//element_label(model, names, k)//' is not finite', &
                                 'not finite', 'give a finite vector')
       else if (all(abs(model%element_vector(:, k)) <= 0.0_wp) .and. model%element_origin(k) == 0) then
          ! A deck's own zero vector was reported where it stands.
-         call diagnostics%error('zero-vector', place, 'the axis of '//element_name(model, k)//' is zero', &
+         call diagnostics%error('zero-vector', place, 'the axis of '//element_label(model, names, k)//' is zero', &
                                 'has no direction', 'give a vector that is not zero')
       end if
    end subroutine check_axis
 
-   subroutine check_vector(model, k, ex, place, diagnostics)
+   subroutine check_vector(model, names, k, ex, place, diagnostics)
       type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
       integer, intent(in) :: k
       real(wp), intent(in) :: ex(3)
       type(span_t), intent(in) :: place
@@ -135,13 +139,13 @@ contains
          words(1) = 3 + count(kind%slot_kind /= 0)
          words(2) = words(1) + 2
          if (.not. all(ieee_is_finite(vector))) then
-            call diagnostics%error('not-finite', place, 'the y vector of '//element_name(model, k)//' is not finite', &
+            call diagnostics%error('not-finite', place, 'the y vector of '//element_label(model, names, k)//' is not finite', &
                                    'not finite', 'give a finite vector')
             return
          end if
          direction = unit(vector)
          if (norm2(direction - dot_product(direction, ex)*ex) < parallel_sine) then
-            call diagnostics%error('parallel-vector', place, 'the y vector of '//element_name(model, k)// &
+            call diagnostics%error('parallel-vector', place, 'the y vector of '//element_label(model, names, k)// &
                                    ' is parallel to it', 'parallel to the line from p to q', &
                                    'give a vector across the element, or none', words=words)
          end if

@@ -90,8 +90,8 @@ contains
       end do
       largest = maxval(abs(table%position))
       if (largest > 0.0_wp) table%position = table%position/largest
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
+      low = 1.0_wp
+      high = -1.0_wp
       do i = 1, model%nodes
          if (.not. is_position(model%node_kind(i))) cycle
          low = min(low, table%position(:, i))

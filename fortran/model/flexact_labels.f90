@@ -7,7 +7,7 @@ module flexact_labels
    use flexact_model, only: model_t
    implicit none
    private
-   public :: names_t, element_name, digits_of, part_name, part_label, two_labels, node_label, quoted_name
+   public :: names_t, element_label, digits_of, part_name, part_label, two_labels, node_label, quoted_name
 
    !> Names as spans of one text: a deck, or one that was made for them. first = 0: none.
    type :: names_t
@@ -31,6 +31,22 @@ contains
       ! A number that could not be read is zero.
       if (model%element_number(k) > 0) name = name//' '//digits_of(model%element_number(k))
    end function element_name
+
+   !> Its name, or keyword and number where it has none.
+   pure function element_label(model, names, k) result(label)
+      type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
+      integer, intent(in) :: k
+      character(len=:), allocatable :: label
+
+      associate (name => names%element(k))
+         if (name%first > 0) then
+            label = quoted_name(names%text(name%first:name%last))
+         else
+            label = element_name(model, k)
+         end if
+      end associate
+   end function element_label
 
    !> The name of the part that element k belongs to: its own without what counts the
    !> elements of a part, ", 3" or ", part 3 of 4".

@@ -64,7 +64,7 @@ contains
          least = min(least, length)
          most = max(most, length)
       end do
-      if (.not. most > most_apart*least) return
+      if (.not. most/most_apart > least) return
       call diagnostics%warning('lengths-differ', span_t(model%element_origin(longest), 0), &
                                two_labels(model, names, longest, shortest, ' is '//times(most/least)//' as long as '), &
                                'the longest', 'give all positions in one unit, metres', &

@@ -41,7 +41,7 @@ class Analysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Sentences that say why the decision is not certain."""
+        """Sentences that say why the rank is doubtful."""
         return tuple(warning_of(self, doubt).message for doubt in self.assessment.doubts)
 
     @cached_property

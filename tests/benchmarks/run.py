@@ -158,7 +158,7 @@ def _over_dgesdd(found: list[Outcome], size: int, method: str) -> str:
 
 def _verdicts(found: list[Outcome]) -> list[str]:
     """How often the counts were right, of all runs on families whose truth is known."""
-    lines = ["| who | runs with a known answer | right | wrong | wrong and called certain |"]
+    lines = ["| who | runs with a known answer | right | wrong | wrong, not called doubtful |"]
     lines.append("|---|---|---|---|---|")
     ours = [one for one in found if one.contestant in _METHODS]
     theirs = [one for one in found if one.contestant not in _METHODS]

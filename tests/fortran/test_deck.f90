@@ -81,7 +81,7 @@ contains
       type(diagnostics_t) :: diagnostics
       integer :: unused
 
-      call read_deck('TRUSS 9000000 2000000000 7'//nl//'X 7 1 0 0'//nl//'RLSE 9000000', made, unused, diagnostics)
+      call read_deck('TRUSS 9000000 2000000000 7'//nl//'X 7 1 0 0'//nl//'FIX 7'//nl//'RLSE 9000000', made, unused, diagnostics)
       call tally%check(diagnostics%kept == 0, 'numbers far apart')
       call tally%check(all(made%model%node_number == [7, 2000000000]), 'nodes in the order of their numbers')
       call tally%check(made%model%deformation_class(1, 1) == class_dependent, 'an element found by its number')
@@ -94,7 +94,7 @@ contains
       character, parameter :: cr = achar(13), tab = achar(9)
 
       call read_deck('OUTLEVEL 0 1'//cr//nl//tab//'PLBEAMNL'//tab//'1 1 2 3 4'//cr//nl//cr//nl//'X 3 1D0 0.'//cr//nl// &
-                     'END'//cr//nl//'HALT'//cr//nl//'EM 1 .5'//cr//nl//'END'//cr//nl//'END'//cr//nl// &
+                     'FIX 1'//cr//nl//'END'//cr//nl//'HALT'//cr//nl//'ESIG 1 .5'//cr//nl//'END'//cr//nl//'END'//cr//nl// &
                      'VISUALIZATION'//cr//nl//'BEAMPROPS 1 ; all'//cr//nl//'CROSSTYPE RECT', made, unused, diagnostics)
       call tally%check(diagnostics%kept == 1 .and. diagnostics%count(severity_note) == 1, 'one note on what is not used')
       call tally%check(unused == 1, 'what is not used is counted')

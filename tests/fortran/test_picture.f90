@@ -41,10 +41,10 @@ contains
 
    subroutine no_picture()
       diagnostics = diagnostics_t()
-      call read_deck('TRUSS 1 1 2'//nl//'X 2 1 0 0'//nl//'FIX 1'//nl//'END'//nl//'HALT'//nl//'EM 1 1', &
+      call read_deck('TRUSS 1 1 2'//nl//'X 2 1 0 0'//nl//'FIX 1'//nl//'END'//nl//'HALT'//nl//'ESIG 1 1', &
                      made, unused, diagnostics)
       call tally%check(.not. allocated(made%appearance), 'no picture block, no appearance')
-      call tally%check(unused == 1, 'the mass is not used')
+      call tally%check(unused == 1, 'the stress is not used')
    end subroutine no_picture
 
    subroutine groups_and_options()

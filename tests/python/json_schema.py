@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The schema of the JSON, as tests hold outputs against it: nothing but what it names."""
+"""The schemas of the JSON, as tests hold outputs against them: nothing but what they name."""
 
 import copy
 import json
@@ -8,11 +8,12 @@ from typing import Any
 
 import jsonschema
 
-SCHEMA = Path(__file__).parents[2] / "docs" / "result.schema.json"
+DOCS = Path(__file__).parents[2] / "docs"
 
 
-def schema() -> dict[str, Any]:
-    content: dict[str, Any] = json.loads(SCHEMA.read_text(encoding="utf-8"))
+def schema(name: str = "result") -> dict[str, Any]:
+    text = (DOCS / f"{name}.schema.json").read_text(encoding="utf-8")
+    content: dict[str, Any] = json.loads(text)
     return content
 
 
@@ -32,10 +33,14 @@ def validator(of: str) -> Any:
 
 
 RESULT, FAILURE = validator("result"), validator("failure")
+STORED = jsonschema.Draft202012Validator(strict(schema("stored_answer")))
 
 
 def assert_valid(made: dict[str, Any]) -> None:
     """An output is what the schema says, and no more."""
-    of = FAILURE if "error" in made else RESULT
+    assert_valid_as(FAILURE if "error" in made else RESULT, made)
+
+
+def assert_valid_as(of: Any, made: dict[str, Any]) -> None:
     wrong = [f"{each.json_path}: {each.message[:300]}" for each in of.iter_errors(made)]
     assert not wrong, wrong[:5]

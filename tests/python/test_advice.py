@@ -76,7 +76,7 @@ def test_what_is_exact_gets_no_advice() -> None:
 
 def test_a_zero_has_no_sign() -> None:
     # LAPACK gives -0.0 for this deck's zero.
-    analysis = analyse(DECKS / "flexures" / "parallel_guide.dat")
+    analysis = analyse(DECKS / "flexures" / "parallel_guide_undeclared.dat")
     zero = analysis.gap.largest_zero
     assert zero is not None and math.copysign(1.0, zero) == 1.0
     assert not np.signbit(analysis.scaled_singular_values).any()

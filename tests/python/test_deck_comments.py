@@ -182,3 +182,13 @@ def test_sample_decks_lose_no_comment(name: str) -> None:
             assert line.rstrip() in written.split("\n")
     # Of the dynamics block statements may be left out, and what stands behind them.
     assert behind_statements(text_of(name)) <= behind_statements(written)
+
+
+def test_a_deleted_element_takes_its_comments_along() -> None:
+    model = flexact.read_text(DECK)
+    model.delete(2)
+    lines = lines_of(model.to_deck())
+    gone = {"% indented", "% --- the second one ---", "% all of it"}
+    assert not gone & set(lines)
+    assert not any("% by a piezo" in line for line in lines)
+    assert {"% A guide", "* as in 1995", "% held at last", "% driven"} <= set(lines)

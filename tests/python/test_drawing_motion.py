@@ -14,7 +14,7 @@ from flexact.drawing.rotations import matrix_of, vector_of
 
 def moved(name: str, index: int = 0) -> tuple[flexact.Analysis, Drawing, Movement]:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     return analysis, drawing, move(drawing, analysis.motions[index])
 
 
@@ -69,7 +69,7 @@ def test_shapes_turn_with_the_mechanism() -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_stiff_members_keep_their_length_and_all_start_in_the_reference(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     members = drawing.members
     for motion in analysis.motions:
         movement = move(drawing, motion)
@@ -89,7 +89,7 @@ def test_stiff_members_keep_their_length_and_all_start_in_the_reference(name: st
 @pytest.mark.parametrize("name", NAMES)
 def test_the_largest_displacement_is_a_tenth_of_the_size(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     reference = list(stations(drawing.members, drawing.reference))
     freedoms = [freedom.motion for freedom in analysis.freedoms if freedom.motion is not None]
     for motion in (*analysis.motions[:4], *freedoms[:2]):
@@ -105,7 +105,7 @@ def test_the_largest_displacement_is_a_tenth_of_the_size(name: str) -> None:
             turned = max(turned, float(np.linalg.norm(vector_of(pose.rotation), axis=1).max()))
         assert drawn <= 0.1 * 1.003
         # Less where rotations would be too large, or where the path ends before.
-        ends = name == "flexures/parallel_guide_four_beams"
+        ends = name == "flexures/parallel_guide_four_beams_undeclared"
         assert drawn >= 0.1 * 0.985 or turned >= 0.99 or (ends and drawn > 0.08)
 
 
@@ -190,7 +190,7 @@ def test_a_rigid_body_moves_on_its_screw() -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_field_is_the_derivative_of_the_shapes(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     step = 1e-6 * drawing.size
     for motion in analysis.motions[:2]:
         pose = [
@@ -220,7 +220,9 @@ def test_what_lies_between_two_poses_is_between_them() -> None:
 def test_degrees_of_freedom_move_alone_and_hold_what_is_held(name: str) -> None:
     analysis = flexact.analyse(flexact.read_text(text_of(name), name))
     classes = analysis.data.arrays
-    jacobian = flexact.jacobian(analysis.model).toarray()
+    # Of a divided sheet that is declared the ends alone.
+    jacobian = flexact.jacobian(flexact.Model.from_data(analysis.data)).toarray()
+    nodes = analysis.condensed.nodes
     coordinate = classes.coordinate_class.T
     deformation = classes.deformation_class.T[classes.deformation_class.T != Class.NONE]
     for freedom in analysis.freedoms:
@@ -228,7 +230,7 @@ def test_degrees_of_freedom_move_alone_and_hold_what_is_held(name: str) -> None:
             # Only where a self-stress does work on it.
             assert analysis.over_constrained
             continue
-        velocity = freedom.motion.displacement + freedom.motion.rotation
+        velocity = (freedom.motion.displacement + freedom.motion.rotation)[nodes]
         rates = jacobian @ velocity[coordinate != Class.NONE]
         scale = max(1.0, np.abs(velocity).max())
         assert np.abs(rates[deformation == Class.FIXED]).max(initial=0.0) <= 1e-9 * scale
@@ -279,7 +281,7 @@ def test_a_path_is_found_far_from_the_origin() -> None:
         model.sheet(ground[k], stage[k], width=(0, 0, 1))
     model.rigid(stage[0], stage[1])
     analysis = flexact.analyse(model)
-    movement = move(drawing_of(analysis.data), analysis.motions[0])
+    movement = move(drawing_of(analysis.given), analysis.motions[0])
     assert movement.true_path
     placed = model.node_kinds <= NodeKind.POSITION
     way = movement.poses[-1].position - model.positions

@@ -136,7 +136,7 @@ def test_collinear_trusses_carry_one_force(analyse: Read, tmp_path: Path) -> Non
     np.testing.assert_array_equal(found.point_data["node"][ends], [1, 2, 2, 3])
     assert np.abs(found.point_data["motion_1"][ends, 1]) == pytest.approx([0, 1, 1, 0])
     force = found.point_data["selfstress_1_normal_force"]
-    assert np.abs(force) == pytest.approx(np.sqrt(0.5), abs=1e-15)
+    assert np.abs(force) == pytest.approx(1.0, abs=1e-15)
     assert np.ptp(force) == pytest.approx(0.0, abs=1e-15)
 
 

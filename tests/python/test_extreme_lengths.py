@@ -2,7 +2,7 @@
 """Lengths from 1e-9 to 1e9, also within one drawing; slender ones; many beams a sheet."""
 
 import pytest
-from known_models import folded_sheet
+from known_models import folded_sheet, undeclared_sheet
 from reference_decks import NAMES, text_of, transform, truth_of
 from verdicts import (
     METHODS,
@@ -29,8 +29,8 @@ def add_guide(model: Model, at: float, length: float, apart: float, beams: int =
     """Two parallel sheets and a stage: one motion, one self-stress, whatever their distance."""
     a, b = model.node(at, 0, 0), model.node(at + length, 0, 0)
     c, d = model.node(at, apart, 0), model.node(at + length, apart, 0)
-    model.sheet(a, b, (0, 0, 1), beams)
-    model.sheet(c, d, (0, 0, 1), beams)
+    undeclared_sheet(model, a, b, beams)
+    undeclared_sheet(model, c, d, beams)
     model.rigid(b, d)
     model.fix(a)
     model.fix(c)
@@ -93,7 +93,7 @@ def test_a_single_sheet_of_very_many_beams() -> None:
     for beams in (1, 2, 64, 256):
         model = Model()
         a, b = model.node(0, 0, 0), model.node(1, 0, 0)
-        model.sheet(a, b, (0, 0, 1), beams)
+        undeclared_sheet(model, a, b, beams)
         model.fix(a)
         model.fix(b)
         assert_right(analyse(model, method="sparse"), (3 * (beams - 1), 3))

@@ -115,7 +115,7 @@ def test_no_path_of_the_machine_is_in_the_page() -> None:
 
 
 def test_the_page_tells_how_to_make_it_again() -> None:
-    analysis = flexact.analyse(CLAMPED, method="jacobi", tolerance=1e-9)
+    analysis = flexact.analyse(CLAMPED, method="jacobi", tolerance=1e-9, accuracy=(20e-6, 1e-4))
     words = words_of(page(analysis))
     digest = hashlib.sha256(CLAMPED.read_bytes()).hexdigest()
     for told in (
@@ -127,7 +127,7 @@ def test_the_page_tells_how_to_make_it_again() -> None:
         "tolerance 1e-09 (as asked for)",
         f"SHA-256 of the deck {digest}",
         "flexact report folded_sheet_clamped.dat -o folded_sheet_clamped.html --method jacobi "
-        "--tolerance 1e-09",
+        "--tolerance 1e-09 --accuracy 2e-05,0.0001",
     ):
         assert told in words
 
@@ -182,7 +182,7 @@ def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
         assert told in head, told
     over = head_of(page(flexact.analyse(CLAMPED.with_name("six_folded_sheets.dat"))))
     assert "(RLSE 21 2); element 1 (upper 90, ground to fold)" in over
-    assert over.count("element") == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
+    assert len(re.findall(r"element \d", over)) == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
     exact = head_of(page(flexact.analyse(CLAMPED.with_name("five_wires.dat"))))
     assert "rank proven" in exact and "remove" not in exact
 

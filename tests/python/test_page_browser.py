@@ -217,6 +217,11 @@ VIEWED = ("paper/six_folded_sheets", "linkages/bennett", "flexures/planar_parall
 def free_room(browser: Browser) -> np.ndarray:
     """Pixels left free at the left, right, top and bottom, in the whole cycle."""
     browser.run("document.querySelector('#overlay').hidden = true; flexact.play(false)")
+    # A picture of an element ends where the window does.
+    browser.run(
+        "document.querySelector('.stage').scrollIntoView({block: 'center', behavior: 'instant'})"
+    )
+    browser.drawn()
     inked = np.False_
     for phase in (-1, 0, 1):
         browser.run("flexact.movePhase(arguments[0])", phase)

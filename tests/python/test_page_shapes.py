@@ -59,7 +59,7 @@ def plan_of(browser: Browser) -> dict[str, Any]:
 def test_the_page_draws_the_shapes_of_python(name: str, browser: Browser, tmp_path: Path) -> None:
     """At the phases that it has exactly, and between them nearly."""
     analysis = browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     plan = plan_of(browser)
     motions = moving(analysis)
     assert browser.run("return flexact.data.movements.length") == len(motions) > 0
@@ -79,7 +79,7 @@ def test_the_page_draws_the_shapes_of_python(name: str, browser: Browser, tmp_pa
 
 def test_hinges_turn_and_nodes_go_with_their_members(browser: Browser, tmp_path: Path) -> None:
     analysis = browser.show(ROOT / "input_decks" / "linkages" / "bennett.dat", tmp_path)
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     pose = move(drawing, analysis.motions[0]).poses[-1]
     browser.run("flexact.showMovement(0); flexact.movePhase(1)")
     axis = np.reshape(browser.run("return Array.from(flexact.pose.axis)"), (-1, 3))
@@ -95,7 +95,7 @@ def test_hinges_turn_and_nodes_go_with_their_members(browser: Browser, tmp_path:
 def test_round_members_look_round(name: str, browser: Browser, tmp_path: Path) -> None:
     """Normals point away from the axis, in a pose as well."""
     analysis = browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
-    drawing, plan = drawing_of(analysis.data), plan_of(browser)
+    drawing, plan = drawing_of(analysis.given), plan_of(browser)
     movement = move(drawing, moving(analysis)[0])
     browser.run("flexact.showMovement(0); flexact.movePhase(0.5)")
     found = np.reshape(browser.run("return Array.from(flexact.members.shape.normal)"), (-1, 3))
@@ -128,7 +128,7 @@ def test_many_round_members_are_plain(browser: Browser, tmp_path: Path) -> None:
 
 def test_the_page_has_the_resultants_of_python(browser: Browser, tmp_path: Path) -> None:
     analysis = browser.show(ROOT / "input_decks" / "linkages" / "bennett.dat", tmp_path)
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     for number, stress in enumerate(analysis.self_stresses):
         expected = resultants(drawing, stress)
         for kind, values in (("members", expected.members), ("hinges", expected.hinges)):

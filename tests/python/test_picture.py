@@ -75,7 +75,7 @@ def test_clamped_ends_of_a_folded_sheet_are_opposite() -> None:
     """Fig. 4(c): bending in the plane of the sheets, of opposite signs at the clamped ends."""
     analysis = deck("paper/folded_sheet_clamped")
     pixels = Pixels(draw(analysis, stress=1, view=VIEW))
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     hues = []
     clamped = set(drawing.supports.node.tolist())
     for row in range(2):
@@ -165,7 +165,7 @@ def test_a_bending_diagram_hides_its_sheet(tmp_path: Path) -> None:
     """A sheet with a constant moment: within the diagram only its pale colour and grey ribs."""
     analysis = of_text(tmp_path, TWO_SHEETS)
     pixels = Pixels(draw(analysis, stress=1, view=VIEW))
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     moment = analysis.self_stresses[0].moments[1, 2]
     start, end = drawing.reference.position[drawing.members.nodes[1, [0, 2]]]
     top = 0.08 * drawing.size * np.sign(moment) * drawing.members.frame[1, :, 2]
@@ -188,7 +188,7 @@ def test_the_largest_displacement_is_a_tenth_of_the_size(tmp_path: Path) -> None
         figure = draw(analysis, motion=1, phase=phase)
         pixels = Pixels(figure, planar=True)
         side = phase * np.sign(analysis.motions[0].displacement[1, 1])
-        bar = 255 * drawing_of(analysis.data).members.colour[0]
+        bar = 255 * drawing_of(analysis.given).members.colour[0]
         for x in (-0.6, 0.6):
             moved = pixels.at((x, 0.2 * side * (1 - abs(x)), 0.0))
             np.testing.assert_allclose(moved, bar, atol=2)
@@ -228,7 +228,7 @@ def test_a_sliding_support_goes_with_its_node(tmp_path: Path) -> None:
     """A slider on a line of ground; the joint at the other end moves up and down."""
     rod = "PLTRUSS 1 1 2\nX 1 0 0\nX 2 0.6 0.8\nFIX 1 2\nFIX 2 1\n"
     analysis = of_text(tmp_path, rod)
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     from flexact.drawing import move
 
     moved = move(drawing, analysis.motions[0]).pose(1.0).position
@@ -269,7 +269,7 @@ def test_planar_drawings_are_flat(tmp_path: Path) -> None:
     analysis = of_text(tmp_path, TRIANGLE)
     figure = draw(analysis, view="left")
     pixels = Pixels(figure, planar=True)
-    bar = np.rint(255 * drawing_of(analysis.data).members.colour[0])
+    bar = np.rint(255 * drawing_of(analysis.given).members.colour[0])
     middles = ((0.25, 0.5, 0.0), (0.75, 0.5, 0.0))
     for middle in middles:
         np.testing.assert_allclose(pixels.at(middle), bar, atol=1)
@@ -295,7 +295,7 @@ def test_solids_are_shaded() -> None:
 def test_supports_stand_below_what_they_hold(tmp_path: Path) -> None:
     analysis = of_text(tmp_path, TRIANGLE)
     pixels = Pixels(draw(analysis), planar=True)
-    size = drawing_of(analysis.data).size
+    size = drawing_of(analysis.given).size
     for node, is_held in (((0.0, 0.0), True), ((1.0, 0.0), True), ((0.5, 1.0), False)):
         below = pixels.near((node[0], node[1] - 0.045 * size, 0.0), 4)
         assert bool(np.any(below.max(axis=1) < 90)) == is_held
@@ -303,7 +303,7 @@ def test_supports_stand_below_what_they_hold(tmp_path: Path) -> None:
 
 def test_hinges_are_cylinders_in_their_colour() -> None:
     analysis = deck("linkages/sarrus")
-    purple = drawing_of(analysis.data).hinges.colour[0]
+    purple = drawing_of(analysis.given).hinges.colour[0]
     figure = draw(analysis, motion=1, phase=0.0, view=VIEW)
     rgb = Pixels(figure).rgb / np.maximum(Pixels(figure).rgb.max(axis=-1, keepdims=True), 1)
     shaded = np.all(np.abs(rgb - purple / purple.max()) < 0.03, axis=-1)
@@ -480,7 +480,7 @@ def test_named_views_look_along_the_axes() -> None:
     }
     from flexact.drawing.view import view_of
 
-    drawing = drawing_of(analysis.data)
+    drawing = drawing_of(analysis.given)
     for name, quotient in expected.items():
         view = view_of(name, drawing)
         np.testing.assert_allclose(view.axes @ view.axes.T, np.eye(3), atol=1e-15)
@@ -500,7 +500,7 @@ def test_the_view_that_is_chosen_shows_sheets_from_no_edge() -> None:
     from flexact.drawing.view import view_of
 
     for name in ("paper/folded_sheet_clamped", "paper/six_folded_sheets", "flexures/cross_hinge"):
-        drawing = drawing_of(deck(name).data)
+        drawing = drawing_of(deck(name).given)
         towards = view_of(None, drawing).axes[2]
         sheets = drawing.members.frame[drawing.members.form == 1]
         facing = np.abs(

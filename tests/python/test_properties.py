@@ -173,3 +173,12 @@ def test_the_analysis_is_the_same() -> None:
     heavy = flexact.analyse(flexact.read_text(MODEL + "END\nESTIFF 7 1 2 3 4\nEM 9 5\nXM 3 1\n"))
     assert plain.verdict is heavy.verdict
     assert np.array_equal(plain.singular_values, heavy.singular_values)
+
+
+def test_deleted_elements_take_theirs_along() -> None:
+    model = flexact.read_text(MODEL + "END\nESTIFF 7 1 2\nEM 9 3\nESTIFF 9 4\nXM 3 5\nXM 5 6\n")
+    model.delete(7)
+    properties = given_of(model)
+    assert rows(properties.stiffness) == [[4]]
+    assert rows(properties.mass) == [[3]]
+    assert rows(properties.node_mass) == [[5], [6]]

@@ -7,8 +7,10 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
+from json_schema import STORED, assert_valid_as, schema
 from large_results import changed, first_of
 from small_decks import COLLINEAR
 
@@ -224,6 +226,38 @@ def test_of_the_smallest_values_alone_the_common_ones_are_compared() -> None:
         (reported,) = differences(answer, apart)
         assert heads((reported,)) == ["singular values"]
         assert re.findall(r"\b\d\b(?!\.)", reported) == ["1", "1", "2"]
+
+
+# The format
+
+REFERENCE = Path(__file__).parents[1] / "reference"
+OF_DECKS = sorted(path for path in REFERENCE.rglob("*.json") if path.parent != REFERENCE)
+
+
+def test_stored_answers_are_as_their_schema_says() -> None:
+    """Those of the decks, which an independent program wrote, and what is stored now."""
+    jsonschema.Draft202012Validator.check_schema(schema("stored_answer"))
+    assert len(OF_DECKS) > 50
+    for path in OF_DECKS:
+        assert_valid_as(STORED, json.loads(path.read_text(encoding="utf-8")))
+    now = json.loads(text_of(stored(COLLINEAR)))
+    assert_valid_as(STORED, now)
+    labels = tuple(f"{k}:x" for k in range(1, 4))
+    images = Images(labels, fixed_vectors(labels))
+    for kept in (images, None):
+        answer = dataclasses.replace(stored(COLLINEAR), motions=kept)
+        assert_valid_as(STORED, json.loads(text_of(answer)))
+    assert not STORED.is_valid({**now, "format": 2})
+    assert not STORED.is_valid({**now, "motions": {"projector": [["1:x", "1:x"]]}})
+
+
+def test_the_json_of_a_result_is_no_stored_answer(
+    deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It is told so, and what makes one."""
+    assert main(["analyse", str(deck), "-o", str(tmp_path)]) == 0
+    assert main(["regress", str(deck), "--against", str(tmp_path)]) == 1
+    assert "--store" in capsys.readouterr().err
 
 
 # The command

@@ -74,8 +74,8 @@ def test_ends_at_one_place_that_nothing_joins() -> None:
 
 def test_points_are_named() -> None:
     model = flexact.Model()
-    clamp, end = model.node(0, 0, 0, "clamp"), model.node(0.1, 0, 0, "end of sheet 1")
-    edge, far = model.node(0.1, 1e-17, 0, "edge of the stage"), model.node(0.2, 0, 0)
+    clamp, end = model.node(0, 0, 0, name="clamp"), model.node(0.1, 0, 0, name="end of sheet 1")
+    edge, far = model.node(0.1, 1e-17, 0, name="edge of the stage"), model.node(0.2, 0, 0)
     model.fix(clamp)
     model.sheet(clamp, end, (0, 0, 1), name="sheet 1")
     model.rigid(edge, far, name="stage")
@@ -308,7 +308,7 @@ def test_a_part_has_one_name() -> None:
 
 def test_one_name_of_two_points() -> None:
     model = flexact.Model()
-    tip, other = model.node(0, 0, 0, "tip"), model.node(1, 0, 0, "tip")
+    tip, other = model.node(0, 0, 0, name="tip"), model.node(1, 0, 0, name="tip")
     model.truss(tip, other, "tip")
     model.fix(tip)
     (found,) = slips(model)
@@ -329,7 +329,7 @@ def test_long_names_are_cut_between_characters() -> None:
 
 def test_points_that_nothing_uses() -> None:
     model = two_bars("a", "b")
-    model.node(1, 2, 3, "spare")
+    model.node(1, 2, 3, name="spare")
     (found,) = slips(model)
     assert (found.severity, found.code) == (Severity.WARNING, "unused-node")
     assert "'spare'" in found.message

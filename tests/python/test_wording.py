@@ -49,7 +49,7 @@ from flexact.text.log import log_text
 
 INPUT = ROOT / "input_decks"
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
-NOTES = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nXM 2 1\nEND\n"
+NOTES = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nXF 2 1\nEND\n"
 
 
 def deck(name: str) -> Analysis:
@@ -91,7 +91,7 @@ RESULTS: dict[str, Callable[[], Analysis]] = {
     "both_of_a_fold": lambda: analyse(folded_sheet(clamped=True)),
     "exact_deck": lambda: deck("paper/five_folded_sheets"),
     "over_deck": lambda: deck("paper/six_folded_sheets"),
-    "zero_of_a_deck": lambda: deck("flexures/parallel_guide"),
+    "zero_of_a_deck": lambda: deck("flexures/parallel_guide_undeclared"),
     "no_extent": lambda: analyse(hinges_in_a_point()),
     # Advice
     "declared_against_a_constraint": lambda: deck("flexures/folded_sheet_clamped_trap"),
@@ -281,7 +281,7 @@ def test_messages_of_files(as_stored: AsStored, tmp_path: Path) -> None:
         said.append(f"OutputError: {error.value}")
     whole = read_answer(ROOT / "tests/reference/paper/twelve_trusses.json")
     assert whole.numbers["rank"] == 11
-    for text in ("", "{}", '{"format": 2}'):
+    for text in ("", "{}", '{"format": 2}', analyse(ring(3)).to_json()):
         with pytest.raises(StoredAnswerError) as wrong:
             read_answer(write(tmp_path / "answer.json", text))
         said.append(f"StoredAnswerError: {wrong.value}")

@@ -80,6 +80,23 @@ BUILDER: dict[str, list[Call]] = {
     "out-of-range": [lambda m, a, b, e: m.sheet(a, b, (0, 0, 1), beams=0)],
     "not-an-element": [lambda m, a, b, e: m.release(a, 1)],
     "not-a-node": [lambda m, a, b, e: m.fix(e)],
+    "no-such-point": [
+        lambda m, a, b, e: (m.node(0, 0, 1, name="clamp 1"), m.fix("clmp 1")),
+        lambda m, a, b, e: m.independent((9, 9, 9), "x"),
+        lambda m, a, b, e: m.sheet("clamp 1", b, (0, 0, 1), name="sheet 1"),
+    ],
+    "no-such-part": [
+        lambda m, a, b, e: (m.rename(e, "bar 1"), m.release("bar", "elongation")),
+    ],
+    "no-end": [
+        lambda m, a, b, e: (m.rename(e, "bar 1"), m.release("bar 1", "elongation", at=a)),
+    ],
+    "bad-material": [lambda m, a, b, e: m.wire(a, b, name="wire", thickness=1, material=1)],
+    "no-such-material": [
+        lambda m, a, b, e: m.wire(a, b, name="wire", thickness=1, material="stel")
+    ],
+    "missing-section": [lambda m, a, b, e: m.wire(a, b, name="wire", material="steel")],
+    "in-use": [lambda m, a, b, e: m.delete(a)],
     "bad-name": [
         lambda m, a, b, e: Model(name=5),  # type: ignore[arg-type]
         lambda m, a, b, e: m.truss(a, b, 5),  # type: ignore[arg-type]

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from oracle_analysis import Outcome, analyse
+from oracle_chains import with_rows_as_beams
 from oracle_deck import Deck, Label, read_deck
 from oracle_elements import Real
 from oracle_known import disagreements, known_answers
@@ -94,7 +95,7 @@ def compute(name: str, known: dict[str, Any]) -> dict[str, Any]:
     Raises:
         ValueError: the rank is in doubt, or the known answer is another.
     """
-    deck = read_deck((DECKS / name).read_text(encoding="utf-8"))
+    deck = with_rows_as_beams(read_deck((DECKS / name).read_text(encoding="utf-8")))
     outcome = analyse(deck)
     if found := disagreements(deck, outcome, known):
         raise ValueError("; ".join(found))

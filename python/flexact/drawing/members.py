@@ -151,10 +151,12 @@ def members_of(data: ModelData, size: float) -> Members:
 
 
 def _whole_lengths(data: ModelData) -> FloatArray:
-    """(elements,) length [m], of the beams of a divided sheet or wire that of the whole."""
+    """(elements,) lengths [m]: of a divided sheet or wire from end to end."""
     made = data.frames.length.copy()
+    place = data.arrays.node_value[:3].T
     for chain in data.chains:
-        made[list(chain.elements)] = made[list(chain.elements)].sum()
+        ends = place[[chain.positions[0], chain.positions[-1]]]
+        made[list(chain.elements)] = np.linalg.norm(ends[1] - ends[0])
     return made
 
 

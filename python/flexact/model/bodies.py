@@ -56,14 +56,13 @@ class BodyMethods(FlexureMethods):
             nodes, links, old_name = _members(draft, points)
             make = Make(shape_of(section))
             at_node = _mass(mass), _inertia(inertia, draft.planar)
-            components = RigidComponents(draft)
-            first = components.carrier(nodes[0])
+            first = RigidComponents.of(draft).carrier(nodes[0])
             for node in nodes[1:]:
+                components = RigidComponents.of(draft)
                 carrier = components.carrier(node)
                 if not components.joined(first, carrier):
                     links.append(self._beam(first, carrier, None, (), "", make))
                     draft.rigid.add(len(draft.kinds) - 1)
-                    components.join(first, carrier)
             _name_links(draft, links, name or old_name)
             if not links and name:
                 draft.name_node(nodes[0].position, points_name(name))

@@ -6,7 +6,8 @@ from __future__ import annotations
 from ..base.plain_text import in_short
 from ..core.elements import Class
 from ..diagnostics.errors import model_error
-from . import class_arguments as classes
+from . import coordinate_arguments as coordinates
+from . import deformation_arguments as deformations
 from .handles import FoldedSheet
 from .making import Making, call
 from .names import COORDINATES, nearest
@@ -43,9 +44,8 @@ class ClassMethods(Making):
                     f"there is no coordinate or point {in_short(each)}",
                     hint or "coordinates are x, y, z, rx, ry, rz",
                 )
-        for target in targets:
-            with call("fix", target):
-                classes.give_coordinates(draft, target, names, Class.FIXED)
+        with call("fix", targets[0] if len(targets) == 1 else ""):
+            coordinates.give_coordinates(draft, targets, names, Class.FIXED)
 
     def independent(
         self,
@@ -65,10 +65,10 @@ class ClassMethods(Making):
         """
         draft = self._change()
         with call("independent", target):
-            if at is not None or classes.means_part(draft, target, which):
-                classes.give_deformations(draft, target, which, Class.INDEPENDENT, at)
+            if at is not None or deformations.means_part(draft, target, which):
+                deformations.give_deformations(draft, target, which, Class.INDEPENDENT, at)
             else:
-                classes.give_coordinates(draft, target, which, Class.INDEPENDENT)
+                coordinates.give_coordinates(draft, [target], which, Class.INDEPENDENT)
 
     def release(
         self, part: PartLike | FoldedSheet, *which: str | int, at: Point | None = None
@@ -83,14 +83,15 @@ class ClassMethods(Making):
             *which: "elongation", "twist", "in-plane bending" (which a sheet holds),
                 "out-of-plane bending", "bending", "bending about y" or "about z" (local
                 axes); of a hinge "rotation", "tilt"; or numbers, from 1.
-            at: The end at which it bends: a point, its name, "p" or "q"; by default both.
+            at: The end at which it bends: a point, its name, the body there, "p" or "q"; by
+                default both.
 
         Raises:
             ModelError: the part has no such deformation, does not end there, or the deformation
                 is independent.
         """
         with call("release", part):
-            classes.give_deformations(self._change(), part, which, Class.DEPENDENT, at)
+            deformations.give_deformations(self._change(), part, which, Class.DEPENDENT, at)
 
     def hold(
         self, part: PartLike | FoldedSheet, *which: str | int, at: Point | None = None
@@ -100,17 +101,17 @@ class ClassMethods(Making):
         Arguments and errors as of `release`.
         """
         with call("hold", part):
-            classes.give_deformations(self._change(), part, which, Class.FIXED, at)
+            deformations.give_deformations(self._change(), part, which, Class.FIXED, at)
 
-    def clear(self, point: Point | int, *coordinates: str) -> None:
+    def clear(self, point: Point | int, *names: str) -> None:
         """Take back what `fix` and `independent` said of a point: it is free to move.
 
         Args:
             point: A point, its name or place, or the number of a node.
-            *coordinates: Names out of x, y, z, rx, ry, rz; by default all.
+            *names: Coordinates out of x, y, z, rx, ry, rz; by default all.
         """
         with call("clear", point):
-            classes.clear_coordinates(self._change(), point, coordinates)
+            coordinates.clear_coordinates(self._change(), point, names)
 
     def _is_point(self, name: str) -> bool:
         draft = self._change()

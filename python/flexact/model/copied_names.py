@@ -55,34 +55,49 @@ def renamer(names: Names | None, number: int) -> Callable[[str], str]:
     return names
 
 
-def name_copies(source: Draft, target: Draft, made: Copy, names: Names | None, number: int) -> None:
-    """Name what was copied; where a name is taken, " (2)" and so on is added to it."""
-    rename = renamer(names, number)
-    every = (*target.names.values(), *target.node_names.values())
-    taken = {split(name)[0] for name in every}
-    heads: dict[str, str] = {}
+class Naming:
+    """Names of copies, of which each stands once in the model."""
 
-    def new_name(name: str) -> str:
+    def __init__(self, source: Draft, target: Draft, names: Names | None) -> None:
+        """Note the names that are taken.
+
+        Raises:
+            ModelError: `names` makes no names.
+        """
+        renamer(names, 2)
+        self._source, self._target, self._names = source, target, names
+        every = (*target.names.values(), *target.node_names.values())
+        self._taken = {split(name)[0] for name in every}
+
+    def name(self, made: Copy, number: int) -> None:
+        """Name what was copied; where a name is taken, " (2)" and so on is added to it."""
+        source, target = self._source, self._target
+        rename = renamer(self._names, number)
+        heads: dict[str, str] = {}
+        for index, new in made.elements.items():
+            name = source.names.get(index)
+            if name and is_of_one_body(source, target, index, new):
+                go_on_with(target, new, part_name(name))
+            elif name and (source is not target or new != index):
+                target.name_element(new, self._new(name, heads, rename, number))
+        for old, new in made.nodes.items():
+            name = source.node_names.get(old)
+            if name and new not in target.node_names:
+                target.name_node(new, self._new(name, heads, rename, number))
+
+    def _new(
+        self, name: str, heads: dict[str, str], rename: Callable[[str], str], number: int
+    ) -> str:
         head, tail = split(name)
         if head not in heads:
-            made_name = free = rename(head)
+            made = free = rename(head)
             k = max(number, 2)
-            while free in taken:
-                free = f"{made_name} ({k})"
+            while free in self._taken:
+                free = f"{made} ({k})"
                 k += 1
             heads[head] = free
+            self._taken.add(free)
         return heads[head] + tail
-
-    for index, new in made.elements.items():
-        name = source.names.get(index)
-        if name and is_of_one_body(source, target, index, new):
-            go_on_with(target, new, part_name(name))
-        elif name and (source is not target or new != index):
-            target.name_element(new, new_name(name))
-    for old, new in made.nodes.items():
-        name = source.node_names.get(old)
-        if name and new not in target.node_names:
-            target.name_node(new, new_name(name))
 
 
 def is_of_one_body(source: Draft, target: Draft, index: int, new: int) -> bool:

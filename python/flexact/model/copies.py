@@ -5,18 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..base.plain_text import in_short
+from ..core.elements import AXES, Class, is_position
 from ..diagnostics.errors import model_error
 from . import arguments
 from .appearance_arguments import indices_of, numbers_of_size
 from .arguments import Direction
-from .assemblies import AssemblyMethods
-from .copied_names import Names, is_of_one_body, name_copies, renamer, split
-from .copying import ROUNDING, Copy, copy_parts, size_of, turn
+from .copied_names import Names, Naming, is_of_one_body, split
+from .copying import Copy, Copying, turn
 from .draft import Draft, Vector
 from .handles import Assembly, Element, FoldedSheet, Named, Part
-from .making import Making
+from .hexapods import HexapodMethods
+from .making import Making, all_or_nothing
 from .names import part_name
 from .part_arguments import PartLike, of_indices
+from .places import ROUNDING, size_of
 from .point_arguments import place, whole_point
 from .transform import Transform, reflection, rotation, translation
 
@@ -24,7 +27,7 @@ _ORIGIN = (0.0, 0.0, 0.0)
 Parts = Iterable[PartLike | FoldedSheet | Assembly]
 
 
-class CopyMethods(AssemblyMethods):
+class CopyMethods(HexapodMethods):
     """Methods that copy parts, or turn the whole model."""
 
     def insert(
@@ -58,6 +61,8 @@ class CopyMethods(AssemblyMethods):
         """
         if model is self:
             raise model_error("same-model", "a model cannot be inserted into itself", "pattern it")
+        if not isinstance(model, Making):
+            raise model_error("not-a-model", f"a model is wanted, not {in_short(model)}")
         source, target = model._change(), self._change()
         if source.planar != target.planar:
             raise model_error(
@@ -65,11 +70,12 @@ class CopyMethods(AssemblyMethods):
             )
         turn = rotation(_axis(target, axis), degrees, _ORIGIN)
         move = Transform(turn.matrix, _vector(target, at, "place"))
-        renamer(names, 2)
-        indices = list(range(len(source.kinds)))
-        tolerance = _tolerance(join, source, target)
-        made = copy_parts(source, indices, list(source.node_kind), target, move, tolerance)
-        name_copies(source, target, made, names, 2)
+        naming = Naming(source, target, names)
+        every = list(range(len(source.kinds))), list(source.node_kind)
+        copying = Copying(source, *every, target, _tolerance(join, source, target))
+        with all_or_nothing(target):
+            made = copying.run(move)
+            naming.name(made, 2)
         return _assembly(source, target, made)
 
     def pattern(
@@ -110,7 +116,7 @@ class CopyMethods(AssemblyMethods):
         angle = 360.0 / count if degrees is None else degrees
         centre = _vector(draft, at, "point of the axis")
         indices, further = self._chosen(parts)
-        renamer(names, 2)
+        naming = Naming(draft, draft, names)
         moves = [
             rotation(_axis(draft, axis), k * angle, centre)
             if step is None
@@ -118,21 +124,14 @@ class CopyMethods(AssemblyMethods):
             for k in range(1, count)
         ]
         made = [Copy({n: n for n in draft.node_kind}, {i: i for i in indices})]
-        for k, move in enumerate(moves, 2):
-            tolerance = _tolerance(join, draft, draft)
-            made.append(copy_parts(draft, indices, further, draft, move, tolerance))
-            name_copies(draft, draft, made[-1], names, k)
+        copying = Copying(draft, indices, further, draft, _tolerance(join, draft, draft))
+        with all_or_nothing(draft):
+            for k, move in enumerate(moves, 2):
+                made.append(copying.run(move))
+                naming.name(made[-1], k)
         results = tuple(_assembly(draft, draft, each) for each in made)
         if isinstance(names, str) and names.format("a", 1) != names.format("a", 2):
-            shared = {i for each in made[1:] for i, new in each.elements.items() if new == i}
-            shared |= {
-                i
-                for each in made[1:]
-                for i, new in each.elements.items()
-                if is_of_one_body(draft, draft, i, new)
-            }
-            further = [n for n in further if all(each.nodes.get(n) != n for each in made[1:])]
-            _rename_originals(draft, [i for i in indices if i not in shared], further, names)
+            _rename_originals(draft, copying, made[1:], names)
         return results
 
     def mirror(
@@ -163,9 +162,11 @@ class CopyMethods(AssemblyMethods):
         if draft.planar and move.matrix[2] != (0.0, 0.0, 1.0):
             raise model_error("no-coordinate", "a planar model is mirrored in a plane along z")
         indices, further = self._chosen(parts)
-        renamer(names, 2)
-        made = copy_parts(draft, indices, further, draft, move, _tolerance(join, draft, draft))
-        name_copies(draft, draft, made, names, 2)
+        naming = Naming(draft, draft, names)
+        copying = Copying(draft, indices, further, draft, _tolerance(join, draft, draft))
+        with all_or_nothing(draft):
+            made = copying.run(move)
+            naming.name(made, 2)
         return _assembly(draft, draft, made)
 
     def rotate(self, axis: Direction, degrees: float, *, at: Sequence[float] = _ORIGIN) -> None:
@@ -227,26 +228,34 @@ def _assembly(source: Draft, target: Draft, made: Copy) -> Assembly:
     parts: dict[str, Part | FoldedSheet | Element] = {
         name: of_indices(target, indices) for name, indices in groups.items() if name
     }
+    positions = [n for n in made.nodes if is_position(source.node_kind[n])]
     points = {
-        name: whole_point(target, made.nodes[number])
-        for number, name in source.node_names.items()
-        if number in made.nodes
+        source.node_names[n]: whole_point(target, made.nodes[n])
+        for n in positions
+        if n in source.node_names
     }
-    ground = [
-        whole_point(target, made.nodes[p])
-        for p, _ in dict.fromkeys(source.whole)
-        if p in made.nodes
-    ]
-    return Assembly("", Named(parts), Named(points), tuple(dict.fromkeys(ground)))
+    ground = [whole_point(target, made.nodes[n]) for n in positions if _is_clamped(source, n)]
+    return Assembly("", Named(parts), Named(points), tuple(ground))
 
 
-def _rename_originals(draft: Draft, indices: list[int], further: list[int], names: str) -> None:
-    """Give the originals of a pattern the number 1."""
-    nodes = set(further)
-    for index in indices:
-        if index in draft.names:
+def _is_clamped(draft: Draft, number: int) -> bool:
+    axes = AXES[draft.node_kind[number]]
+    return all(draft.coordinate_class.get((number, axis)) == Class.FIXED for axis in axes)
+
+
+def _rename_originals(draft: Draft, copying: Copying, made: list[Copy], names: str) -> None:
+    """Give the originals of a pattern the number 1, but for what their copies share."""
+
+    def is_shared(index: int, new: int) -> bool:
+        return new == index or is_of_one_body(draft, draft, index, new)
+
+    for index in copying.indices:
+        shared = any(is_shared(index, each.elements[index]) for each in made)
+        if index in draft.names and not shared:
             head, tail = split(draft.names[index])
             draft.name_element(index, names.format(head, 1) + tail)
-    for number in nodes & draft.node_names.keys():
-        head, tail = split(draft.node_names[number])
-        draft.name_node(number, names.format(head, 1) + tail)
+    for number in copying.nodes:
+        shared = any(each.nodes[number] == number for each in made)
+        if number in draft.node_names and not shared:
+            head, tail = split(draft.node_names[number])
+            draft.name_node(number, names.format(head, 1) + tail)

@@ -3,20 +3,15 @@
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from ..core.elements import AXES, Class, Member, NodeKind, is_position, member_table
-from ..diagnostics.errors import model_error
-from .arguments import unit
-from .draft import NO_VECTOR, Draft, Vector
-from .point_arguments import is_rigid, pivot, whole_point
+from ..core.elements import AXES, NodeKind, is_position
+from .draft import Draft
+from .places import Places
+from .point_arguments import pivot, whole_point
 from .transform import Transform
-
-#: Of the size of a model: points nearer than this are at one place.
-ROUNDING = 1.0e-9
+from .turning import axes_of, check_axes, check_classes, vector
 
 
 @dataclass
@@ -30,76 +25,128 @@ class Copy:
     elements: dict[int, int] = field(default_factory=dict)
 
 
-class Places:
-    """Position nodes of a draft by their places, within a tolerance [m]."""
-
-    def __init__(self, draft: Draft, tolerance: float) -> None:
-        """Of all position nodes that there are now."""
-        self._draft = draft
-        self._tolerance = tolerance
-        self._cells: dict[tuple[int, ...], list[int]] = {}
-        for number, kind in draft.node_kind.items():
-            if is_position(kind):
-                self._cells.setdefault(self._cell(draft.node_value[number]), []).append(number)
-
-    def _cell(self, place: Iterable[float]) -> tuple[int, ...]:
-        size = 4.0 * self._tolerance or 1.0
-        return tuple(round(x / size) for x in itertools.islice(place, 3))
-
-    def near(self, place: Vector) -> list[int]:
-        """Numbers of the nodes at a place, in the order they were made."""
-        cell = self._cell(place)
-        found = []
-        for offset in itertools.product((-1, 0, 1), repeat=3):
-            key = tuple(a + b for a, b in zip(cell, offset, strict=True))
-            for number in self._cells.get(key, []):
-                value = self._draft.node_value[number]
-                if all(abs(value[k] - place[k]) <= self._tolerance for k in range(3)):
-                    found.append(number)
-        return sorted(found)
-
-
-def size_of(draft: Draft) -> float:
-    """The largest coordinate of a draft [m]."""
-    return max(
-        (
-            abs(x)
-            for number, kind in draft.node_kind.items()
-            if is_position(kind)
-            for x in draft.node_value[number][:3]
-        ),
-        default=0.0,
-    )
-
-
-def copy_parts(
-    source: Draft,
-    indices: list[int],
-    further: Iterable[int],
-    target: Draft,
-    move: Transform,
-    tolerance: float | None,
-) -> Copy:
-    """Copy elements and nodes of a draft into a draft.
+class Copying:
+    """Copies of chosen elements of a draft into a draft, as many as are asked for.
 
     Args:
         source: Where they are.
         indices: The elements; their nodes are copied with them.
         further: Numbers of nodes besides those of the elements.
         target: Where they go; may be the source.
-        move: What is done to them.
         tolerance: Within which points at one place are joined [m]; None joins none.
-
-    Raises:
-        ModelError: a class of single coordinates has no image along the axes.
     """
-    nodes = _nodes_of(source, indices, further)
-    made = Copy()
-    _check_classes(source, nodes, move)
-    _copy_nodes(source, nodes, target, move, tolerance, made)
-    _copy_elements(source, indices, target, move, made)
-    _copy_classes(source, nodes, target, move, made)
-    return made
+
+    def __init__(
+        self,
+        source: Draft,
+        indices: list[int],
+        further: Iterable[int],
+        target: Draft,
+        tolerance: float | None,
+    ) -> None:
+        """Note what there is to be copied, with its classes and masses."""
+        self.source, self.target = source, target
+        self.indices = indices
+        self.nodes = _nodes_of(source, indices, further)
+        self._places = None if tolerance is None else Places(target, tolerance)
+        self._own = {_ends(source, i): i for i in indices} if source is target else {}
+        chosen, nodes = set(indices), set(self.nodes)
+        self._stated = [(at, value) for at, value in source.stated.items() if at[0] in chosen]
+        self._axes = {n: axes_of(source, n) for n in self.nodes}
+        self._named = {place for place in source.named if place[0] in nodes}
+        self._whole = [both for both in dict.fromkeys(source.whole) if nodes.issuperset(both)]
+        self._mass = {
+            n: source.properties.node_mass[n]
+            for n in self.nodes
+            if n in source.properties.node_mass
+        }
+
+    def run(self, move: Transform) -> Copy:
+        """Make one copy.
+
+        Raises:
+            ModelError: a class of single coordinates has no image along the axes.
+        """
+        shared = self.source is self.target and self._places is not None
+        check_classes(self.source, self.nodes, move, shared)
+        check_axes(self.source, self.indices, move)
+        made = Copy()
+        taken: set[int] = set()
+        for number in self.nodes:
+            made.nodes[number] = self._node(number, move, made, taken)
+        for index in self.indices:
+            made.elements[index] = self._element(index, move, made)
+        for (index, number), value in self._stated:
+            if not self._is_own(index, made.elements[index]):
+                self.target.stated[made.elements[index], number] = value
+        self._give_classes(move, made)
+        return made
+
+    def _is_own(self, old: int, new: int) -> bool:
+        return self.source is self.target and old == new
+
+    def _node(self, number: int, move: Transform, made: Copy, taken: set[int]) -> int:
+        source, target = self.source, self.target
+        kind, value = source.node_kind[number], source.node_value[number]
+        if not is_position(kind):
+            return _copy_orientation(source, number, target, move, made)
+        x, y, z = move.place((value[0], value[1], value[2]))
+        near = [] if self._places is None else self._places.near((x, y, z))
+        free = [n for n in near if n not in taken and target.node_kind[n] == kind]
+        if free:
+            itself = source is target and number in free
+            new = number if itself else free[0]
+            taken.add(new)
+            return new
+        new = target.add_node(kind, (x, y, z, 0.0))
+        if self._places is not None:
+            self._places.add(new)
+            taken.add(new)
+        return new
+
+    def _element(self, index: int, move: Transform, made: Copy) -> int:
+        source, target = self.source, self.target
+        slots = tuple(made.nodes.get(n, 0) for n in source.slots[index])
+        image = (slots[0], slots[1], slots[2], slots[3])
+        same = self._own.get(_ends_of(source.kinds[index], image))
+        if same is not None:
+            return same
+        new = len(target.kinds)
+        turned = vector(source, index, move)
+        target.append_element(source.kinds[index], image, turned, source.classes[index])
+        if index in source.rigid:
+            target.rigid.add(new)
+        said = source.appearance.said.get(index)
+        if said:
+            target.appearance.give([new], said)
+        target.give_properties(
+            new, source.properties.stiffness.get(index), source.properties.mass.get(index)
+        )
+        return new
+
+    def _give_classes(self, move: Transform, made: Copy) -> None:
+        """Classes and masses of nodes that did not come to lie on themselves."""
+        target = self.target
+        for number, given in self._axes.items():
+            new = made.nodes[number]
+            if self._is_own(number, new):
+                continue
+            for value, axes in given.items():
+                image = move.axes(axes)
+                places = [(new, k) for k in image or () if k in AXES[target.node_kind[new]]]
+                target.state_coordinates(places, value)
+                if any((number, k) in self._named for k in axes):
+                    target.named.update(places)
+        for number, mass in self._mass.items():
+            new = made.nodes[number]
+            if not self._is_own(number, new):
+                moved = move.inertia(mass) if len(mass) == 6 else mass
+                there = target.properties.node_mass.get(new, (0.0,) * len(moved))
+                target.give_node_mass(new, tuple(a + b for a, b in zip(there, moved, strict=True)))
+        for p, o in self._whole:
+            both = made.nodes[p], made.nodes[o]
+            if both != (p, o) or self.source is not target:
+                target.whole.append(both)
 
 
 def _nodes_of(source: Draft, chosen: list[int], further: Iterable[int]) -> list[int]:
@@ -115,33 +162,6 @@ def _nodes_of(source: Draft, chosen: list[int], further: Iterable[int]) -> list[
     return sorted(found, key=lambda n: (not is_position(source.node_kind[n]), n))
 
 
-def _copy_nodes(
-    source: Draft,
-    nodes: list[int],
-    target: Draft,
-    move: Transform,
-    tolerance: float | None,
-    made: Copy,
-) -> None:
-    places = None if tolerance is None else Places(target, tolerance)
-    taken: set[int] = set()
-    for number in nodes:
-        kind, value = source.node_kind[number], source.node_value[number]
-        if is_position(kind):
-            x, y, z = move.place((value[0], value[1], value[2]))
-            near = [] if places is None else places.near((x, y, z))
-            free = [n for n in near if n not in taken and target.node_kind[n] == kind]
-            itself = source is target and number in free
-            if free:
-                new = number if itself else free[0]
-                taken.add(new)
-            else:
-                new = target.add_node(kind, (x, y, z, 0.0))
-        else:
-            new = _copy_orientation(source, number, target, move, made)
-        made.nodes[number] = new
-
-
 def _copy_orientation(
     source: Draft, number: int, target: Draft, move: Transform, made: Copy
 ) -> int:
@@ -150,45 +170,16 @@ def _copy_orientation(
     if there == at and source is target and at:
         return number
     first = source.orientation_at.get(at) == number
+    target_last = target.last_node
     if first:
         new = whole_point(target, there).orientation
     elif there:
         new = pivot(target, there).orientation
     else:
         new = target.add_orientation()
-    if source.node_kind[number] == NodeKind.ORIENTATION and new > max(made.nodes.values()):
+    if source.node_kind[number] == NodeKind.ORIENTATION and new > target_last:
         target.node_value[new] = move.euler(source.node_value[number])
     return new
-
-
-def _copy_elements(
-    source: Draft, chosen: list[int], target: Draft, move: Transform, made: Copy
-) -> None:
-    own = {_ends(source, index): index for index in chosen} if source is target else {}
-    for index in chosen:
-        slots = tuple(made.nodes.get(n, 0) for n in source.slots[index])
-        image = (slots[0], slots[1], slots[2], slots[3])
-        same = own.get(_ends_of(source.kinds[index], image))
-        if same is not None:
-            made.elements[index] = same
-            continue
-        new = len(target.kinds)
-        target.append_element(
-            source.kinds[index], image, _vector(source, index, move), source.classes[index]
-        )
-        made.elements[index] = new
-        if index in source.rigid:
-            target.rigid.add(new)
-        said = source.appearance.said.get(index)
-        if said:
-            target.appearance.give([new], said)
-        target.give_properties(
-            new, source.properties.stiffness.get(index), source.properties.mass.get(index)
-        )
-    elements = made.elements
-    for (index, number), value in list(source.stated.items()):
-        if index in elements and (source is not target or elements[index] != index):
-            target.stated[elements[index], number] = value
 
 
 def _ends(draft: Draft, index: int) -> tuple[int, frozenset[tuple[int, int]]]:
@@ -199,88 +190,18 @@ def _ends_of(kind: int, slots: tuple[int, int, int, int]) -> tuple[int, frozense
     return kind, frozenset((slots[:2], slots[2:]))
 
 
-def _vector(source: Draft, index: int, move: Transform) -> Vector:
-    """The vector of an element's image; a beam that had none gets the image of its default."""
-    given = source.vectors[index]
-    beam = int(member_table()[source.kinds[index]]) == Member.BEAM
-    if given == NO_VECTOR and beam and not source.planar and not is_rigid(source, index):
-        p, _, q, _ = source.slots[index]
-        a, b = source.node_value[p], source.node_value[q]
-        along = unit((b[0] - a[0], b[1] - a[1], b[2] - a[2]))
-        least = min(range(3), key=lambda k: abs(along[k]))
-        x, y, z = (float(k == least) for k in range(3))
-        given = x, y, z
-    return given if given == NO_VECTOR else move.turned(given)
-
-
-def _check_classes(source: Draft, nodes: Iterable[int], move: Transform) -> None:
-    for number in nodes:
-        for value, axes in _axes_of(source, number).items():
-            if move.axes(axes) is None:
-                here = _place(source, number)
-                if math.dist(move.place(here), here) > ROUNDING * math.hypot(*here):
-                    raise model_error(
-                        "turned-class",
-                        f"{source.node_words(number)} has {value.name.lower()} coordinates that "
-                        "are not along x, y or z any more in the copy",
-                        "copy first and give the class afterwards",
-                    )
-
-
-def _place(source: Draft, number: int) -> Vector:
-    position = source.position_of.get(number, number)
-    x, y, z = source.node_value[position][:3]
-    return x, y, z
-
-
-def _axes_of(source: Draft, number: int) -> dict[Class, set[int]]:
-    """Axes of a node by the classes that they were given."""
-    found: dict[Class, set[int]] = {}
-    axes = AXES[source.node_kind[number]]
-    for axis in axes:
-        value = source.coordinate_class.get((number, axis))
-        if value is not None:
-            found.setdefault(Class(value), set()).add(axis)
-    return found
-
-
-def _copy_classes(
-    source: Draft, nodes: list[int], target: Draft, move: Transform, made: Copy
-) -> None:
-    """Classes and masses of nodes that did not come to lie on themselves."""
-    for number in nodes:
-        new = made.nodes[number]
-        if source is target and new == number:
-            continue
-        for value, axes in _axes_of(source, number).items():
-            image = move.axes(axes)
-            places = [(new, k) for k in image or () if k in AXES[target.node_kind[new]]]
-            target.state_coordinates(places, value)
-            if any((number, k) in source.named for k in axes):
-                target.named.update(places)
-        mass = source.properties.node_mass.get(number)
-        if mass:
-            moved = move.inertia(mass) if len(mass) == 6 else mass
-            there = target.properties.node_mass.get(new, (0.0,) * len(moved))
-            target.give_node_mass(new, tuple(a + b for a, b in zip(there, moved, strict=True)))
-    for p, o in list(source.whole):
-        if p in made.nodes and o in made.nodes:
-            both = made.nodes[p], made.nodes[o]
-            if both not in target.whole:
-                target.whole.append(both)
-
-
 def turn(draft: Draft, move: Transform) -> None:
     """Turn all that there is.
 
     Raises:
         ModelError: a class of single coordinates is not along the axes any more.
     """
-    _check_classes(draft, draft.node_kind, move)
-    draft.vectors = [_vector(draft, index, move) for index in range(len(draft.kinds))]
+    check_classes(draft, draft.node_kind, move)
+    check_axes(draft, range(len(draft.kinds)), move)
+    draft.vectors = [vector(draft, index, move) for index in range(len(draft.kinds))]
     classes: dict[tuple[int, int], int] = {}
     for number, kind in draft.node_kind.items():
-        for given, axes in _axes_of(draft, number).items():
+        for given, axes in axes_of(draft, number).items():
             classes.update({(number, k): int(given) for k in move.axes(axes) or ()})
         value = draft.node_value[number]
         if is_position(kind):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
@@ -51,7 +51,13 @@ class DeckNames(Sequence[str]):
         """The name of an element or a node by its index; empty where it has none."""
         if isinstance(index, slice):
             return tuple(self[i] for i in range(*index.indices(len(self))))
-        first, last = self._places[:, index].tolist()
+        return self._between(*self._places[:, index].tolist())
+
+    def __iter__(self) -> Iterator[str]:
+        """All names, faster than one by one."""
+        return map(self._between, *self._places.tolist())
+
+    def _between(self, first: int, last: int) -> str:
         return decode(self._text[first - 1 : last]) if first > 0 else ""
 
 

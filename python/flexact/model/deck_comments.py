@@ -97,7 +97,7 @@ class _Reader:
         body, comment = self._parts(line)
         words = body.split(None, 2)
         if words:
-            self._statement([word.upper() for word in words], comment)
+            self._statement(words[0].upper(), words[1] if len(words) > 1 else "", comment)
         elif comment:
             lines = self.waiting if self.has_begun else self.made.top
             # What opens a comment of a picture does so nowhere else.
@@ -108,34 +108,30 @@ class _Reader:
         self._close()
 
     def _parts(self, line: str) -> tuple[str, str]:
-        """A line before its comment, and the comment without its mark."""
+        """A line before its comment, and the comment with its mark."""
         if line.startswith("*"):
-            return "", line[1:].strip() or line
+            return "", line
         pattern = _MARK_OF_PICTURES if self.block == _PICTURE else _MARK
         mark = pattern.search(line)
-        if mark is None:
-            return line, ""
-        body, comment = line[: mark.start()], line[mark.start() :]
-        if not body.strip():
-            return "", comment
-        return body, _printable(comment.lstrip("%# \t"))
+        return (line, "") if mark is None else (line[: mark.start()], line[mark.start() :])
 
-    def _statement(self, words: list[str], comment: str) -> None:
+    def _statement(self, keyword: str, number: str, comment: str) -> None:
         self.has_begun = True
-        if words[0] in ("END", "HALT", "VISUALIZATION"):
-            self._next_block(words[0])
+        if keyword in ("END", "HALT", "VISUALIZATION"):
+            self._next_block(keyword)
             return
-        written = _WRITTEN_AS.get(self.block, {}).get(words[0])
-        if self.block == _KINEMATICS and words[0] in self.elements:
+        written = _WRITTEN_AS.get(self.block, {}).get(keyword)
+        if self.block == _KINEMATICS and keyword in self.elements:
             written = ELEMENT
-        if written is None or len(words) < 2 or not words[1].isdecimal():
+        number = number.removeprefix("+")
+        if written is None or not number.isdecimal():
             return
-        key = written, int(words[1])
+        key = written, int(number)
         if self.waiting:
             self.made.before.setdefault(key, []).extend(self.waiting)
             self.waiting = []
-        if comment and written not in _NAMED:
-            self.made.behind.setdefault(key, []).append(comment)
+        if comment and written not in _NAMED and (words := _printable(comment.lstrip("%# \t"))):
+            self.made.behind.setdefault(key, []).append(words)
 
     def _next_block(self, word: str) -> None:
         if self.block == _PICTURE:
@@ -153,4 +149,6 @@ class _Reader:
 
 
 def _printable(text: str) -> str:
-    return "".join(c if c.isprintable() else " " for c in text).rstrip()
+    if not text.isprintable():
+        text = "".join(c if c.isprintable() else " " for c in text)
+    return text.rstrip()

@@ -12,7 +12,7 @@ from ..core.elements import AXES, Class, NodeKind, keywords_of
 from .appearance import Appearance, CrossSection
 from .data import ModelData
 from .deck_comments import ELEMENT, DeckComments, comments_of
-from .draft import one_line
+from .lookup import one_line
 from .properties_draft import rows_of
 
 _IDENTITY = {

@@ -23,9 +23,8 @@ def delete_elements(draft: Draft, indices: Iterable[int]) -> None:
     for name in ("kinds", "numbers", "slots", "vectors", "classes"):
         values = getattr(draft, name)
         values[:] = [values[i] for i in kept]
-    for name in ("names", "stiffness", "mass"):
-        values = getattr(draft, name)
-        setattr(draft, name, {new[i]: each for i, each in values.items() if i in new})
+    draft.names = {new[i]: each for i, each in draft.names.items() if i in new}
+    draft.properties.renumber(new)
     said = draft.appearance.said
     draft.appearance.said = {new[i]: each for i, each in said.items() if i in new}
     draft.stated = {(new[i], k): value for (i, k), value in draft.stated.items() if i in new}
@@ -56,10 +55,10 @@ def delete_point(draft: Draft, point: Node) -> None:
     nodes = {point.position, point.orientation}
     users = [i for i, slots in enumerate(draft.slots) if nodes & set(slots)]
     if users:
-        names = dict.fromkeys(part_name(draft.names.get(i, "")) or _number(draft, i) for i in users)
+        names = dict.fromkeys(_part_words(draft, i) for i in users)
         raise model_error(
             "in-use",
-            f"{point!r} is used by {', '.join(map(in_short, names))}",
+            f"{point.words} is used by {', '.join(names)}",
             "delete these parts first, or move the point",
         )
     for number in nodes:
@@ -67,8 +66,9 @@ def delete_point(draft: Draft, point: Node) -> None:
     draft.changed_names_or_places()
 
 
-def _number(draft: Draft, index: int) -> str:
-    return f"element {draft.numbers[index]}"
+def _part_words(draft: Draft, index: int) -> str:
+    name = part_name(draft.names.get(index, ""))
+    return in_short(name) if name else draft.element_words(index)
 
 
 def _drop_node(draft: Draft, number: int) -> None:

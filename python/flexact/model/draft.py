@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
@@ -17,7 +16,7 @@ from ..diagnostics.source import Source
 from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
 from .handles import Owner
-from .names import part_name
+from .lookup import Lookup
 from .properties_draft import PropertiesDraft
 
 Vector = tuple[float, float, float]
@@ -32,11 +31,12 @@ _MOST_LISTED = 5
 _CLASS_WORDS = {Class.FIXED: "fixed", Class.DEPENDENT: "released", Class.INDEPENDENT: "independent"}
 
 
-class Draft:
+class Draft(Lookup):
     """Nodes and elements as lists and dictionaries, by their numbers."""
 
     def __init__(self, planar: bool, owner: Owner) -> None:
         """Start without nodes or elements; `owner` is what its handles are known by."""
+        super().__init__()
         self.planar = planar
         self.owner = owner
         owner.draft = self
@@ -54,7 +54,6 @@ class Draft:
         self.slots: list[tuple[int, int, int, int]] = []
         self.vectors: list[Vector] = []
         self.classes: list[tuple[int, ...]] = []
-        self.names: dict[int, str] = {}
         self.appearance = AppearanceDraft()
         self.properties = PropertiesDraft()
         #: Classes that were stated for single deformations, by index.
@@ -67,10 +66,6 @@ class Draft:
         self.began_as: Source | None = None
         self.last_node = 0
         self.last_element = 0
-        self._index_of: dict[int, int] | None = None
-        self._of_part: dict[str, list[int]] | None = None
-        self._of_name: dict[str, list[int]] | None = None
-        self._of_place: dict[tuple[float, ...], list[int]] | None = None
         #: The first orientation of each point by its position node, and the other way round.
         self.orientation_at: dict[int, int] = {}
         self.position_of: dict[int, int] = {}
@@ -121,73 +116,13 @@ class Draft:
         self.last_node = number
         self.node_kind[number] = kind
         self.node_value[number] = value
-        if self._of_place is not None and is_position(kind):
-            self._of_place.setdefault(value, []).append(number)
+        self._added_node(number)
         return number
 
     def join(self, position: int, orientation: int) -> None:
         """Say that an orientation is one of the point at a position node."""
         self.orientation_at.setdefault(position, orientation)
         self.position_of.setdefault(orientation, position)
-
-    def nodes_at(self, value: tuple[float, ...]) -> list[int]:
-        """Numbers of the position nodes at exactly this place, in the order they were made."""
-        if self._of_place is None:
-            self._of_place = {}
-            for number, kind in self.node_kind.items():
-                if is_position(kind):
-                    self._of_place.setdefault(self.node_value[number], []).append(number)
-        return self._of_place.get(value, [])
-
-    def part_indices(self, name: str) -> list[int]:
-        """Indices of the elements of the parts with this name, in the order they were made."""
-        return self.parts_by_name.get(name, [])
-
-    @property
-    def parts_by_name(self) -> dict[str, list[int]]:
-        """Indices of elements by the name of their part."""
-        if self._of_part is None:
-            self._of_part = {}
-            for index in sorted(self.names):
-                self._of_part.setdefault(part_name(self.names[index]), []).append(index)
-        return self._of_part
-
-    @property
-    def points_by_name(self) -> dict[str, list[int]]:
-        """Numbers of position nodes by their names."""
-        if self._of_name is None:
-            self._of_name = {}
-            for number, name in self.node_names.items():
-                self._of_name.setdefault(name, []).append(number)
-        return self._of_name
-
-    def name_node(self, number: int, name: str) -> None:
-        """Name a node, or with an empty name take its name away."""
-        if number in self.node_names:
-            self._of_name = None
-            del self.node_names[number]
-        if name := one_line(name):
-            self.node_names[number] = name
-            if self._of_name is not None:
-                self._of_name.setdefault(name, []).append(number)
-
-    def name_element(self, index: int, name: str) -> None:
-        """Name an element, or with an empty name take its name away."""
-        self.names.pop(index, None)
-        made = one_line(name)
-        if made:
-            self.names[index] = made
-        self._of_part = None
-
-    def name_of(self, number: int) -> str:
-        """Name of an element by its number, empty without one or without the element."""
-        self._number_elements()
-        assert self._index_of is not None
-        return self.names.get(self._index_of.get(number, -1), "")
-
-    def changed_names_or_places(self) -> None:
-        """Forget what was found by names, numbers and places; it is found anew when asked for."""
-        self._index_of = self._of_part = self._of_name = self._of_place = None
 
     def add_orientation(self) -> int:
         """Add an unturned orientation, in the plane an angle, and return its number."""
@@ -209,11 +144,7 @@ class Draft:
         classes = _classes(kind.deformations, tuple(released))
         number = self.append_element(kind.number, slots, vector, classes)
         if name:
-            name = one_line(name)
-            if name:
-                self.names[index] = name
-                if self._of_part is not None:
-                    self._of_part.setdefault(part_name(name), []).append(index)
+            self.name_element(index, name)
         if shape is not None:
             self.appearance.give([index], {"shape": shape})
         return number
@@ -225,14 +156,13 @@ class Draft:
         number = self.last_element + 1
         if number > LARGEST:
             raise model_error("number-too-large", "the model has no element number left")
-        if self._index_of is not None:
-            self._index_of[number] = len(self.kinds)
         self.last_element = number
         self.numbers.append(number)
         self.kinds.append(kind)
         self.slots.append(slots)
         self.vectors.append(vector)
         self.classes.append(classes)
+        self._added_element(len(self.kinds) - 1)
         return number
 
     def give_properties(
@@ -258,29 +188,6 @@ class Draft:
         """
         self.properties.give_node(number, values)
 
-    def index_of(self, number: int) -> int:
-        """Index of the element with this number."""
-        self._number_elements()
-        assert self._index_of is not None
-        index = self._index_of.get(number)
-        if index is None:
-            raise model_error("no-such-element", f"there is no element {in_short(number)}")
-        return index
-
-    def _number_elements(self) -> None:
-        if self._index_of is None:
-            self._index_of = {n: i for i, n in enumerate(self.numbers)}
-
-    def element_words(self, index: int) -> str:
-        """What messages call an element."""
-        name = self.names.get(index)
-        return in_short(name) if name else f"element {self.numbers[index]}"
-
-    def node_words(self, number: int) -> str:
-        """What messages call a node."""
-        name = self.node_names.get(number)
-        return f"point {in_short(name)}" if name else f"node {number}"
-
     def deformations_of(self, index: int) -> int:
         """How many deformations an element has, a rigid one counted as a beam."""
         return sum(c != Class.NONE for c in self.classes[index])
@@ -304,6 +211,8 @@ class Draft:
         classes = list(self.classes[index])
         classes[number - 1] = value
         self.classes[index] = tuple(classes)
+        if self.components is not None and index < self.components.seen:
+            self.components = None
 
     def declare(self, index: int, numbers: Iterable[int]) -> None:
         """Make deformations (from 1) of an element independent, whatever was said of them."""
@@ -382,6 +291,9 @@ class Draft:
         rigid[list(self.rigid)] = True
         needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
         needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        # Two links that end at one point carry it both, so that they are one body.
+        far, times = np.unique(slots[rigid, 3], return_counts=True)
+        needed.update(far[times > 1].tolist())
         stated = {index for index, _ in self.stated}
         short = kind_of("PLRBEAM" if self.planar else "RBEAM")
         for index in self.rigid:
@@ -437,12 +349,6 @@ class Draft:
             if position not in used and orientation not in used:
                 vain.add(position)
         return sorted(vain)
-
-
-def one_line(name: str) -> str:
-    """A name as the comment of a deck's line can hold it."""
-    line = "".join(c if c.isprintable() else " " for c in name)
-    return line.lstrip(" %#").rstrip()
 
 
 def _classes(deformations: int, released: tuple[int, ...]) -> tuple[int, ...]:

@@ -100,7 +100,10 @@ class EditMethods(Making):
         """
         draft = self._change()
         with call("made_of", target):
-            for each in _flexures(target if not isinstance(target, str) else self.part(target)):
+            flexures = _flexures(self.part(target) if isinstance(target, str) else target)
+            if not flexures:
+                raise model_error("no-section", "there is no flexure in it to be made of something")
+            for each in flexures:
                 found = self.part(each)
                 sheet = isinstance(found, Sheet)
                 if sheet:

@@ -62,6 +62,11 @@ class Node:
         """(3,) or, in a planar model, (2,) position [m]."""
         return self.owner.node_place(self.position)
 
+    @property
+    def words(self) -> str:
+        """What messages call the point."""
+        return f"point {self.name!r}" if self.name else f"the point at {_place_words(self)}"
+
     def __repr__(self) -> str:
         """Name and place."""
         at = f"at {_place_words(self)}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from copy import copy
 from dataclasses import replace
 
 from ..base.plain_text import in_short
@@ -52,11 +53,30 @@ class Making:
 
 
 @contextmanager
+def all_or_nothing(draft: Draft) -> Iterator[None]:
+    """Leave the draft as it was where an error is raised; takes time for all that there is."""
+    before = {name: copy(value) for name, value in vars(draft).items() if name not in _KEPT}
+    said = dict(draft.appearance.said)
+    try:
+        yield
+    except ModelError:
+        vars(draft).update(before)
+        draft.appearance.said = said
+        draft.changed_names_or_places()
+        raise
+
+
+#: Of a draft: what is no table of its own.
+_KEPT = ("owner", "appearance", "components")
+
+
+@contextmanager
 def call(method: str, name: object = "") -> Iterator[None]:
     """Begin the message of an error with the call and the part that it was about."""
     try:
         yield
     except ModelError as error:
+        name = name if isinstance(name, str) else getattr(name, "name", "")
         if not isinstance(name, str) or not name or len(error.diagnostics) != 1:
             raise
         (problem,) = error.diagnostics

@@ -22,10 +22,11 @@ from .parts.declaring import surplus_of
 class Model(Builder):
     """A mechanism as a finite element model.
 
-    Make nodes, join them with elements, say what is fixed and independent, and
-    hand the model to `flexact.analyse`. A model that was read from a deck has the
-    same methods; where a point is wanted, `handle` makes one from node numbers.
-    Positions are in metres.
+    Make parts between points (sheets, wires, bodies, hinges, whole cross hinges and
+    guides), say what is fixed and independent, and hand the model to `flexact.analyse`.
+    Where a point is wanted, a handle, a name, a place (x, y, z) or a body will do;
+    where a part is wanted, its handle or its name. A model that was read from a deck has
+    the same methods; `handle` makes points from node numbers. Positions are in metres.
 
     The arrays are read-only and made once; a change of the model makes new ones and
     leaves the old ones as they are. Nodes are in ascending order of their numbers,

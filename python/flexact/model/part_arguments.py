@@ -9,10 +9,10 @@ from ..base.plain_text import in_short
 from ..core.elements import Class, Member, member_table
 from ..diagnostics.errors import model_error
 from .arguments import whole
-from .draft import Draft
+from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import ambiguous, unknown
-from .point_arguments import is_rigid, require_own
+from .point_arguments import is_rigid, require_own, whole_point
 from .words import SIDE_VIEW, WIDE_Y, WIDE_Z, Planes
 
 #: A part: its handle, its name, or the number of an element.
@@ -60,6 +60,12 @@ def named(draft: Draft, name: str) -> Part | Element:
         single = [i for i, each in draft.names.items() if each == name]
         if len(single) == 1:
             return of_indices(draft, single)
+        if name in draft.points_by_name:
+            raise model_error(
+                "not-an-element",
+                f"{in_short(name)} is a point and has no deformations",
+                "name a part",
+            )
         raise unknown("no-such-part", "part", name, draft.parts_by_name)
     exact = [i for i in indices if draft.names[i] == name]
     if len(exact) > 1 or (exact and len(indices) > 1):
@@ -93,8 +99,10 @@ def _points(draft: Draft, indices: list[int]) -> tuple[Node, ...]:
     found: dict[int, Node] = {}
     for index in indices:
         p, op, q, oq = draft.slots[index]
-        for position, orientation in ((p, op), (q, oq or draft.orientation_at.get(q, 0))):
-            found.setdefault(position, Node(position, orientation, draft.owner))
+        found.setdefault(p, Node(p, op, draft.owner))
+        if q not in found:
+            # An RBEAM of a deck carries no orientation at q.
+            found[q] = Node(q, oq, draft.owner) if oq else whole_point(draft, q)
     return tuple(found.values())
 
 
@@ -143,4 +151,6 @@ def planes_of(draft: Draft, made: Part | Element, indices: list[int]) -> Planes 
     shape = draft.appearance.said.get(indices[0], {}).get("shape")
     if shape is not None and shape.y != shape.z:
         return WIDE_Z if shape.z > shape.y else WIDE_Y
-    return WIDE_Z if isinstance(made, Sheet) else None
+    # A round wire has no vector as a rule, a sheet of the builder has one.
+    own = draft.vectors[indices[0]] != NO_VECTOR
+    return WIDE_Z if own or isinstance(made, Sheet) else None

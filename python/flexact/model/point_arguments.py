@@ -9,8 +9,9 @@ from ..base.plain_text import in_short
 from ..core.elements import Class, Member, NodeKind, is_position, member_table
 from ..diagnostics.errors import model_error
 from .arguments import UNORDERED, text, vector, whole
-from .draft import Draft, one_line
+from .draft import Draft
 from .handles import Body, Element, Node, Part
+from .lookup import one_line
 from .names import COORDINATES, ambiguous, unknown
 
 #: A point: its handle, its name, its place [m], or a body, which stands for its first point.
@@ -68,7 +69,18 @@ def named(draft: Draft, name: str) -> Node:
     if indices and all(is_rigid(draft, index) for index in indices):
         p, op, _, _ = draft.slots[indices[0]]
         return Node(p, op, draft.owner)
-    raise unknown("no-such-point", "point", name, draft.node_names.values())
+    if indices:
+        raise model_error(
+            "not-a-node",
+            f"{in_short(name)} is a part and has no coordinates",
+            "name a point, such as one of its ends",
+        )
+    raise unknown("no-such-point", "point", name, [*draft.points_by_name, *_bodies(draft)])
+
+
+def _bodies(draft: Draft) -> list[str]:
+    """Names of the bodies, which stand for their first points."""
+    return [name for name, found in draft.parts_by_name.items() if is_rigid(draft, found[0])]
 
 
 def is_rigid(draft: Draft, index: int) -> bool:

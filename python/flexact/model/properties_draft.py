@@ -46,6 +46,11 @@ class PropertiesDraft:
         """Say something about a node."""
         self.node_mass[number] = _require("node_mass", values)
 
+    def renumber(self, new: Mapping[int, int]) -> None:
+        """Give elements new indices; of those that get none nothing is said any more."""
+        self.stiffness = {new[i]: row for i, row in self.stiffness.items() if i in new}
+        self.mass = {new[i]: row for i, row in self.mass.items() if i in new}
+
     def freeze(self, elements: int, node_numbers: Sequence[int]) -> Properties | None:
         """The properties of these elements and nodes; None where nothing is said."""
         if not (self.stiffness or self.mass or self.node_mass):

@@ -15,16 +15,27 @@ class RigidComponents:
     without its orientation (RBEAM) by its position number, negative.
     """
 
-    def __init__(self, draft: Draft) -> None:
-        """Of the model as it is now."""
+    def __init__(self) -> None:
+        """Of no elements so far."""
         self._parent: dict[int, int] = {}
         self._anchor: dict[int, Node] = {}
-        for index in [*range(draft.elements_given), *draft.rigid]:
+        #: How many elements of the draft were looked at.
+        self.seen = 0
+
+    @classmethod
+    def of(cls, draft: Draft) -> RigidComponents:
+        """Those of a draft as it is now; elements that are new since the last time are added."""
+        if draft.components is None:
+            draft.components = cls()
+        made = draft.components
+        for index in range(made.seen, len(draft.kinds)):
             if is_rigid(draft, index):
                 p, op, q, oq = draft.slots[index]
                 if not oq:
-                    self._anchor[-q] = Node(p, op, draft.owner)
-                self._merge(op, oq or -q)
+                    made._anchor[-q] = Node(p, op, draft.owner)
+                made._merge(op, oq or -q)
+        made.seen = len(draft.kinds)
+        return made
 
     def _root(self, key: int) -> int:
         self._parent.setdefault(key, key)
@@ -45,7 +56,3 @@ class RigidComponents:
     def joined(self, a: Node, b: Node) -> bool:
         """Whether one body carries both points, given by their carriers."""
         return self._root(a.orientation) == self._root(b.orientation)
-
-    def join(self, a: Node, b: Node) -> None:
-        """A link was made between two carriers."""
-        self._merge(a.orientation, b.orientation)

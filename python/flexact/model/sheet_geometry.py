@@ -30,7 +30,10 @@ def span(draft: Draft, p: Node, q: Node) -> Vector:
 def normal_to(a: Vector, b: Vector) -> Vector:
     """The unit normal of the plane of two vectors; zero where they are parallel."""
     made = cross(unit(a), unit(b))
-    return unit(made) if math.hypot(*made) > _PARALLEL else NO_VECTOR
+    if math.hypot(*made) <= _PARALLEL:
+        return NO_VECTOR
+    x, y, z = unit(made)
+    return x + 0.0, y + 0.0, z + 0.0
 
 
 def sheet_normal(draft: Draft, p: Node, q: Node, width: Direction | None) -> Vector | None:
@@ -43,7 +46,11 @@ def sheet_normal(draft: Draft, p: Node, q: Node, width: Direction | None) -> Vec
             raise model_error("surplus-vector", "the width of a sheet in a planar model is along z")
         return None
     if width is None:
-        raise model_error("missing-vector", "a sheet needs the direction of its width")
+        raise model_error(
+            "missing-vector",
+            "a sheet needs the direction of its width",
+            'give width=(x, y, z), or "x", "y" or "z"',
+        )
     wide = direction(width, "width")
     along = unit(span(draft, p, q))
     if along == NO_VECTOR:
@@ -62,7 +69,9 @@ def between(draft: Draft, p: Node, q: Node, parts: int) -> list[Vector]:
     """Points that divide the way from p to q into equal parts."""
     parts = whole(parts, "the number of beams must be a whole number")
     if not 1 <= parts <= LARGEST:
-        raise model_error("out-of-range", f"it cannot be divided into {in_short(parts)} beams")
+        raise model_error(
+            "out-of-range", f"a flexure cannot be divided into {in_short(parts)} beams"
+        )
     start, end = place_of(draft, p), place_of(draft, q)
     made = []
     for i in range(1, parts):

@@ -51,4 +51,6 @@ def _command(name: str, analysis: Result | None) -> str:
             words += ["--method", asked.method]
         if asked.tolerance is not None:
             words += ["--tolerance", repr(asked.tolerance)]
+        if asked.accuracy is not None:
+            words += ["--accuracy", str(asked.accuracy)]
     return shlex.join(words)

@@ -170,6 +170,8 @@ def read_answer(path: Path) -> StoredAnswer:
 
 
 def _understood(content: dict[str, Any]) -> StoredAnswer:
+    if "flexact" in content:
+        raise StoredAnswerError("it is the JSON of a result; regress --store makes a stored answer")
     if content["format"] != FORMAT:
         raise StoredAnswerError(f"format {content['format']!r} is not known")
     values = np.array(content["singular_values"], dtype=np.float64)

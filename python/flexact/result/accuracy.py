@@ -24,6 +24,10 @@ class Accuracy(NamedTuple):
     angle: float | None = None
     """Of elements [rad]; None where nothing is known of it."""
 
+    def __str__(self) -> str:
+        """As the command takes it, such as "2e-05,0.0001"."""
+        return ",".join(repr(part) for part in self if part is not None)
+
     def exceeds(self, margin: Margin) -> tuple[bool, bool]:
         """Whether it is larger than the length, and than the angle, of a margin."""
         length = margin.length is not None and margin.length < self.length

@@ -14,7 +14,7 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..diagnostics.errors import model_error
 from ..model.parts.parts import Part, PartKind, natural
-from .carriers import Carriers, Joint
+from .carriers import Joint
 from .handles import part_of, position_of
 from .outcome import Outcome
 from .screws import ROUNDING, Screw, screw_of
@@ -80,6 +80,7 @@ class Moving(Frozen):
                     groups.append([item])
                 else:
                     same.append(item)
+        groups = self._with_points_as_one(groups)
         made = [
             BodyMotion(
                 tuple(item.body for item in group if item.body is not None),
@@ -100,7 +101,7 @@ class Moving(Frozen):
         Raises:
             ModelError: there is no such body, or it is none.
         """
-        bodies = self._carriers.bodies
+        bodies = self.outcome.carriers.bodies
         if isinstance(body, int) and not isinstance(body, bool):
             if not 0 <= body < len(bodies):
                 raise model_error("no-such-part", f"there is no body {body} of {len(bodies)}")
@@ -146,15 +147,11 @@ class Moving(Frozen):
         """The sheets and wires inside of which something moves, by name."""
         return tuple(
             inside.part
-            for inside in self._carriers.insides
+            for inside in self.outcome.carriers.insides
             if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
         )
 
     # What it is made of -----------------------------------------------------
-
-    @cached_property
-    def _carriers(self) -> Carriers:
-        return Carriers(self.outcome.parts)
 
     @property
     def _length(self) -> float:
@@ -187,15 +184,45 @@ class Moving(Frozen):
 
     @cached_property
     def _items(self) -> tuple[_Item, ...]:
-        carriers = self._carriers
+        carriers = self.outcome.carriers
         order = sorted(range(len(carriers.bodies)), key=self._key_of_body)
         made = [_Item(self._of_body(k), carriers.bodies[k], None) for k in order]
         joints = [_Item(self._of_joint(joint), None, joint) for joint in carriers.joints]
         joints.sort(key=lambda item: item.joint is not None and item.joint.orientation is None)
         return (*made, *joints)
 
+    def _with_points_as_one(self, groups: list[list[_Item]]) -> list[list[_Item]]:
+        """Groups of points without orientations joined, if they move as one body would."""
+        points = [group for group in groups if _is_of_points(group)]
+        items = [item for group in points for item in group]
+        screw = self._fitted(items) if len(points) > 1 else None
+        if screw is None:
+            return groups
+        joined = [item._replace(screw=self._moved(screw, item)) for item in items]
+        return [*(group for group in groups if not _is_of_points(group)), joined]
+
+    def _fitted(self, items: Sequence[_Item]) -> Screw | None:
+        """The screw that points move by, None where there is none or it is not the only one."""
+        places = np.array([item.screw.centre for item in items])
+        moved = np.array([item.screw.velocity for item in items])
+        centre, mean = places.mean(axis=0), moved.mean(axis=0)
+        arms = (places - centre) / self._length
+        axes = (2,) if self.outcome.given.planar else (0, 1, 2)
+        matrix = np.stack([np.cross(np.eye(3)[axis], arms).ravel() for axis in axes], axis=1)
+        turns, _, rank, _ = np.linalg.lstsq(matrix, (moved - mean).ravel(), rcond=self.rounding)
+        off = np.abs(matrix @ turns - (moved - mean).ravel()).max()
+        if rank < len(axes) or off > 10.0 * self._rest:
+            return None
+        rotation = np.zeros(3)
+        rotation[list(axes)] = turns / self._length
+        return self._screw(rotation, mean, centre)
+
+    def _moved(self, screw: Screw, item: _Item) -> Screw:
+        """A screw as it is seen from a point."""
+        return self._screw(screw.rotation, item.screw.velocity, item.screw.centre)
+
     def _key_of_body(self, body: int) -> tuple[object, ...]:
-        part = self._carriers.bodies[body]
+        part = self.outcome.carriers.bodies[body]
         name = natural(part.name) if part.is_named else ()
         return name, tuple(np.round(self._of_body(body).centre / self._length, 9).tolist())
 
@@ -210,7 +237,7 @@ class Moving(Frozen):
         )
 
     def _of_joint(self, joint: Joint) -> Screw:
-        place = self._carriers.place_of(joint)
+        place = self.outcome.carriers.place_of(joint)
         none = np.zeros(3)
         return self._screw(
             none if joint.orientation is None else self.rotation[joint.orientation],
@@ -261,6 +288,11 @@ class _Item(NamedTuple):
     screw: Screw
     body: Part | None
     joint: Joint | None
+
+
+def _is_of_points(group: Sequence[_Item]) -> bool:
+    """Whether none of a group is a body or has an orientation."""
+    return all(item.joint is not None and item.joint.orientation is None for item in group)
 
 
 class Moves:

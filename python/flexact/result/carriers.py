@@ -12,6 +12,9 @@ from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts, natural
 
+#: How many of the parts that meet at a joint its name names.
+_MOST_NAMED = 3
+
 
 class Joint(NamedTuple):
     """A point that belongs to no body: where parts meet, or where one ends."""
@@ -27,7 +30,14 @@ class Joint(NamedTuple):
 
     def __str__(self) -> str:
         """Its name, or what meets there."""
-        return self.name or f"the joint of {' and '.join(part.name for part in self.parts)}"
+        if self.name:
+            return self.name
+        names = [part.name for part in self.parts]
+        if len(names) > _MOST_NAMED:
+            names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
+        if not names:
+            return "a free joint"
+        return f"the joint of {' and '.join(names)}" if len(names) > 1 else f"the end of {names[0]}"
 
 
 class Inside(NamedTuple):
@@ -56,11 +66,15 @@ class Carriers:
         return tuple(self.parts.of_body(k) for k in range(len(self.parts.bodies)))
 
     @cached_property
+    def inner(self) -> frozenset[int]:
+        """The nodes of all insides."""
+        return frozenset(node for inside in self.insides for node in inside.nodes)
+
+    @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """By name, then by place."""
         arrays = self.data.arrays
-        taken = {node for inside in self.insides for node in inside.nodes}
-        taken.update(node for body in self.parts.bodies for node in body.orientations)
+        taken = {node for body in self.parts.bodies for node in body.orientations} | self.inner
         made = []
         with_orientation = set()
         for node in range(arrays.node_number.size):
@@ -126,5 +140,16 @@ class Carriers:
 
     def _key(self, joint: Joint) -> tuple[object, ...]:
         place = self.place_of(joint)
-        rounded = () if place is None else tuple(place.tolist())
-        return natural(str(joint) if joint.name else ""), rounded, joint.orientation or -1
+        rounded = () if place is None else tuple(np.round(place / self._step, 9).tolist())
+        here = joint.parts[0] if joint.parts and joint.parts[0].is_named else None
+        return natural(joint.name or (here.name if here else "")), rounded, joint.orientation or -1
+
+    @cached_property
+    def _step(self) -> float:
+        """A length by which places are compared."""
+        sizes = np.abs(self.data.arrays.node_value[:3, self._is_position])
+        return float(sizes.max(initial=0.0)) or 1.0
+
+    @cached_property
+    def _is_position(self) -> np.ndarray:
+        return np.asarray(self.data.arrays.node_kind <= NodeKind.POSITION)

@@ -104,11 +104,24 @@ class Freedom(Frozen):
             return coordinate_name(int(self.analysis.data.arrays.node_kind[owner]), part)
         return f"e{part + 1}"
 
-    @property
+    @cached_property
     def label(self) -> str:
-        """Such as "node 1 z" or "element 3 e6"."""
-        kind, number = self.owner
-        return f"{kind} {number} {self.part}"
+        """Such as "stage z" or "sheet 3 e6": its body, point or part, and which part of it."""
+        return f"{self._place} {self.part}"
+
+    @property
+    def _place(self) -> str:
+        outcome, (kind, number) = self.analysis, self.owner
+        parts = outcome.parts
+        if kind == "element":
+            return parts.of_element(int(outcome.condensed.elements[self.place[1]])).name
+        node = int(outcome.condensed.nodes[self.place[1]])
+        position = parts.place_of(node)
+        name = "" if position is None else parts.name_of_point(position)
+        body = parts.body_at.get(node)
+        if body is not None and not name:
+            return parts.of_body(body).name
+        return name or f"node {number}"
 
     @cached_property
     def motion(self) -> FreeMotion | None:

@@ -27,7 +27,9 @@ _ALL_BUT = 1.0e-6
 #: Subspaces that are cut to find all flats of one component.
 _MOST_CUTS = 3_000
 #: Components of more dimensions than this are left as they are.
-_MOST_DIMENSIONS = 24
+MOST_DIMENSIONS = 24
+#: Of flats of more dimensions only what is not spanned yet is refined.
+_MOST_REFINED = 8
 #: Steps of the descent, and groups from which one starts.
 _STEPS = 12
 _MOST_STARTS = 60
@@ -102,6 +104,8 @@ def null_of(matrix: FloatArray) -> FloatArray:
 
 def rest_of(columns: FloatArray) -> FloatArray:
     """(k, d) orthonormal columns across independent ones, (k, c)."""
+    if not columns.shape[1]:
+        return np.eye(len(columns))
     made: FloatArray = np.linalg.qr(columns, mode="complete")[0][:, columns.shape[1] :]
     return made
 
@@ -129,12 +133,16 @@ def _by_what_is_seen(space: FloatArray, groups: Groups) -> tuple[FloatArray, Flo
     """The vectors of a space that no group has, and those across them."""
     every = np.concatenate([np.zeros(0, int), *groups])
     orthonormal = np.linalg.qr(space)[0]
+    if np.unique(every).size == len(space):
+        return orthonormal[:, :0], orthonormal
     unseen = null_of(np.linalg.qr(orthonormal[every])[1])
     return orthonormal @ unseen, orthonormal @ rest_of(unseen)
 
 
 def _reduced(block: FloatArray) -> FloatArray:
     """A matrix of few rows with the same product with its transpose."""
+    if len(block) == 1:
+        return block if np.linalg.norm(block) > _NOTHING else block[:0]
     _, values, right = np.linalg.svd(block, full_matrices=False)
     made: FloatArray = (values[:, None] * right)[values > _NOTHING]
     return made
@@ -161,7 +169,7 @@ class _Search:
         size = self.space.shape[1]
         alone = [np.zeros((size, 0))]
         for i, block in enumerate(self.blocks):
-            if not block.size or np.linalg.norm(block, 2) < 1.0 - _ALL_BUT:
+            if not block.size or _norm(block) < 1.0 - _ALL_BUT:
                 continue
             others = [other for k, other in enumerate(self.blocks) if k != i]
             mine = null_of(np.concatenate([np.zeros((0, size)), *others]))
@@ -175,7 +183,8 @@ class _Search:
     def _of_components(self, rest: FloatArray) -> Iterator[Piece]:
         blocks = [_reduced(block @ rest) for block in self.blocks]
         for members in _components(blocks):
-            _, values, right = np.linalg.svd(np.concatenate([blocks[i] for i in members]))
+            stacked = np.concatenate([blocks[i] for i in members])
+            _, values, right = np.linalg.svd(np.linalg.qr(stacked)[1])
             within = rest @ right[: int(np.count_nonzero(values > 0.5))].T
             yield from self._of_component(members, within)
 
@@ -187,11 +196,14 @@ class _Search:
         for support, flat in self._cheapest_first(members, blocks, d):
             if not np.linalg.norm(_off(flat.vectors, spanned)) > _NEW:
                 continue
-            refined = self.refine(within @ flat.vectors)
+            new = flat.vectors
+            if new.shape[1] > _MOST_REFINED:
+                new = _rest_in(new, spanned)
+            refined = self.refine(within @ new)
             coefficients = np.linalg.lstsq(self.space @ within, refined, rcond=None)[0]
             chosen = []
-            for k, new in enumerate((coefficients / np.linalg.norm(coefficients, axis=0)).T):
-                off = _off(new[:, None], spanned)
+            for k, one in enumerate((coefficients / np.linalg.norm(coefficients, axis=0)).T):
+                off = _off(one[:, None], spanned)
                 if np.linalg.norm(off) > _NEW:
                     spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
                     chosen.append(k)
@@ -205,7 +217,7 @@ class _Search:
     def _cheapest_first(
         self, members: list[int], blocks: list[FloatArray], d: int
     ) -> list[tuple[tuple[int, ...], _Flat]]:
-        if d > _MOST_DIMENSIONS:
+        if d > MOST_DIMENSIONS:
             return []
         whole = _Flat(0, np.eye(d))
         flats = [whole] if d == 1 else _all_flats(blocks, d) or [*_by_descent(blocks, d), whole]
@@ -217,6 +229,19 @@ class _Search:
 
     def _cost(self, support: Sequence[int]) -> Cost:
         return tuple(map(sum, zip(*(self.costs[i] for i in support), strict=True)))
+
+
+def _rest_in(vectors: FloatArray, spanned: FloatArray) -> FloatArray:
+    """(k, d) orthonormal columns of the space of some columns, across what is spanned of it."""
+    off = _off(vectors, spanned)
+    left, values, _ = np.linalg.svd(off, full_matrices=False)
+    made: FloatArray = left[:, values > _NEW]
+    return made
+
+
+def _norm(block: FloatArray) -> float:
+    """The largest singular value."""
+    return float(np.linalg.norm(block, 2 if len(block) > 1 else None))
 
 
 def _off(vectors: FloatArray, spanned: FloatArray) -> FloatArray:
@@ -250,13 +275,41 @@ def _components(blocks: list[FloatArray]) -> list[list[int]]:
     return made
 
 
-def _zero_in(blocks: list[FloatArray], vectors: FloatArray) -> int:
-    """The groups in which vectors are zero, a bit each."""
-    return sum(
-        1 << i
-        for i, block in enumerate(blocks)
-        if not block.size or np.linalg.norm(block @ vectors) < 10.0 * _NOTHING
-    )
+class _Stack:
+    """Blocks above each other, to see at once in which of them vectors are zero."""
+
+    def __init__(self, blocks: list[FloatArray]) -> None:
+        self._there = [i for i, block in enumerate(blocks) if block.size]
+        self._rows = np.concatenate([blocks[i] for i in self._there])
+        self._start = np.cumsum([0, *(len(blocks[i]) for i in self._there[:-1])])
+        self._counts = [len(blocks[i]) for i in self._there]
+        self._blocks = len(blocks)
+        self._never = sum(1 << i for i, block in enumerate(blocks) if not block.size)
+
+    def norms(self, vectors: FloatArray) -> FloatArray:
+        """Of each block that has rows."""
+        squares = np.sum((self._rows @ vectors) ** 2, axis=1)
+        made: FloatArray = np.sqrt(np.add.reduceat(squares, self._start))
+        return made
+
+    def norms_of_all(self, vector: FloatArray) -> FloatArray:
+        """Of each block, of one vector (k,)."""
+        made = np.zeros(self._blocks)
+        made[self._there] = self.norms(vector[:, None])
+        return made
+
+    def smaller(self, vector: FloatArray, row: FloatArray) -> FloatArray:
+        """(k,) of least sum of squares over present norms, of those with one product with a row."""
+        norms = self.norms(vector[:, None])
+        weights = np.repeat(1.0 / np.maximum(norms, 1.0e-8 * norms.max()), self._counts)
+        matrix = self._rows.T @ (weights[:, None] * self._rows)
+        made: FloatArray = np.linalg.lstsq(matrix, row, rcond=None)[0]
+        return made
+
+    def zero(self, vectors: FloatArray) -> int:
+        """The blocks in which they are zero, a bit each."""
+        small = np.flatnonzero(self.norms(vectors) < 10.0 * _NOTHING).tolist()
+        return self._never | sum(1 << self._there[k] for k in small)
 
 
 def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
@@ -265,7 +318,8 @@ def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
     Each is cut out of another by the first group in which it is zero and that one is not; that
     this is the first, and later than those before, tells it from its repetitions (Ganter 1984).
     """
-    whole = _Flat(_zero_in(blocks, np.eye(d)), np.eye(d))
+    stack = _Stack(blocks)
+    whole = _Flat(stack.zero(np.eye(d)), np.eye(d))
     made, cuts = [whole], 0
     open_flats = [(whole, -1)]
     while open_flats:
@@ -280,7 +334,7 @@ def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
             if not left.shape[1]:
                 continue
             vectors = flat.vectors @ left
-            zero = _zero_in(blocks, vectors)
+            zero = stack.zero(vectors)
             new = zero & ~flat.zero
             if new & -new == 1 << i:
                 made.append(_Flat(zero, vectors))
@@ -294,22 +348,17 @@ def _by_descent(blocks: list[FloatArray], d: int) -> Iterator[_Flat]:
     From a vector with a small sum of the groups' norms, found by weighted least squares again
     and again, the groups are made zero as long as the one that it starts from is not.
     """
+    stack = _Stack(blocks)
     for i in range(min(len(blocks), _MOST_STARTS)):
         for row in blocks[i]:
             vector = row / np.linalg.norm(row)
             for _ in range(_STEPS):
-                norms = np.array([np.linalg.norm(block @ vector) for block in blocks])
-                weights = 1.0 / np.maximum(norms, 1.0e-8 * norms.max(initial=0.0))
-                matrix = np.concatenate(
-                    [w**0.5 * block for w, block in zip(weights, blocks, strict=True)]
-                )
-                vector = np.linalg.lstsq(matrix.T @ matrix, row, rcond=None)[0]
+                vector = stack.smaller(vector, row)
                 vector = vector / np.linalg.norm(vector)
-            yield _descended(blocks, i, vector, d)
+            yield _descended(blocks, i, stack.norms_of_all(vector), d)
 
 
-def _descended(blocks: list[FloatArray], start: int, vector: FloatArray, d: int) -> _Flat:
-    norms = np.array([np.linalg.norm(block @ vector) for block in blocks])
+def _descended(blocks: list[FloatArray], start: int, norms: FloatArray, d: int) -> _Flat:
     rounded = np.round(norms / norms.max(), 6)
     # The smallest first; of equal ones the last, so that those that come first are kept.
     order = np.lexsort((-np.arange(norms.size), rounded))
@@ -320,4 +369,4 @@ def _descended(blocks: list[FloatArray], start: int, vector: FloatArray, d: int)
         left = vectors @ null_of(blocks[i] @ vectors)
         if left.shape[1] and np.linalg.norm(blocks[start] @ left) > _NEW:
             vectors = left
-    return _Flat(_zero_in(blocks, vectors), vectors)
+    return _Flat(_Stack(blocks).zero(vectors), vectors)

@@ -9,20 +9,22 @@ Self-stresses: as few flexible parts as can be; of those of one set as few defor
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arrays import FloatArray, IntArray
+from ..core.arrays import BoolArray, FloatArray, IntArray
 from ..core.basis import Basis
 from ..core.elements import NodeKind, Role, role_table
 from ..model.parts.parts import Part, PartKind
-from .carriers import Carriers
 from .group_sparse import (
+    MOST_DIMENSIONS,
     Cost,
     Groups,
+    Piece,
     classes_of_rows,
     columns_of,
     null_of,
@@ -39,9 +41,28 @@ _MOST_ENTRIES = 400_000
 _MOST_VECTORS = 200
 #: A component of a direction below this says nothing of its sense.
 _NO_SENSE = 1.0e-6
+#: An entry below this part of the largest is none.
+_UNSEEN = 1.0e-9
 
-Sign = Callable[[int], float]
+Sense = Callable[[int], float]
 Key = Callable[[int], Hashable]
+
+
+def is_large(raw: Basis) -> bool:
+    """Whether a space is so large that its vectors are told as the core gives them."""
+    size = support_of(raw).size * raw.vectors
+    return size > _MOST_ENTRIES or raw.vectors > _MOST_VECTORS
+
+
+def scaled_motions(outcome: Outcome) -> Basis:
+    """The core's motions with the largest entry of each one."""
+    weights = column_weights(outcome)
+    return _scaled_as_they_are(outcome.raw.motions, weights, np.ones(weights.size))
+
+
+def scaled_stresses(outcome: Outcome) -> Basis:
+    """The core's self-stresses with the largest force or moment of each one."""
+    return _scaled_as_they_are(outcome.raw.stresses, row_weights(outcome), row_factors(outcome))
 
 
 def motion_basis(outcome: Outcome, space: Basis) -> Basis:
@@ -51,14 +72,18 @@ def motion_basis(outcome: Outcome, space: Basis) -> Basis:
         outcome: The analysis.
         space: An orthonormal basis of them, rotations in lengths.
     """
-    weights = column_weights(outcome)
-    units = np.ones(weights.size)
-    if _is_large(space):
-        return _scaled_as_they_are(outcome.raw.motions, weights, units)
     key = _kept(partial(column_key, outcome))
     support, dense = _held(space, key)
-    found = _MotionGroups(outcome, support).basis(dense)
-    return _scaled(found, support, weights, units, key, lambda row: 1.0)
+    groups = _MotionGroups(outcome, support)
+    found = groups.basis(dense)
+    if found is None:
+        return scaled_motions(outcome)
+    return _scaled(
+        found,
+        _Rows(support, column_weights(outcome), np.ones(space.size), groups.owner, groups.outside),
+        key,
+        lambda row: 1.0,
+    )
 
 
 def stress_basis(outcome: Outcome, space: Basis) -> Basis:
@@ -68,19 +93,37 @@ def stress_basis(outcome: Outcome, space: Basis) -> Basis:
         outcome: The analysis.
         space: An orthonormal basis of them, moments in forces.
     """
-    weights = row_weights(outcome)
-    units = row_factors(outcome)
-    if _is_large(space):
-        return _scaled_as_they_are(outcome.raw.stresses, weights, units)
     key = _kept(partial(row_key, outcome))
     support, dense = _held(space, key)
+    each, every = np.arange(support.size), np.ones(support.size, bool)
     found = _StressGroups(outcome, support).basis(dense)
-    return _scaled(found, support, weights, units, key, partial(_sense_of_row, outcome))
+    if found is None:
+        return scaled_stresses(outcome)
+    return _scaled(
+        found,
+        _Rows(support, row_weights(outcome), row_factors(outcome), each, every),
+        key,
+        partial(_sense_of_row, outcome),
+    )
 
 
-def _is_large(space: Basis) -> bool:
-    size = support_of(space).size * space.vectors
-    return size > _MOST_ENTRIES or space.vectors > _MOST_VECTORS
+def internal_motions(outcome: Outcome, basis: Basis) -> int:
+    """How many vectors of a basis of the motions move nothing but insides of sheets and wires.
+
+    In that of `motion_basis` they are a basis of all such motions: insides of different parts
+    have no element in common, so that what is inside of each moves alone.
+    """
+    if not basis.vectors:
+        return 0
+    inner = list(outcome.carriers.inner)
+    if not inner:
+        return 0
+    node = outcome.condensed.nodes[outcome.raw.column_label[0] - 1]
+    outside = ~np.isin(node, inner)[basis.place]
+    largest = np.zeros(basis.vectors)
+    weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
+    np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
+    return int(np.count_nonzero(largest <= _UNSEEN))
 
 
 def _kept(key: Key) -> Key:
@@ -105,24 +148,39 @@ def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
 # Scale and sign -------------------------------------------------------------
 
 
-def _scaled(
-    vectors: FloatArray,
-    support: NDArray[np.integer],
-    weights: FloatArray,
-    units: FloatArray,
-    key: Key,
-    sense: Sign,
-) -> Basis:
-    """Weighted vectors as a basis without the weights, of each the largest entry one in its unit.
+class _Rows(NamedTuple):
+    """Rows in which vectors are given."""
 
-    Of equally large ones that is the first by the key, positive by its sense.
+    support: NDArray[np.integer]
+    """Their places."""
+    weights: FloatArray
+    """(size,) what makes entries comparable."""
+    units: FloatArray
+    """(size,) what makes displacements, rotations, forces and moments of them."""
+    owner: NDArray[np.integer]
+    """What each is a component of, from 0."""
+    outside: BoolArray
+    """Whether the largest entry is to be sought there, if there is any."""
+
+
+def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
+    """Weighted vectors as a basis without the weights; of each the largest is one in its unit.
+
+    The largest displacement, rotation, force or moment, of equal ones the first by the key; its
+    first component is positive by its sense.
     """
-    made = np.zeros((weights.size, vectors.shape[1]))
+    made = np.zeros((rows.weights.size, vectors.shape[1]))
+    support = rows.support
     for k, vector in enumerate(vectors.T):
-        (first,) = ranked(vector, 1, lambda i: key(int(support[i])))
-        row = int(support[first])
-        plain = vector / weights[support]
-        made[support, k] = plain * (sense(row) / (units[row] * plain[first]))
+        outside = np.where(rows.outside, vector, 0.0)
+        seen = outside if np.abs(outside).max() > _UNSEEN * np.abs(vector).max() else vector
+        sizes = np.sqrt(np.bincount(rows.owner, seen**2))
+        (largest,) = ranked(sizes, 1, lambda i: key(int(support[np.argmax(rows.owner == i)])))
+        mine = np.flatnonzero(rows.owner == largest)
+        first = mine[np.argmax(np.abs(vector[mine]) > _NO_SENSE * sizes[largest])]
+        plain = vector / rows.weights[support]
+        size = float(np.linalg.norm(plain[mine] * rows.units[support[mine]]))
+        made[support, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
     return Basis.of_dense(made)
 
 
@@ -178,20 +236,33 @@ def _entries(space: FloatArray) -> FloatArray:
     return columns_of(pieces_of(space, classes, costs, lambda left: left), space.shape[0])
 
 
+def _is_undivided(pieces: Sequence[Piece]) -> bool:
+    """Whether many vectors of many groups were left as they are."""
+    return any(
+        len(piece.support) > 1 and piece.vectors.shape[1] > MOST_DIMENSIONS for piece in pieces
+    )
+
+
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
     def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
         node, self.axis = outcome.raw.column_label[:, support] - 1
         self.node = outcome.condensed.nodes[node]
+        self.owner = np.unique(self.node, return_inverse=True)[1]
         kinds = outcome.given.arrays.node_kind[self.node]
         self.turns = kinds > NodeKind.POSITION
-        self.carriers = Carriers(outcome.parts)
+        self.carriers = outcome.carriers
+        self.outside: BoolArray = ~np.isin(self.node, list(self.carriers.inner))
 
-    def basis(self, space: FloatArray) -> FloatArray:
-        """All vectors: bodies and joints before the insides of parts."""
+    def basis(self, space: FloatArray) -> FloatArray | None:
+        """All vectors: bodies and joints before the insides of parts; None of a large space."""
+        if space.shape[1] < 2:
+            return space
         groups, costs, _ = self._groups(one_by_one=False)
         pieces = pieces_of(space, groups, costs, self._by_points)
+        if _is_undivided(pieces):
+            return None
         pieces.sort(key=lambda piece: piece.cost[:2] == (0, 0))
         return columns_of(pieces, space.shape[0])
 
@@ -277,9 +348,13 @@ class _StressGroups:
         ]
         self.bodies = [np.array(rows) for part, rows in parts.items() if part.kind is PartKind.BODY]
 
-    def basis(self, space: FloatArray) -> FloatArray:
-        """All vectors: those of flexible parts before those inside of bodies."""
+    def basis(self, space: FloatArray) -> FloatArray | None:
+        """All vectors: of flexible parts, then inside of bodies; None of a large space."""
+        if space.shape[1] < 2:
+            return space
         pieces = pieces_of(space, self.flexible, [(1,)] * len(self.flexible), self._by_bodies)
+        if _is_undivided(pieces):
+            return None
         pieces.sort(key=lambda piece: not piece.support)
         return columns_of(pieces, space.shape[0])
 

@@ -24,6 +24,8 @@ from .weights import column_weights, row_duals, row_factors, row_weights
 
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12
+#: With more nodes than these a mode is told by its largest entries.
+_MOST_NODES = 2_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,9 +115,14 @@ class Motion(Moves, Frozen):
         return list(zip(numbers, names, value[order].tolist(), strict=True))
 
     def __repr__(self) -> str:
-        """Its largest parts."""
-        parts = ", ".join(f"node {n} {c} {v:.4g}" for n, c, v in self.largest(4))
-        return f"<Motion {self.index + 1}: {parts}>"
+        """What moves."""
+        if self.analysis.given.arrays.node_number.size > _MOST_NODES:
+            parts = [f"node {n} {c} {v:.4g}" for n, c, v in self.largest(4)]
+        elif self.is_internal:
+            parts = [f"inside {', '.join(part.name for part in self.internal_to)}"]
+        else:
+            parts = [str(each) for each in self.bodies[:4]]
+        return f"<Motion {self.index + 1}: {'; '.join(parts)}>"
 
 
 @dataclass(frozen=True, repr=False)
@@ -152,15 +159,20 @@ class SelfStress(Frozen):
 
     @cached_property
     def _at_elements(self) -> tuple[FloatArray, FloatArray]:
+        made = self.analysis.condensed.stress(*self.analysed)
+        for array in made:
+            array.flags.writeable = False
+        return made
+
+    @cached_property
+    def analysed(self) -> tuple[FloatArray, FloatArray]:
+        """Moments and forces, (elements, 6) each, of the elements of the model as analysed."""
         place, value = self.analysis.stress_basis.entries(self.index)
         element, deformation = self.analysis.raw.row_label[:, place] - 1
         is_force = (row_duals(self.analysis, place) == Dual.FORCE).astype(int)
         both = np.zeros((2, self.analysis.data.arrays.element_number.size, 6))
         both[is_force, element, deformation] = value * row_factors(self.analysis, place)
-        made = self.analysis.condensed.stress(*both)
-        for array in made:
-            array.flags.writeable = False
-        return made
+        return both[0], both[1]
 
     @cached_property
     def _pressing(self) -> Pressing:
@@ -168,13 +180,21 @@ class SelfStress(Frozen):
 
     @property
     def parts(self) -> tuple[PartStress, ...]:
-        """The flexible parts that carry something: the largest first, of equal ones by name."""
+        """The flexible parts that carry something: the largest first, of equal ones by name.
+
+        Where bodies alone carry, they are given.
+        """
         return self._pressing.parts
 
     @property
     def conflicts(self) -> tuple[Conflict, ...]:
         """Bodies on which parts press, then joints, with what each part exerts on them."""
         return self._pressing.conflicts
+
+    @property
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Of the conflicts those on bodies."""
+        return self._pressing.on_bodies
 
     def of(self, part: object) -> PartStress:
         """The stress resultants of a part; see `flexact.result.part_stresses.Pressing.of`."""
@@ -202,9 +222,12 @@ class SelfStress(Frozen):
         return list(zip(numbers, deformation.tolist(), values.tolist(), strict=True))
 
     def __repr__(self) -> str:
-        """Its largest parts."""
-        parts = ", ".join(f"element {e}, {d}: {v:.4g}" for e, d, v in self.largest(4))
-        return f"<SelfStress {self.index + 1}: {parts}>"
+        """What is stressed."""
+        if self.analysis.given.arrays.node_number.size > _MOST_NODES:
+            parts = [f"element {e}, {d}: {v:.4g}" for e, d, v in self.largest(4)]
+        else:
+            parts = [str(each) for each in self.parts[:4]]
+        return f"<SelfStress {self.index + 1}: {'; '.join(parts)}>"
 
 
 Mode = TypeVar("Mode", Motion, SelfStress)

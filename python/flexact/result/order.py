@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind, Role, role_table
-from ..model.parts.parts import natural
+from ..model.parts.parts import PartKind, natural
 from .outcome import Outcome
 
 #: Local axis about or along which a deformation is, by role; 0 where it has none of its own.
@@ -58,7 +58,7 @@ def ranked(weighted: FloatArray, most: int, key: Callable[[int], Any] | None = N
 
 
 def row_key(outcome: Outcome, row: int) -> Any:
-    """By what a row of D(c) is sorted among equals: part, what deforms, where."""
+    """By what a row of D(c) is sorted among equals: flexures first, part, what deforms, where."""
     element, deformation = (outcome.raw.row_label[:, row] - 1).tolist()
     return deformation_key(outcome, element, deformation)
 
@@ -79,7 +79,8 @@ def deformation_key(outcome: Outcome, element: int, deformation: int) -> Any:
     places = [data.arrays.node_value[:3, node] for node in nodes if node >= 0]
     place = _place(outcome, np.mean(places, axis=0)) if places else ()
     kind = _BENDING if bends else role
-    return natural(part.name), kind, of_sheet, direction, place
+    is_body = part.kind is PartKind.BODY
+    return is_body, natural(part.name), kind, of_sheet, direction, place
 
 
 def column_key(outcome: Outcome, column: int) -> Any:

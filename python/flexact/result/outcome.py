@@ -20,6 +20,7 @@ from ..model.labels import Labels, column_labels, row_labels
 from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Parts
 from .accuracy import Accuracy
+from .carriers import Carriers
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
 
@@ -69,6 +70,11 @@ class Outcome(Frozen):
     def parts(self) -> Parts:
         """Sheets, wires, bodies, hinges and bars of the model as it was given."""
         return Parts(self.given)
+
+    @cached_property
+    def carriers(self) -> Carriers:
+        """What moves in the model as given: bodies, joints, and what is inside of parts."""
+        return Carriers(self.parts)
 
     @property
     def rank(self) -> int:

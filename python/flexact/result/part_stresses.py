@@ -20,14 +20,18 @@ from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
 from ..diagnostics.errors import ModelError
 from ..model.parts.parts import Part, PartKind, natural
-from .carriers import Carriers, Joint
+from .carriers import Joint
 from .handles import part_of, position_of
 from .outcome import Outcome
 from .screws import ROUNDING, in_words, sense_of
+from .weights import row_weights
 from .wrenches import Wrench
 
 #: What is below this part of the largest force or moment of a self-stress is rounding.
 _REST = ROUNDING
+
+#: Resultants below this part of the largest are none.
+_ROUNDED = 1.0e-12
 
 #: Position and orientation node, -1 where there is none.
 _End = tuple[int, int]
@@ -116,8 +120,7 @@ class PartStress(Frozen):
     def __str__(self) -> str:
         """In words."""
         told = []
-        rest = 1.0e2 * _REST * max(end.wrench.size for end in self.ends)
-        length = self._last.length
+        length, rest = self._last.length, 1.0e2 * self._last.rest
         if abs(self.normal_force) * length > rest:
             kind = "tension" if self.normal_force > 0.0 else "compression"
             told.append(f"{kind} {abs(self.normal_force):.4g} N")
@@ -195,9 +198,13 @@ class Pressing(Frozen):
 
     @cached_property
     def parts(self) -> tuple[PartStress, ...]:
-        """The flexible parts that carry something: the largest first, of equal ones by name."""
-        made = [self._part_stress(part) for part in self._ends if part.kind is not PartKind.BODY]
-        carrying = [one for one in made if one.share > _REST]
+        """The flexible parts that carry something: the largest first, of equal ones by name.
+
+        Where bodies alone carry, they are given.
+        """
+        made = [self._part_stress(part) for part in self._ends]
+        flexible = [one for one in made if one.part.kind is not PartKind.BODY]
+        carrying = [one for one in flexible if one.share > _REST] or made
         return tuple(sorted(carrying, key=lambda one: (-round(one.share, 9), *self._key(one.part))))
 
     def of(self, part: object) -> PartStress:
@@ -230,7 +237,7 @@ class Pressing(Frozen):
             return self._on_point(body)
         nodes = set()
         if part.kind is PartKind.BODY:
-            k = self._carriers.bodies.index(part)
+            k = self.outcome.carriers.bodies.index(part)
             mine = self.outcome.parts.bodies[k]
             nodes = {*mine.positions, *mine.orientations}
         else:
@@ -241,19 +248,27 @@ class Pressing(Frozen):
 
     @cached_property
     def conflicts(self) -> tuple[Conflict, ...]:
-        """Bodies on which parts press, by name, then joints; what holds nothing is left out."""
-        bodies = sorted(self._carriers.bodies, key=self._key)
-        made = [Conflict(body, self.on(body)) for body in bodies]
-        for joint in self._carriers.joints:
-            nodes = {node for node in (joint.position, joint.orientation) if node is not None}
-            made.append(Conflict(joint, self._loads(nodes, None)))
-        return tuple(one for one in made if len([x for x in one.loads if x.part]) > 0)
-
-    # What it is made of -----------------------------------------------------
+        """Bodies on which parts press, by name, then joints; clamps are left out."""
+        return self.on_bodies + self.on_joints
 
     @cached_property
-    def _carriers(self) -> Carriers:
-        return Carriers(self.outcome.parts)
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Those on bodies."""
+        bodies = sorted(self.outcome.carriers.bodies, key=self._key)
+        made = (Conflict(body, self.on(body)) for body in bodies)
+        return tuple(one for one in made if any(load.part for load in one.loads))
+
+    @cached_property
+    def on_joints(self) -> tuple[Conflict, ...]:
+        """Those on joints."""
+        made = []
+        for joint in self.outcome.carriers.joints:
+            nodes = {node for node in (joint.position, joint.orientation) if node is not None}
+            if not self._is_held(joint) and any(node in self._of_node for node in nodes):
+                made.append(Conflict(joint, self._loads(nodes, None)))
+        return tuple(one for one in made if any(load.part for load in one.loads))
+
+    # What it is made of -----------------------------------------------------
 
     @cached_property
     def _at_nodes(self) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -261,7 +276,9 @@ class Pressing(Frozen):
         outcome, whole = self.outcome, self.outcome.assembly
         element, deformation = outcome.raw.row_label - 1
         sigma = np.zeros(6 * outcome.data.arrays.element_number.size)
-        sigma[6 * element + deformation] = self.vector
+        weighted = np.abs(self.vector * row_weights(outcome))
+        is_there = weighted > _ROUNDED * weighted.max(initial=0.0)
+        sigma[6 * element + deformation] = np.where(is_there, self.vector, 0.0)
         used = sigma[whole.row_of] != 0.0
         owner, node = whole.row_of[used] // 6, whole.column_of[used] // 3
         keys, place = np.unique(np.stack((owner, node)), axis=1, return_inverse=True)
@@ -269,6 +286,14 @@ class Pressing(Frozen):
         value = -whole.value[used] * sigma[whole.row_of[used]]
         np.add.at(made, (place.ravel(), whole.column_of[used] % 3), value)
         return outcome.condensed.elements[keys[0]], outcome.condensed.nodes[keys[1]], made
+
+    @cached_property
+    def _of_node(self) -> dict[int, list[int]]:
+        """Which entries of `_at_nodes` are of a node."""
+        made: dict[int, list[int]] = {}
+        for k, node in enumerate(self._at_nodes[1].tolist()):
+            made.setdefault(node, []).append(k)
+        return made
 
     @cached_property
     def _ends(self) -> dict[Part, dict[_End, FloatArray]]:
@@ -344,16 +369,17 @@ class Pressing(Frozen):
             part,
             ends,
             size / self._largest if self._largest > 0.0 else 0.0,
-            way / length if length > 0.0 else np.zeros(3),
+            way / length if length > 0.0 and part.kind is not PartKind.HINGE else np.zeros(3),
             self._normal(part),
         )
 
     def _normal(self, part: Part) -> FloatArray:
         if part.kind is not PartKind.SHEET:
             return np.zeros(3)
-        element = part.elements[0]
-        wide = int(self.outcome.parts.wide[element])
-        axis: FloatArray = self.outcome.given.frames.frame[element][:, 3 - wide]
+        # Of a divided sheet that is one beam, that of the one beam.
+        index = int(np.searchsorted(self.outcome.condensed.elements, part.elements[0]))
+        wide = int(self.outcome.parts.wide[part.elements[0]])
+        axis: FloatArray = self.outcome.data.frames.frame[index][:, 3 - wide]
         return sense_of(axis) * axis
 
     def _receiver(self, end: _End) -> Part | Joint | None:
@@ -363,13 +389,17 @@ class Pressing(Frozen):
             body = parts.body_at.get(node)
             if body is not None:
                 return parts.of_body(body)
-        for joint in self._carriers.joints:
-            if end[1] >= 0 and joint.orientation == end[1]:
-                return None if self._is_held(joint) else joint
-        for joint in self._carriers.joints:
-            if end[0] >= 0 and joint.position == end[0]:
-                return None if self._is_held(joint) else joint
-        return None
+        joint = self._joint_at.get(end[1], self._joint_at.get(end[0]))
+        return None if joint is None or self._is_held(joint) else joint
+
+    @cached_property
+    def _joint_at(self) -> dict[int, Joint]:
+        made: dict[int, Joint] = {}
+        for joint in self.outcome.carriers.joints:
+            for node in (joint.orientation, joint.position):
+                if node is not None:
+                    made.setdefault(node, joint)
+        return made
 
     def _is_held(self, joint: Joint) -> bool:
         return all(
@@ -394,7 +424,7 @@ class Pressing(Frozen):
             positions = [p for p in places if p is not None]
         about = given.node_value[:3, sorted(positions)].mean(axis=1) if positions else np.zeros(3)
         element, node, value = self._at_nodes
-        here = np.isin(node, sorted(mine))
+        here = np.array(sorted(k for n in mine for k in self._of_node.get(n, ())), np.int64)
         by_part: dict[Part | None, FloatArray] = {}
         reaction: dict[int, FloatArray] = {}
         for e, n, force in zip(
@@ -420,7 +450,8 @@ class Pressing(Frozen):
         given = self.outcome.given.arrays
         if given.node_kind[node] > NodeKind.POSITION:
             return np.stack((np.zeros(3), force))
-        return np.stack((force, np.cross(given.node_value[:3, node] - about, force)))
+        arm = given.node_value[:3, node] - about
+        return np.stack((force, np.cross(arm, force) if arm.any() else np.zeros(3)))
 
     def _key(self, part: Part) -> tuple[object, ...]:
         name = natural(part.name) if part.is_named else ()

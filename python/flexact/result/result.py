@@ -8,7 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from ..base.loading import load
+from ..base.plain_text import in_short
 from ..core.progress import Progress
+from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
 from ..model.parts.declaring import declared
@@ -23,6 +25,9 @@ from .sensitivity import Pair
 from .spaces import Spaces
 from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
 
+#: How many degrees of freedom a message names.
+_MOST_LABELS = 12
+
 if TYPE_CHECKING:
     from .exact import ExactBases
 
@@ -33,17 +38,20 @@ class Result(Spaces):
 
     @property
     def motions(self) -> Modes[Motion]:
-        """Motions that nothing determines: an orthonormal basis, from V of eq. (16).
+        """Motions that nothing determines: a basis of the null space V of eq. (16).
 
-        Where there are several, single ones depend on the choice of the basis. Where there
-        are so many that they would not fit, only the first are here; where thousands belong
-        to one component of D(c), they need not be orthogonal.
+        Where there are several, they are chosen so that as few bodies as can be move in each
+        (`flexact.result.mode_basis`); in each the largest displacement or rotation is 1. Where
+        there are so many that they would not fit, only the first are here.
         """
         return Modes(Motion, self)
 
     @property
     def self_stresses(self) -> Modes[SelfStress]:
-        """Stresses without load: an orthonormal basis, from U of eq. (16); see `motions`."""
+        """Stresses without load: a basis of the null space U of eq. (16); see `motions`.
+
+        As few parts as can be are stressed in each; the largest force or moment is 1.
+        """
         return Modes(SelfStress, self)
 
     def exact(self) -> ExactBases:
@@ -62,6 +70,22 @@ class Result(Spaces):
     def freedoms(self) -> tuple[Freedom, ...]:
         """The declared degrees of freedom, with the motion of each (`flexact.result.freedoms`)."""
         return freedoms_of(self)
+
+    def freedom(self, label: str) -> Freedom:
+        """The declared degree of freedom of a label, such as "stage z".
+
+        Raises:
+            ModelError: there is none.
+        """
+        found = next((each for each in self.freedoms if each.label == label), None)
+        if found is None:
+            there = ", ".join(each.label for each in self.freedoms[:_MOST_LABELS])
+            raise model_error(
+                "no-such-freedom",
+                f"there is no degree of freedom {in_short(label)}",
+                f"there are {there}" if there else "none is declared",
+            )
+        return found
 
     @cached_property
     def with_internal_declared(self) -> Result | None:

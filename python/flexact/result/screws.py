@@ -52,6 +52,7 @@ class Screw(Frozen):
         centre: (3,) the middle of the body's points [m].
         rotation: (3,) [rad].
         velocity: (3,) of `centre` [m].
+        length: By which rotations compare with displacements [m].
     """
 
     kind: ScrewKind
@@ -62,6 +63,7 @@ class Screw(Frozen):
     centre: FloatArray
     rotation: FloatArray
     velocity: FloatArray
+    length: float
 
     def at(self, point: ArrayLike) -> FloatArray:
         """(3,) displacement of a point of the body [m], by where it is."""
@@ -78,7 +80,8 @@ class Screw(Frozen):
             return "does not move"
         if self.kind is ScrewKind.TRANSLATION:
             return f"moves by {self.magnitude:.4g} m along {along}"
-        about = f"{self.magnitude:.4g} rad about the line through {in_words(self.point)} m along"
+        line = f"the line through {in_words(self.point, self.length)} m"
+        about = f"{self.magnitude:.4g} rad about {line} along"
         if self.kind is ScrewKind.ROTATION:
             return f"turns by {about} {along}"
         return f"screws by {about} {along}, pitch {self.pitch:.4g} m/rad"
@@ -115,12 +118,12 @@ def screw_of(
     speed, turn = float(np.linalg.norm(v)), float(np.linalg.norm(w))
     size = max(speed, turn * length)
     if not size > rest:
-        return Screw(ScrewKind.NONE, np.zeros(3), c, 0.0, 0.0, c, 0.0 * w, 0.0 * v)
+        return Screw(ScrewKind.NONE, np.zeros(3), c, 0.0, 0.0, c, 0.0 * w, 0.0 * v, length)
     if not turn * length > rounding * size:
         sense = sense_of(v)
         direction = sense * v / speed
         return Screw(
-            ScrewKind.TRANSLATION, direction, c, float("inf"), sense * speed, c, 0.0 * w, v
+            ScrewKind.TRANSLATION, direction, c, float("inf"), sense * speed, c, 0.0 * w, v, length
         )
     unit = w / turn
     arm = np.cross(unit, v) / turn
@@ -128,7 +131,7 @@ def screw_of(
     is_screw = abs(pitch) > rounding * (length + float(np.linalg.norm(arm)))
     sense = sense_of(unit)
     kind = ScrewKind.SCREW if is_screw else ScrewKind.ROTATION
-    return Screw(kind, sense * unit, c + arm, pitch * is_screw, sense * turn, c, w, v)
+    return Screw(kind, sense * unit, c + arm, pitch * is_screw, sense * turn, c, w, v, length)
 
 
 def sense_of(vector: FloatArray) -> float:
@@ -138,8 +141,8 @@ def sense_of(vector: FloatArray) -> float:
     return -1.0 if vector[first] < 0.0 else 1.0
 
 
-def in_words(vector: FloatArray) -> str:
-    """Its components; what is rounding beside the largest is zero."""
-    size = float(np.abs(vector).max(initial=0.0))
+def in_words(vector: FloatArray, length: float = 0.0) -> str:
+    """Its components; what is rounding beside the largest, or beside a length, is zero."""
+    size = max(float(np.abs(vector).max(initial=0.0)), length)
     parts = np.where(np.abs(vector) > ROUNDING * size, vector, 0.0) + 0.0
     return f"({', '.join(f'{part:.4g}' for part in parts)})"

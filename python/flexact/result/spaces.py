@@ -7,7 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ..core.basis import Basis
-from .mode_basis import motion_basis, stress_basis
+from .mode_basis import (
+    internal_motions,
+    is_large,
+    motion_basis,
+    scaled_motions,
+    scaled_stresses,
+    stress_basis,
+)
 from .outcome import Outcome
 from .sparse_basis import orthonormal
 from .weights import column_weights, row_weights
@@ -34,9 +41,22 @@ class Spaces(Outcome):
         The largest entry of each is 1, rotations compared by the characteristic length. Of
         large spaces they are those of the core, scaled (`flexact.result.mode_basis`).
         """
+        if self.raw.motions.vectors < self.under_constrained or is_large(self.raw.motions):
+            return scaled_motions(self)
         return motion_basis(self, self.motion_space)
 
     @cached_property
     def stress_basis(self) -> Basis:
         """The self-stresses as they are told: sparse over parts, the largest force or moment 1."""
+        if self.raw.stresses.vectors < self.over_constrained or is_large(self.raw.stresses):
+            return scaled_stresses(self)
         return stress_basis(self, self.stress_space)
+
+    @cached_property
+    def internal_motions(self) -> int:
+        """How many motions move nothing but what is inside of sheets and wires.
+
+        It is the dimension of the space of these, where the space of the motions is so large
+        that it is told as the core gives it the number of its vectors that are so.
+        """
+        return internal_motions(self, self.motion_basis)

@@ -121,7 +121,7 @@ class Wrench(Frozen):
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
-        return self.kind is not WrenchKind.NONE
+        return self.size > self.rest
 
     def __str__(self) -> str:
         """In words."""
@@ -130,7 +130,7 @@ class Wrench(Frozen):
         along, size = in_words(self.direction), f"{self.magnitude:.4g}"
         if self.kind is WrenchKind.COUPLE:
             return f"a moment of {size} N m about {along}"
-        line = f"{size} N along {along} through {in_words(self.point)} m"
+        line = f"{size} N along {along} through {in_words(self.point, self.length)} m"
         if self.kind is WrenchKind.FORCE:
             return f"a force of {line}"
         return f"a force of {line} with a moment about it, pitch {self.pitch:.4g} m"

@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from ..advice.advice import Advice, Part, Step, on_motions, on_self_stresses
 from ..result.result import Result
 from .calls import call_in_words
-from .naming import in_words, part_in_words
-from .sentences import Line, Pieces, plain
+from .naming import counts_in_words, in_words, part_in_words
+from .places import listed, part_words
+from .sentences import Line, Pieces, plain, sentence
 
 #: How many parts an advice names.
 _PARTS = 6
@@ -16,6 +19,13 @@ _SUPPORTS = 3
 
 def lines_on_motions(result: Result) -> tuple[Line, ...]:
     """What may be declared or held so that there are fewer motions."""
+    advice = on_motions(result)
+    whole = result.with_internal_declared
+    if whole is not None:
+        # What is inside of sheets is declared first; what is left then is told.
+        internal = next(iter(advice), None)
+        rest = lines_on_motions(whole)
+        return rest if internal is None else (*_lines_on_internal(result, whole, internal), *rest)
     count = result.under_constrained
     heads = {
         Step.DECLARE_OR_HOLD: "To remove one motion, declare or hold one of: "
@@ -24,11 +34,32 @@ def lines_on_motions(result: Result) -> tuple[Line, ...]:
         Step.DECLARE_OR_HOLD_RELEASED: "Or declare or hold one of these released deformations: ",
         Step.DECLARE_OR_HOLD_ALL: f"To remove {_all(count)}, declare or hold all of: ",
     }
-    return tuple(_line(result, heads[advice.step], advice) for advice in on_motions(result))
+    return tuple(_line(result, heads[item.step], item) for item in advice)
+
+
+def _lines_on_internal(result: Result, whole: Result, advice: Advice) -> Iterator[Line]:
+    """What makes each divided sheet or wire one beam, and what the verdict is then."""
+    chains = [chain for chain in result.given.chains if chain.condensed_classes is None]
+    names = [part_words(result.parts.of_element(chain.elements[0])) for chain in chains]
+    if len(names) > _PARTS:
+        names = [*names[: _PARTS - 1], f"{len(names) - _PARTS + 1} other parts"]
+    counts = counts_in_words(whole.under_constrained, whole.over_constrained)
+    be = "is" if len(chains) == 1 else "are"
+    start = listed(names)
+    yield sentence(
+        f"{start[:1].upper()}{start[1:]} {be} divided into beams whose deformations are not "
+        f"declared; counted as one beam each, the mechanism is {counts}."
+    )
+    if result.given.source is None:
+        yield sentence("To declare what is inside: model.declare_internal_motions()")
+        return
+    statements = tuple((f"DYNE {part.operands}",) for part in advice.parts)
+    yield Line(("To declare what is inside, instead of RLSE: ",), statements, (), advice.more)
 
 
 def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
     """What may be released, freed or taken away so that there are fewer self-stresses."""
+    result = result.with_internal_declared or result
     count = result.over_constrained
     ways = {
         Step.RELEASE: "release one of: ",
@@ -66,7 +97,8 @@ def _note(result: Result, advice: Advice, part: Part, first: bool) -> str:
     if not advice.keywords:
         return ""
     if result.given.source is None:
-        return f"({call_in_words(result, advice, part)})" if first else ""
+        call = call_in_words(result, advice, part) if first else ""
+        return f"({call})" if call else ""
     statements = [f"{keyword} {part.operands}" for keyword in advice.keywords]
     if len(statements) == 1:
         return f"({statements[0]}{' instead' * advice.instead})"

@@ -14,13 +14,17 @@ _METHODS = {"DYNX": "independent", "FIX": "fix", "RLSE": "release", "DYNE": "ind
 
 
 def call_in_words(result: Outcome, advice: Advice, part: Part) -> str:
-    """Such as `model.release("sheet 1", "in-plane bending", at="clamp 1")`."""
+    """Such as `model.release("sheet 1", "in-plane bending", at="clamp 1")`.
+
+    Empty where no word says it without local axes.
+    """
     method = _METHODS[advice.keywords[0]]
     if isinstance(part, Coordinate):
         position = result.parts.place_of(result.given.node_index[part.node])
         where = str(part.node) if position is None else _point(result, position)
         return f'model.{method}({where}, "{part.name}")'
-    return f"model.{method}({_deformation(result, part.element, part.number)})"
+    deformation = _deformation(result, part.element, part.number)
+    return f"model.{method}({deformation})" if deformation else ""
 
 
 def _deformation(result: Outcome, number: int, deformation: int) -> str:
@@ -29,9 +33,11 @@ def _deformation(result: Outcome, number: int, deformation: int) -> str:
     bending = bending_of(result, index, deformation)
     words = {Role.ELONGATION: "elongation", Role.TORSION: "twist"}
     role = role_of(result, index, deformation)
-    if bending is None or bending.word is None:
+    if bending is None:
         what = f'"{words[Role(role)]}"' if role in words else str(deformation)
         return f"{_part(part, number)}, {what}"
+    if bending.word is None:
+        return ""
     return f'{_part(part, number)}, "{bending.word}", at={_point(result, bending.position)}'
 
 

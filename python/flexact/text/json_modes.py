@@ -17,6 +17,7 @@ from ..core.elements import Dual, coordinate_name, keywords_of
 from ..result.result import Result
 from ..result.weights import row_duals, row_factors
 from .deformation import deformation_word
+from .json_mechanics import of_motion, of_self_stress
 from .naming import node_name, unit_of_coordinate
 
 #: Components of a mode below this part of its largest are left out.
@@ -40,12 +41,15 @@ class ModesTable(NamedTuple):
     keys: tuple[str, ...]
     basis: Basis
     columns: Columns
+    more: Callable[[int], dict[str, Any]]
+    """What else is said of a mode, by its index."""
 
     def dictionaries(self) -> list[dict[str, Any]]:
         """The modes as the JSON has them."""
         return [
             {"components": [dict(zip(self.keys, row, strict=True)) for row in mode]}
-            for mode in self._rows(lambda text: text)
+            | self.more(index)
+            for index, mode in enumerate(self._rows(lambda text: text))
         ]
 
     def text(self) -> Iterator[str]:
@@ -54,8 +58,10 @@ class ModesTable(NamedTuple):
         of_row = f"{{{form}}}".__mod__
         before = ""
         yield "["
-        for mode in self._rows(cache(json.dumps)):
-            yield f'{before}{{"components": [{", ".join(map(of_row, mode))}]}}'
+        for index, mode in enumerate(self._rows(cache(json.dumps))):
+            more = json.dumps(self.more(index), allow_nan=False)[1:-1]
+            yield f'{before}{{"components": [{", ".join(map(of_row, mode))}]'
+            yield f"{', ' if more else ''}{more}}}"
             before = ", "
         yield "]"
 
@@ -87,7 +93,9 @@ class ModesTable(NamedTuple):
 def motions(result: Result) -> ModesTable:
     """The motions: displacements [m] and rotations [rad] of nodes."""
     raw, arrays = result.raw, result.data.arrays
-    name_of = cache(partial(node_name, result))
+    # Where no point has a name, nobody has to look for each.
+    named = result.motion_basis.vectors > 0 and any(result.given.node_names)
+    name_of = cache(partial(node_name, result)) if named else lambda _: ""
 
     def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
         node, axis = raw.column_label[:, places] - 1
@@ -102,30 +110,39 @@ def motions(result: Result) -> ModesTable:
         )
 
     keys = ("node", "name", "coordinate", "value", "unit")
-    return ModesTable(keys, result.motion_basis, columns)
+    return ModesTable(keys, result.motion_basis, columns, partial(of_motion, result))
 
 
 def self_stresses(result: Result) -> ModesTable:
     """The self-stresses: forces [N] and moments [N m], beside the raw entries of U."""
-    raw, arrays = result.raw, result.data.arrays
+    arrays = result.given.arrays
     # Names of a deck are cut out of its text.
-    name_of = cache(result.data.element_names.__getitem__)
+    name_of = cache(result.given.element_names.__getitem__)
 
     def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
-        element, deformation = raw.row_label[:, places]
-        index = element - 1
+        index, deformations = _in_given(result, places)
         kinds = arrays.element_kind[index]
         force = row_duals(result, places) == Dual.FORCE
         return (
             arrays.element_number[index].tolist(),
             list(map(name_of, index.tolist())),
             list(keywords_of(kinds)),
-            deformation.tolist(),
-            list(map(deformation_word, kinds.tolist(), deformation.tolist())),
+            deformations,
+            list(map(deformation_word, kinds.tolist(), deformations)),
             (value * row_factors(result, places)).tolist(),
             np.where(force, "N", "N m").tolist(),
             value.tolist(),
         )
 
     keys = ("element", "name", "keyword", "deformation", "word", "value", "unit", "raw")
-    return ModesTable(keys, result.stress_basis, columns)
+    return ModesTable(keys, result.stress_basis, columns, partial(of_self_stress, result))
+
+
+def _in_given(result: Result, places: IntArray) -> tuple[IntArray, list[int]]:
+    """Indices of elements in the model as given, and their deformations, of rows of D(c)."""
+    element, deformation = result.raw.row_label[:, places]
+    condensed = result.condensed
+    if not condensed.chains:
+        return condensed.elements[element - 1], deformation.tolist()
+    found = list(map(cache(condensed.in_given), (element - 1).tolist(), deformation.tolist()))
+    return np.array([index for index, _ in found], np.int32), [own for _, own in found]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from ..advice.advice import (
@@ -19,8 +20,10 @@ from ..result.decompose import AnalysisError
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..result.verdict import Margin
+from .calls import call_in_words
 from .deformation import deformation_word
-from .naming import node_name, unit_of_coordinate
+from .naming import freedom_in_words, node_name, part_in_words, unit_of_coordinate
+from .sentences import plain
 
 #: Of so many declared degrees of freedom, in models of so many elements, the motions are given:
 #: they take one further decomposition.
@@ -44,16 +47,27 @@ def node_place(result: Result, number: int) -> Entries:
 
 def element_place(result: Result, number: int) -> Entries:
     """An element by its number, what it is called, and its keyword."""
-    index = result.data.element_index[number]
-    (keyword,) = keywords_of(result.data.arrays.element_kind[index : index + 1])
-    return {"element": number, "name": result.data.element_names[index], "keyword": keyword}
+    return _element_at(result, result.given.element_index[number])
+
+
+def _element_at(result: Result, index: int) -> Entries:
+    """The same by its index in the model as given."""
+    given = result.given
+    (keyword,) = keywords_of(given.arrays.element_kind[index : index + 1])
+    return {
+        "element": int(given.arrays.element_number[index]),
+        "name": given.element_names[index],
+        "keyword": keyword,
+    }
 
 
 def deformation_place(result: Result, element: int, number: int) -> Entries:
     """A deformation of an element, by its number and in words."""
-    kind = int(result.data.arrays.element_kind[result.data.element_index[element]])
-    word = deformation_word(kind, number)
-    return {**element_place(result, element), "deformation": number, "word": word}
+    arrays = result.given.arrays
+    index, own = result.condensed.in_given(result.data.element_index[element], number)
+    word = deformation_word(int(arrays.element_kind[index]), own)
+    place = _element_at(result, index)
+    return {**place, "deformation": own, "word": word}
 
 
 def coordinate_place(result: Result, node: int, name: str) -> Entries:
@@ -89,7 +103,14 @@ def accuracy(result: Result) -> Entries | None:
 
 
 def advice(result: Result) -> Iterator[Entries]:
-    """What removes motions, then what removes self-stresses, the best first."""
+    """What removes motions, then what removes self-stresses, the best first.
+
+    What is inside of divided sheets is declared first; the rest is of what is left then.
+    """
+    whole = result.with_internal_declared
+    if whole is not None:
+        yield from (_one_advice(result, "motions", item) for item in islice(on_motions(result), 1))
+        result = whole
     for about, every in (
         ("motions", on_motions(result)),
         ("self_stresses", on_self_stresses(result)),
@@ -102,13 +123,29 @@ def _one_advice(result: Result, about: str, item: Advice) -> Entries:
         "about": about,
         "removes": "all" if item.step in _ALL else "one",
         "step": item.step.value,
-        "parts": [_part(result, part) for part in item.parts],
+        "parts": [
+            {
+                **_part(result, part),
+                "words": plain(part_in_words(result, part)),
+                "operands": part.operands,
+            }
+            for part in item.parts
+        ],
         "more": item.more,
         "statements": [
             {"keyword": keyword, "operands": item.parts[0].operands} for keyword in item.keywords
         ],
+        "calls": _calls(result, item),
         "instead": item.instead,
     }
+
+
+def _calls(result: Result, item: Advice) -> list[str]:
+    """What does it with the first part of a model that was made in Python."""
+    if result.given.source is not None or not item.keywords:
+        return []
+    call = call_in_words(result, item, item.parts[0])
+    return [call] if call else []
 
 
 def _part(result: Result, part: Part) -> Entries:
@@ -132,7 +169,12 @@ def _freedom(result: Result, freedom: Freedom, is_sought: bool) -> Entries:
         place = coordinate_place(result, number, freedom.part)
     else:
         place = deformation_place(result, number, freedom.place[0] + 1)
-    made: Entries = {"label": freedom.label, **place, "moves": None, "largest": []}
+    made: Entries = {
+        "label": plain(freedom_in_words(freedom)),
+        **place,
+        "moves": None,
+        "largest": [],
+    }
     try:
         if is_sought:
             made["moves"] = freedom.motion is not None

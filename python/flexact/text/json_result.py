@@ -10,7 +10,7 @@ from typing import Any
 from ..base.version import VERSION
 from ..result.result import Result
 from ..result.verdict import Certainty
-from . import json_modes, json_parts
+from . import json_mechanics, json_modes, json_parts
 from .json_modes import ModesTable
 from .warnings import warnings_of
 
@@ -63,6 +63,8 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         **_verdict(analysis),
         **_decision(analysis),
         **_certainty(analysis),
+        "parts": json_mechanics.parts(analysis),
+        "internal_motions": json_mechanics.internal_motions(analysis),
         "freedoms": list(json_parts.freedoms(analysis)),
         **_given("motions", analysis.under_constrained, len(analysis.motions)),
         **_given("self_stresses", analysis.over_constrained, len(analysis.self_stresses)),

@@ -13,6 +13,10 @@ from .units import angle_in_words, length_in_words
 #: Margins below this angle, or this part of the characteristic length, are small.
 _SMALL = 0.1
 _ALIGNED = "in exact alignment"
+_ANY_MISALIGNMENT = (
+    "none. A motion and a self-stress here depend on exact alignment: any misalignment lifts "
+    "both, however small."
+)
 
 
 def margin_line(result: Result) -> Line:
@@ -54,7 +58,7 @@ def _margin(result: Result) -> Pieces:
         (named_element(result, margin.element),) if margin.element is not None else ()
     )
     if margin.exact_alignment:
-        return _aligned(of_node, of_element)
+        return (_ANY_MISALIGNMENT,)
     length, angle = _small(result)
     moving: Pieces = ()
     turning: Pieces = ()
@@ -69,16 +73,6 @@ def _margin(result: Result) -> Pieces:
         *((" or ",) if moving and turning else ()),
         *turning,
         " would change this, to first order.",
-    )
-
-
-def _aligned(of_node: Pieces, of_element: Pieces) -> Pieces:
-    between = (" or of ",) if of_node and of_element else ()
-    return (
-        "none. A motion and a self-stress here depend on exact alignment: any misalignment lifts "
-        "both, however small, such as one of ",
-        *(*of_node, *between, *of_element),
-        ".",
     )
 
 

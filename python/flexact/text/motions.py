@@ -50,7 +50,7 @@ def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
 
 def internal_in_words(result: Result) -> str:
     """How many motions are internal to which parts; empty where there are none."""
-    count = getattr(result, "internal_motions", 0)
+    count = result.internal_motions
     if not count:
         return ""
     inside = {part: None for motion in result.motions for part in motion.internal_to}

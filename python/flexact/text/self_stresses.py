@@ -13,6 +13,7 @@ from ..result.carriers import Joint
 from ..result.modes import SelfStress
 from ..result.outcome import Outcome
 from ..result.part_stresses import Conflict, PartStress
+from ..result.resultants import QUANTITIES, shared_resultants
 from ..result.screws import ROUNDING
 from ..result.wrenches import Wrench, WrenchKind
 from .motions import MOST_NODES, line_words
@@ -24,6 +25,7 @@ from .sentences import Pieces
 _REST = 1.0e2 * ROUNDING
 #: How many parts that fight are named.
 _MOST_NAMES = 3
+_MOMENTS = ("in-plane moment", "out-of-plane moment")
 
 
 def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
@@ -44,7 +46,7 @@ def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
     return tuple(
         (
             named_element(outcome, int(numbers[one.part.elements[0]])),
-            f": {listed(list(_carried(outcome, one))) or 'nothing'}",
+            f": {listed(list(_carried(outcome, stress, one))) or 'nothing'}",
         )
         for one in stress.parts[: most + 1]
     )
@@ -72,15 +74,16 @@ def _clearest(stress: SelfStress) -> Conflict | None:
 
     A joint is told where nothing else can be and no more than three parts are stressed.
     """
-    free = [conflict for conflict in stress.conflicts if _is_between_parts(conflict)]
-    bodies = [conflict for conflict in free if not isinstance(conflict.on, Joint)]
+    bodies = [conflict for conflict in stress.on_bodies if _is_between_parts(conflict)]
     few = [one for one in bodies if one.over is not None and len(one.loads) <= _MOST_NAMES]
     if few:
         return few[0]
     if bodies:
         return max(bodies, key=lambda one: len(one.loads))
-    joints = [one for one in free if one.over is not None and len(stress.parts) <= _MOST_NAMES]
-    return joints[0] if joints else None
+    if len(stress.parts) > _MOST_NAMES:
+        return None
+    joints = (one for one in stress.conflicts if _is_between_parts(one))
+    return next((one for one in joints if one.over is not None), None)
 
 
 def _is_between_parts(conflict: Conflict) -> bool:
@@ -110,7 +113,7 @@ def _against(over: Wrench) -> str:
     }.get(over.kind, "with opposite forces and moments")
 
 
-def _carried(outcome: Outcome, one: PartStress) -> Iterator[str]:
+def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[str]:
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
     rest = _REST * max(wrench.size for wrench in ends)
@@ -120,25 +123,19 @@ def _carried(outcome: Outcome, one: PartStress) -> Iterator[str]:
         yield f"{kind} {abs(one.normal_force):.4g} N"
     if abs(one.twist_moment) > rest:
         yield f"twist moment {one.twist_moment:.4g} N m"
-    bending = list(_bending(outcome, one, rest))
+    bending = list(_bending(outcome, stress, one, rest))
     yield from bending
     if not bending and float(np.linalg.norm(one.shear_force)) * length > rest:
         yield f"shear force {_vector(one.shear_force, 'N along')}"
 
 
-def _bending(outcome: Outcome, one: PartStress, rest: float) -> Iterator[str]:
-    """Bending moments at the ends: in the plane of a sheet, and the rest."""
+def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
+    """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
-        first, last = one.in_plane_moments
-        # Of the cross-section, so that a constant moment is the same at both ends.
-        at_ends = (first, -last)
-        moments = [m - (m @ one.normal) * one.normal for m in one.moments]
-        if max(map(abs, at_ends)) > rest:
-            yield _along(outcome, one, "in-plane moment", at_ends, rest)
-        if any(float(np.linalg.norm(m)) > rest for m in moments):
-            across = np.cross(one.normal, one.direction)
-            values = (float(moments[0] @ across), -float(moments[1] @ across))
-            yield _along(outcome, one, "out-of-plane moment", values, rest)
+        moments = moments_at_ends(stress, one).values()
+        for quantity, at_ends in zip(_MOMENTS, moments, strict=True):
+            if max(map(abs, at_ends)) > rest:
+                yield _along(outcome, one, quantity, at_ends, rest)
         return
     told = list(zip(one.ends, one.moments, strict=True))
     if not one.direction.any():
@@ -148,6 +145,30 @@ def _bending(outcome: Outcome, one: PartStress, rest: float) -> Iterator[str]:
         if float(np.linalg.norm(moment)) > rest:
             where = "" if end.position is None else f" at {_end(outcome, one.part, end.position)}"
             yield f"moment {_vector(moment, 'N m about')}{where}"
+
+
+def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[float, float]]:
+    """Moments at both ends of a sheet, with the signs that pictures give them.
+
+    In its plane and out of it, by `QUANTITIES` with underscores.
+    """
+    outcome = stress.analysis
+    elements = np.array([one.part.elements[0], one.part.elements[-1]])
+    known = outcome.condensed.elements
+    # Of a row of beams that is one beam that one.
+    both_ends = [e for e in (one.part.elements[0], one.part.elements[-1]) if e in known]
+    elements = np.searchsorted(known, np.array(both_ends))
+    moments, forces = stress.analysed
+    values = shared_resultants(outcome.data, elements, (moments + forces)[elements])
+    nodes = outcome.data.arrays.element_node[[0, 2]][:, elements].T - 1
+    positions = outcome.condensed.nodes[nodes]
+    made = {}
+    for quantity in _MOMENTS:
+        at_nodes = values[:, QUANTITIES.index(quantity)]
+        found = dict(zip(positions.ravel().tolist(), at_nodes.ravel().tolist(), strict=True))
+        first, last = (found[end.position] for end in one.ends if end.position is not None)
+        made[f"{quantity.replace('-', '_').replace(' ', '_')}s"] = (first, last)
+    return made
 
 
 def _along(

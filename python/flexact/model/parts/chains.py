@@ -43,17 +43,34 @@ class Chain(NamedTuple):
     def condensed_classes(self) -> tuple[int, ...] | None:
         """(6,) classes of the one beam that the row is; None where it is not declared as one.
 
-        Each deformation must be released in one beam at most: then the others follow from what
-        they hold or declare, and D(c) has the rank of that of one beam.
+        Each deformation must be released in one beam at most, and the hinges that are released
+        be those of one beam: then the others follow from what they hold or declare, and D(c) has
+        the rank of that of one beam.
         """
-        made = []
+        made: list[int] = []
         for classes in zip(*self.classes, strict=True):
             released = classes.count(Class.DEPENDENT)
             rest = {each for each in classes if each != Class.DEPENDENT}
             if released > 1 or len(rest) > 1:
                 return None
             made.append(int(Class.DEPENDENT) if released else classes[0])
-        return tuple(made)
+        pairs = ((1, 2),) if self.is_planar else ((2, 3), (4, 5))
+        return tuple(made) if all(self._hinges_fit(*pair) for pair in pairs) else None
+
+    def _hinges_fit(self, p: int, q: int) -> bool:
+        """Whether the bendings about one axis, from 0, release what one beam can release.
+
+        At p it is a hinge where its beam begins, at q one where it ends. Two make a beam
+        wherever they are, but at one place they are one hinge and an idle node; a single one
+        is at the end of the row or inside it.
+        """
+        at_p, at_q = (
+            [k + end for k, classes in enumerate(self.classes) if classes[d] == Class.DEPENDENT]
+            for d, end in ((p, 0), (q, 1))
+        )
+        if at_p and at_q:
+            return at_p != at_q
+        return at_p in ([], [0]) and at_q in ([], [len(self.classes)])
 
     @property
     def surplus(self) -> tuple[tuple[int, tuple[int, ...]], ...]:
@@ -91,7 +108,8 @@ def chains_of(arrays: ModelArrays, names: Sequence[str]) -> tuple[Chain, ...]:
     """Rows of at least two beams that a designer takes for one sheet or wire.
 
     Neighbours are alone with each other at a node of which nothing is fixed or declared, bend
-    in the same way, and lie nearly in line; those with different names do not belong together.
+    in the same way about the same axes, and lie nearly in line; those with different names do
+    not belong together.
     """
     neighbours = _Neighbours(arrays, names)
     return tuple(row for row in neighbours.rows() if _is_stretched(arrays, row))
@@ -158,7 +176,26 @@ class _Neighbours:
             return False
         limit = _OF_ONE_NAME if mine and mine == other_name else _IN_ROW
         along = self._direction(i) * (1.0 if at_i == 1 else -1.0)
-        return bool(along @ self._direction(j) * (1.0 if at_j == 0 else -1.0) > limit)
+        if not along @ self._direction(j) * (1.0 if at_j == 0 else -1.0) > limit:
+            return False
+        return Class.FIXED not in first[2:] or self._turned_alike(i, j)
+
+    def _turned_alike(self, i: int, j: int) -> bool:
+        """Whether the local y axes of two beams are nearly one line."""
+        one, other = self.arrays.element_vector[:, [i, j]].T
+        if np.array_equal(one, other):
+            return True
+        return bool(abs(self._across(i) @ self._across(j)) > _IN_ROW)
+
+    def _across(self, element: int) -> FloatArray:
+        """The local y axis of a beam."""
+        along = self._direction(element)
+        given: FloatArray = self.arrays.element_vector[:, element]
+        largest = np.abs(given).max()
+        hint = given / largest if largest > 0.0 else np.eye(3)[np.argmin(np.abs(along))]
+        across: FloatArray = hint - (hint @ along) * along
+        size = float(np.linalg.norm(across))
+        return across / size if size > 0.0 else across
 
     def classes(self, element: int, turned: bool) -> tuple[int, ...]:
         """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""

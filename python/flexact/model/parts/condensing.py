@@ -21,6 +21,9 @@ from ..data import ModelData
 from ..names import part_name
 from .chains import Chain
 
+#: Sine below which a vector is taken for one along the chord.
+_ALONG = 1.0e-3
+
 
 @dataclass(frozen=True, eq=False)
 class Condensed(Frozen):
@@ -88,26 +91,28 @@ class Condensed(Frozen):
     def _bent(
         self, chain: Chain, inner: InnerNodes, frame: FloatArray, moments: FloatArray
     ) -> FloatArray:
-        """(beams, 6) moments of the beams of a chain, from those of the one beam, (6,)."""
+        """(beams, 6) moments of the beams of a chain, from those of the one beam, (6,).
+
+        They are about the axes of the one beam: a beam that is not in line with it is given
+        those about the axis of its own that is nearest.
+        """
         beams = list(chain.elements)
         sense = np.where(chain.reversed, -1.0, 1.0)[:, None]
         ends = np.array([0.0, *inner.share, 1.0])
         shares = np.stack((ends[:-1], ends[1:]), axis=1)
         shares = np.where(sense < 0.0, shares[:, ::-1], shares)
-        frames = self.given.frames.frame[beams]
         made = np.tile(moments, (len(beams), 1))
         # Bending about local y at p and q, and about local z; a planar beam bends about z alone.
         planes = ((2, 1, 2),) if inner.is_planar else ((1, 2, 3), (2, 4, 5))
-        at = [
-            sum(
-                (moments[p] * (1.0 - share) + moments[q] * share)[:, None] * frame[:, axis]
-                for axis, p, q in planes
-            )
-            for share in shares.T
-        ]
-        for axis, p, q in planes:
-            for slot, vector in ((p, at[0]), (q, at[1])):
-                made[:, slot] = sense[:, 0] * np.sum(vector * frames[:, :, axis], axis=1)
+        axes = [axis for axis, _, _ in planes]
+        # (beams, own axes, axes of the one beam)
+        cosines = np.swapaxes(self.given.frames.frame[beams][:, :, axes], 1, 2) @ frame[:, axes]
+        nearest = np.argmax(np.abs(cosines), axis=2)
+        sign = np.sign(np.take_along_axis(cosines, nearest[:, :, None], axis=2)[:, :, 0])
+        of_p, of_q = (moments[[plane[end] for plane in planes]][nearest] for end in (1, 2))
+        for k, (_, p, q) in enumerate(planes):
+            linear = of_p[:, [k]] * (1.0 - shares) + of_q[:, [k]] * shares
+            made[:, [p, q]] = sense * sign[:, [k]] * linear
         return made
 
     def in_given(self, element: int, deformation: int) -> tuple[int, int]:
@@ -257,13 +262,31 @@ def _ends(chain: Chain) -> Sequence[int]:
 
 
 def _vector_of(data: ModelData, chain: Chain) -> FloatArray:
-    """The y vector of the one beam: the one given to all, or the mean of their local y axes."""
-    given = data.arrays.element_vector[:, list(chain.elements)].T
-    if np.all(given == given[0]):
+    """The y vector of the one beam: the one given to all, or the mean of their local y axes.
+
+    A vector and its opposite are one; along the chord it says nothing.
+    """
+    beams = list(chain.elements)
+    axes: FloatArray = data.frames.frame[beams, :, 1]
+    # From neighbour to neighbour: along an arc they turn round without changing sides.
+    same = np.sum(axes[1:] * axes[:-1], axis=1) >= 0.0
+    signs = np.cumprod([1.0, *np.where(same, 1.0, -1.0)])[:, None]
+    given = signs * data.arrays.element_vector[:, beams].T
+    if np.all(given == given[0]) and (not given.any() or not _is_along(given[0], data, chain)):
         return np.asarray(given[0])
-    axes: FloatArray = data.frames.frame[list(chain.elements), :, 1]
-    signs = np.where(axes @ axes[0] < 0.0, -1.0, 1.0)
-    return np.asarray(np.sum(signs[:, None] * axes, axis=0))
+    mean = np.sum(signs * axes, axis=0)
+    if not _is_along(mean, data, chain):
+        return np.asarray(mean)
+    return np.zeros(3)
+
+
+def _is_along(vector: FloatArray, data: ModelData, chain: Chain) -> bool:
+    """Whether a vector is practically parallel to the chord of a row."""
+    ends = data.arrays.node_value[:3, [chain.positions[0], chain.positions[-1]]].T
+    chord = ends[1] - ends[0]
+    unit = vector / np.abs(vector).max()
+    across = np.cross(unit, chord / np.abs(chord).max())
+    return bool(np.abs(across).max() < _ALONG)
 
 
 def _some(appearance: Appearance | None, elements: IntArray) -> Appearance | None:

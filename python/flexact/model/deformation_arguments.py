@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Classes: what coordinates of points and deformations of parts are meant, and giving them."""
+"""Deformations: which of a part are meant, and giving them classes."""
 
 from __future__ import annotations
 
@@ -8,13 +8,8 @@ from typing import NamedTuple
 
 from ..base.plain_text import in_short
 from ..core.elements import (
-    AXES,
-    POSITION_NAMES,
-    ROTATION_NAMES,
     Class,
-    coordinate_name,
     element_kinds,
-    is_position,
 )
 from ..core.raw import ElementKind
 from ..diagnostics.errors import model_error
@@ -24,7 +19,7 @@ from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Part
 from .names import COORDINATES
 from .part_arguments import end_positions, indices_of, part, planes_of, words_for
-from .point_arguments import existing, node_number
+from .point_arguments import existing
 from .words import is_word, numbers_of
 
 _BY_NUMBER = "a deformation is given by its number"
@@ -116,16 +111,28 @@ def _end(draft: Draft, what: str, indices: list[int], at: object) -> str:
     """Which end of a part is meant: "p", "q", or empty for both."""
     if at is None or (isinstance(at, str) and at in ("p", "q")):
         return at or ""
-    point = existing(draft, at)
     ends = end_positions(draft, indices)
+    body = _body(draft, at)
+    if body is not None:
+        met = [number in {node.position for node in body.nodes} for number in ends]
+        if met[0] != met[1]:
+            return "p" if met[0] else "q"
+    point = existing(draft, at)
     if point.position in ends:
         return "pq"[ends.index(point.position)]
     values = [draft.node_value.get(end) for end in ends]
     if draft.node_value[point.position] in values:
         return "pq"[values.index(draft.node_value[point.position])]
     raise model_error(
-        "no-end", f"{what} does not end at {point!r}", "give one of its two ends, or p or q"
+        "no-end", f"{what} does not end at {point.words}", "give one of its two ends, or p or q"
     )
+
+
+def _body(draft: Draft, at: object) -> Body | None:
+    """The body that is meant where an end is said by what it is fastened to."""
+    if isinstance(at, str) and at not in draft.points_by_name and at in draft.parts_by_name:
+        at = part(draft, at)
+    return at if isinstance(at, Body) else None
 
 
 def give_deformations(
@@ -174,58 +181,3 @@ def means_part(draft: Draft, target: object, which: Sequence[str | int]) -> bool
             "name coordinates of a node or number deformations of an element",
         )
     return not all(isinstance(item, str) and not is_word(item) for item in which)
-
-
-def nodes_of(draft: Draft, target: object) -> list[int]:
-    """Numbers of the nodes of a point, or the number of a single node.
-
-    Raises:
-        ModelError: there is no such point or node.
-    """
-    if isinstance(target, (Element, Part)) and not isinstance(target, Body):
-        raise model_error("not-a-node", "an element has deformations, not coordinates")
-    if isinstance(target, (Node, Body, str, Iterable)):
-        found = existing(draft, target)
-        return [found.position, found.orientation]
-    return [node_number(draft, target)]
-
-
-def give_coordinates(draft: Draft, target: object, names: Sequence[object], value: Class) -> None:
-    """Give coordinates of a point or a node a class; all where none is named."""
-    numbers = nodes_of(draft, target)
-    if names:
-        named = [_coordinate(draft, numbers, name) for name in names]
-        draft.state_coordinates(named, value)
-        draft.named.update(named)
-    else:
-        every = ((number, k) for number in numbers for k in AXES[draft.node_kind[number]])
-        draft.state_coordinates(every, value)
-        draft.whole.append((numbers[0], numbers[-1]))
-
-
-def clear_coordinates(draft: Draft, target: object, names: Sequence[object]) -> None:
-    """Take back the classes of coordinates, which are dependent then; all where none is named."""
-    numbers = nodes_of(draft, target)
-    named = {_coordinate(draft, numbers, name) for name in names}
-    every = {(number, k) for number in numbers for k in AXES[draft.node_kind[number]]}
-    for place in named or every:
-        draft.coordinate_class.pop(place, None)
-    draft.named -= named or every
-    if not named:
-        draft.whole = [both for both in draft.whole if both[0] not in numbers]
-
-
-def _coordinate(draft: Draft, numbers: Sequence[int], name: object) -> tuple[int, int]:
-    for number in numbers:
-        kind = draft.node_kind[number]
-        known = POSITION_NAMES if is_position(kind) else ROTATION_NAMES
-        if isinstance(name, str) and name in known and known.index(name) in AXES[kind]:
-            return number, known.index(name)
-    has = [
-        coordinate_name(draft.node_kind[n], k) for n in numbers for k in AXES[draft.node_kind[n]]
-    ]
-    raise model_error(
-        "component-out-of-range",
-        f"{draft.node_words(numbers[0])} has no coordinate {in_short(name)}",
-        f"it has {', '.join(has)}",
-    )

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Single elements: methods of the builder that make bars, beams, links, hinges and notches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..core.elements import Class
+from ..diagnostics.errors import model_error
+from . import arguments, sections
+from . import point_arguments as points
+from .appearance_arguments import Section, shape_of
+from .arguments import Direction
+from .deformation_arguments import deformations
+from .draft import NO_VECTOR
+from .handles import Element, Node, Notch
+from .making import call
+from .material import MaterialLike
+from .point_arguments import Point
+from .points import PointMethods
+from .sections import Make
+
+
+class ElementMethods(PointMethods):
+    """Methods that make bars, beams, rigid links, hinges and notches."""
+
+    def truss(
+        self,
+        p: Point | int,
+        q: Point | int,
+        name: str = "",
+        *,
+        section: Section | None = None,
+        thickness: float | None = None,
+        material: MaterialLike | None = None,
+    ) -> Element:
+        """A bar: its elongation is held. A number stands for a position node.
+
+        `section` is how it is drawn, see `look`; `thickness` is its diameter [m], and
+        `material` gives it stiffness and mass, see `wire`.
+        """
+        draft = self._change()
+        with call("truss", name):
+            name = arguments.text(name, "the name of an element")
+            shape = sections.round_section(section, thickness)
+            make = sections.made_of(self._kind("TRUSS"), shape, material, "bar")
+            slots = (points.position(draft, p), 0, points.position(draft, q), 0)
+            number = draft.add_element(self._kind("TRUSS"), slots, name, shape=shape)
+            draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+        return Element(number, self._owner)
+
+    def beam(
+        self,
+        p: Point,
+        q: Point,
+        y: Direction | None = None,
+        release: Iterable[int | str] = (),
+        name: str = "",
+        *,
+        section: Section | None = None,
+        material: MaterialLike | None = None,
+    ) -> Element:
+        """A beam; all deformations are held but those in `release`.
+
+        Args:
+            p: One end.
+            q: The other end.
+            y: Initial direction of the local y axis; by default the global axis that
+                is most nearly across the beam. Not for a planar beam.
+            release: Deformations that are free: 1 elongation, 2 torsion, 3 and 4 bending
+                in the local xz plane, 5 and 6 in the local xy plane at p and q; of a
+                planar beam 1 elongation, 2 and 3 bending. Or in words: "elongation",
+                "twist", "bending", "bending about y", "bending about z".
+            name: What the element is called.
+            section: How it is drawn, see `look`.
+            material: Gives it stiffness and mass, see `wire`.
+        """
+        with call("beam", name):
+            kind = self._kind("BEAM")
+            released = deformations(kind, release)
+            make = sections.made_of(kind, shape_of(section), material, "beam")
+            element = self._beam(p, q, y, (), name, make)
+            index = self._change().index_of(element.number)
+            self._change().state_deformations([(index, k) for k in released], Class.DEPENDENT)
+            for number in released:
+                self._change().set_deformation(index, number, Class.DEPENDENT)
+        return element
+
+    def rigid(
+        self, p: Point, q: Point, name: str = "", *, section: Section | None = None
+    ) -> Element:
+        """A rigid link that carries q with p; `body` makes one body of several points.
+
+        It becomes an RBEAM, which holds the position of q alone, unless the orientation
+        of q is needed by another element or by a class that names its coordinates, or
+        the link itself is given a class; then it becomes a BEAM with everything held.
+        The deformations of `release` and `independent` are those of a BEAM.
+        `section` is how it is drawn, see `look`.
+        """
+        with call("rigid", name):
+            element = self._beam(p, q, None, (), name, Make(shape_of(section)))
+        draft = self._change()
+        draft.rigid.add(len(draft.kinds) - 1)
+        return element
+
+    def hinge(
+        self,
+        p: Point,
+        axis: Direction | None = None,
+        q: Node | None = None,
+        name: str = "",
+        independent: bool = False,
+    ) -> Node:
+        """A hinge at p: the rotation about the axis is released, the others are held.
+
+        Args:
+            p: The point on one side.
+            axis: Direction of the axis; not for a planar model.
+            q: The point on the other side, at the same position node; by default a new
+                one, as `pivot` makes it.
+            name: What the element is called.
+            independent: Whether the rotation is a degree of freedom, eq. (6).
+
+        Returns:
+            The point beyond the hinge.
+        """
+        with call("hinge", name):
+            return self._hinge(p, axis, q, name, independent).q
+
+    def notch(
+        self,
+        p: Point,
+        axis: Direction | None = None,
+        q: Node | None = None,
+        name: str = "",
+        *,
+        independent: bool = False,
+    ) -> Notch:
+        """A notch at p: all is held but the bending about its axis.
+
+        A notch is so short that it is a hinge at a point: what is fastened to p before it,
+        and what is fastened to `notch.q` beyond it, turn about the axis against each other.
+        Arguments as of `hinge`.
+
+        Returns:
+            The notch, with its points p and q.
+        """
+        with call("notch", name):
+            return self._hinge(p, axis, q, name, independent)
+
+    def _hinge(
+        self, p: Point, axis: Direction | None, q: Node | None, name: str, independent: bool
+    ) -> Notch:
+        draft = self._change()
+        name = arguments.text(name, "the name of an element")
+        direction = arguments.axis(draft, axis)
+        near = points.point(draft, p)
+        if q is None:
+            q = self.pivot(near)
+        elif points.point(draft, q).position != near.position:
+            raise model_error(
+                "two-positions",
+                "a hinge joins two points at one position node",
+                "make the second point with pivot(p), or leave it out",
+            )
+        slots = (0, near.orientation, 0, q.orientation)
+        number = draft.add_element(self._kind("HINGE"), slots, name, direction, (1,))
+        if independent:
+            index = draft.index_of(number)
+            draft.state_deformations([(index, 1)], Class.INDEPENDENT)
+            draft.set_deformation(index, 1, Class.INDEPENDENT)
+        return Notch((Element(number, self._owner),), (near, q))
+
+    def _beam(
+        self,
+        p: Point,
+        q: Point,
+        y: Direction | None,
+        released: tuple[int, ...],
+        name: str,
+        make: Make,
+    ) -> Element:
+        draft = self._change()
+        if y is not None and draft.planar:
+            raise model_error("surplus-vector", "a planar beam takes no y vector")
+        hint = NO_VECTOR if y is None else arguments.direction(y, "y vector")
+        name = arguments.text(name, "the name of an element")
+        a, b = points.point(draft, p), points.point(draft, q)
+        slots = (
+            points.position(draft, a),
+            a.orientation,
+            points.position(draft, b),
+            b.orientation,
+        )
+        number = draft.add_element(self._kind("BEAM"), slots, name, hint, released, make.shape)
+        draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
+        return Element(number, self._owner)

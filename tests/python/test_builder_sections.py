@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sections and materials: stiffness and mass against closed forms and printed tables."""
+
+import math
+from collections.abc import Callable
+
+import pytest
+from wrong_use import code_of
+
+from flexact import Material, Model, ModelError
+from flexact.model.appearance_draft import Shape
+from flexact.model.material import MATERIALS
+from flexact.model.sections import constants_of
+
+RECT, CIRC = 1, 2
+
+
+def properties(model: Model) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """ESTIFF and EM of the first element."""
+    draft = model._change()
+    return draft.properties.stiffness[0], draft.properties.mass[0]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "factor"),
+    # J / (b t^3): Timoshenko and Goodier, Theory of Elasticity, table in art. 109.
+    [(1.0, 0.1406), (1.2, 0.166), (1.5, 0.196), (2, 0.229), (3, 0.263), (5, 0.291), (10, 0.312)],
+)
+def test_torsion_constant_of_rectangles(ratio: float, factor: float) -> None:
+    for y, z in ((1.0, ratio), (ratio, 1.0)):
+        made = constants_of(Shape(RECT, 1e-3 * y, 1e-3 * z))
+        assert made.torsion / (ratio * 1e-12) == pytest.approx(factor, abs=6e-4)
+
+
+def test_torsion_constant_to_many_digits() -> None:
+    # Values of 9 digits from the reference cases of beams, ratios 1 and 10.
+    assert constants_of(Shape(RECT, 1, 1)).torsion == pytest.approx(0.140577015, abs=5e-10)
+    assert constants_of(Shape(RECT, 1, 10)).torsion / 10 == pytest.approx(0.312325037, abs=5e-10)
+    thin = constants_of(Shape(RECT, 1e-4, 1.0)).torsion
+    assert thin == pytest.approx(1e-12 / 3 * (1 - 0.630e-4), rel=1e-8), (
+        "Roark: b t^3/3 (1 - 0.63 t/b)"
+    )
+
+
+def test_a_sheet_has_the_stiffness_of_its_section() -> None:
+    # Sheet 100 x 50 x 0.5 mm, 210 GPa, nu 0.3: EA 5.25e6, G It 0.167209, E I in its plane
+    # 1093.75, out of it 0.109375 (reference cases of beams).
+    steel = Material("steel of the case", 210e9, 210e9 / 2.6, 7850)
+    model = Model()
+    model.sheet((0, 0, 0), (0.1, 0, 0), "z", section=(0.05, 0.0005), material=steel)
+    stiffness, mass = properties(model)
+    # Deformations 3 and 4, in the plane of the sheet, have the third value.
+    assert stiffness == pytest.approx((5.25e6, 0.167209, 1093.75, 0.109375), rel=1e-5)
+    area = 0.05 * 0.0005
+    inertia = 7850 * 0.0005 * 0.05**3 / 12, 7850 * 0.05 * 0.0005**3 / 12
+    assert mass == pytest.approx((7850 * area, sum(inertia), *inertia, 0.0))
+    # The section is drawn with its width along local z.
+    assert model.data.appearance.dimensions.tolist() == [[0.0005, 0.05]]
+
+
+def test_thickness_and_breadth_are_the_section() -> None:
+    one, other = Model(), Model()
+    one.sheet((0, 0, 0), (0.1, 0, 0), "z", section=(0.05, 0.0005), material="steel", beams=3)
+    other.sheet(
+        (0, 0, 0), (0.1, 0, 0), "z", thickness=5e-4, breadth=5e-2, material="steel", beams=3
+    )
+    assert properties(one) == properties(other)
+    assert len(one._change().properties.stiffness) == len(one._change().properties.mass) == 3
+    assert (one.data.appearance.dimensions == other.data.appearance.dimensions).all()
+
+
+def test_a_wire_is_round() -> None:
+    model = Model()
+    model.wire((0, 0, 0), (0.1, 0, 0), thickness=0.001, material="spring steel")
+    second = math.pi * 0.001**4 / 64
+    stiffness, mass = properties(model)
+    area = math.pi * 0.001**2 / 4
+    wanted = (206e9 * area, 81.5e9 * 2 * second, 206e9 * second, 206e9 * second)
+    assert stiffness == pytest.approx(wanted)
+    assert mass == pytest.approx((7850 * area, 7850 * 2 * second, 7850 * second, 7850 * second, 0))
+    assert model.data.appearance.cross_section.tolist() == [CIRC]
+
+
+def test_bars_and_planar_sheets_have_fewer_values() -> None:
+    model = Model(planar=True)
+    model.sheet((0, 0), (0.1, 0), thickness=5e-4, breadth=5e-2, material="aluminium")
+    inertia = 0.05 * 0.0005**3 / 12
+    assert properties(model)[0] == pytest.approx((70e9 * 2.5e-5, 70e9 * inertia))
+    assert properties(model)[1] == pytest.approx((2700 * 2.5e-5, 2700 * inertia))
+    bar = Model()
+    bar.truss((0, 0, 0), (1, 0, 0), thickness=0.01, material={"E": 1e9, "G": 4e8, "density": 1000})
+    area = math.pi * 1e-4 / 4
+    assert properties(bar) == (pytest.approx((1e9 * area,)), pytest.approx((1000 * area,)))
+
+
+def test_a_material_without_density_gives_no_mass() -> None:
+    model = Model()
+    model.wire((0, 0, 0), (1, 0, 0), thickness=1e-3, material=Material("light", 1e9, 4e8))
+    assert model._change().properties.stiffness and not model._change().properties.mass
+
+
+def test_parts_can_be_given_their_material_afterwards() -> None:
+    model = Model()
+    hinge = model.cross_hinge(
+        [(-0.03, 0, 0), (0.03, 0, 0)], [(0.03, 0, 0.08), (-0.03, 0, 0.08)], name="hinge"
+    )
+    model.made_of(hinge, "titanium", thickness=2e-4, breadth=0.02)
+    model.made_of("hinge sheet 2", "steel")
+    draft = model._change()
+    axial = [draft.properties.stiffness[k][0] for k in (0, 1)]
+    assert axial == pytest.approx([113.8e9 * 4e-6, 210e9 * 4e-6])
+    assert set(draft.properties.stiffness) == {0, 1}, "the body has none"
+    with pytest.raises(ModelError) as error:
+        model.made_of("hinge body", "steel")
+    assert code_of(error) == "no-section"
+
+
+def test_common_materials_are_isotropic_within_reason() -> None:
+    """E = 2 G (1 + nu) with nu of metals, 0.25 to 0.36."""
+    assert len(MATERIALS) >= 5
+    for name, material in MATERIALS.items():
+        assert name == material.name
+        assert 0.25 < material.E / (2 * material.G) - 1 < 0.36, name
+
+
+Call = Callable[[Model], object]
+ENDS = (0, 0, 0), (1, 0, 0)
+WRONG: list[tuple[str, Call]] = [
+    ("no-such-material", lambda m: m.wire(*ENDS, thickness=1e-3, material="stel", name="w")),
+    ("missing-section", lambda m: m.wire(*ENDS, material="steel", name="w")),
+    ("missing-section", lambda m: m.sheet(*ENDS, "z", thickness=1e-3, name="w")),
+    ("given-twice", lambda m: m.sheet(*ENDS, "z", section=(1, 1), thickness=1, name="w")),
+    ("given-twice", lambda m: m.wire(*ENDS, section=1, thickness=1, name="w")),
+    ("bad-size", lambda m: m.wire(*ENDS, thickness=-1, name="w")),
+    ("bad-number", lambda m: m.wire(*ENDS, thickness="thin", name="w")),
+    ("bad-material", lambda m: m.wire(*ENDS, thickness=1, material={"E": 1}, name="w")),
+    ("bad-material", lambda m: m.wire(*ENDS, thickness=1, material=5, name="w")),
+    ("bad-material", lambda m: m.wire(*ENDS, thickness=1, material={"E": 0, "G": 1}, name="w")),
+]
+
+
+@pytest.mark.parametrize(("code", "call"), WRONG)
+def test_wrong_sections_are_told_with_the_part(code: str, call: Call) -> None:
+    model = Model()
+    with pytest.raises(ModelError) as error:
+        call(model)
+    assert code_of(error) == code
+    assert " 'w': " in error.value.diagnostics[0].message
+    assert error.value.diagnostics[0].help or code in ("bad-number",)
+    assert model.element_numbers.size == 0
+
+
+@pytest.mark.parametrize(
+    "values", [(0, 1), (-1, 1), (1, math.nan), (1, math.inf), ("1", 1), (1, 1, -1)]
+)
+def test_no_materials(values: tuple[float, ...]) -> None:
+    with pytest.raises(ModelError) as error:
+        Material("x", *values)
+    assert code_of(error) == "bad-material"
