@@ -14,7 +14,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
          diagnostics_rendering reading regress cli outputs wording docs version package_files
 
 # Tests that compare words with files.
-WORDED := wording broken_decks appearance docs element_table
+WORDED := wording broken_decks appearance docs element_table gallery
 
 .PHONY: demo test check core-test lint wording gallery attack bench clean
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rigid bodies as solids: where they are, how they move, and when links are drawn instead."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,8 @@ from browser import Browser
 from pictures import VIEW, Pixels
 
 import flexact
-from flexact.drawing import drawing_of, move, stations
+from flexact.core.elements import NodeKind
+from flexact.drawing import drawing_of, move, resultants, stations
 from flexact.mesh import to_meshio
 from flexact.model.parts.forms import Form
 from flexact.picture import draw
@@ -122,7 +124,7 @@ def test_the_picture_shows_the_solid_where_it_is() -> None:
     inside = np.array([high[0], 0.01, 0.8 * high[2]])
     red, green, blue = pixels.at(inside)
     assert max(red, green, blue) < 200 and np.ptp([red, green, blue]) < 20
-    assert min(pixels.at(inside + [0.0, 0.0, 3.0 * high[2]])) == 255
+    assert min(pixels.at(np.add(inside, (0.0, 0.0, 3.0 * high[2])))) == 255
 
 
 def test_a_mesh_has_the_solid_as_the_surface_of_its_first_link() -> None:
@@ -170,3 +172,26 @@ def test_a_page_names_the_body_that_is_pointed_at(browser: Browser, tmp_path: Pa
     browser.drawn()
     assert (before != browser.pixels()).any(axis=-1).sum() > 1000
     assert browser.console() == []
+
+
+@pytest.mark.parametrize("wave", [0.0, 1e-12, 1e-3])
+def test_a_divided_sheet_is_drawn_as_one(wave: float) -> None:
+    """One width; edges at its ends alone; the moment goes on from beam to beam."""
+    data = guide(beams=4).data
+    value = data.arrays.node_value.copy(order="F")
+    inner = (data.arrays.node_kind == NodeKind.POSITION) & (value[0] % 0.1 > 1e-6)
+    value[1, inner] += wave * np.sin(40.0 * np.pi * value[0, inner])
+    data = replace(data, arrays=data.arrays._replace(node_value=value), source=None, found=None)
+    analysis = flexact.analyse(flexact.Model.from_data(data))
+    drawing = drawing_of(analysis.given)
+    sheets = drawing.members.form == Form.SHEET
+    widths = drawing.members.section[sheets].max(axis=1)
+    assert np.ptp(widths) < 1e-3 * widths[0]
+    assert widths[0] == pytest.approx(drawing_of(guide().data).members.section[0].max(), rel=0.02)
+    row = drawing.members.joined[:4]
+    assert row.tolist() == [[False, True], [True, True], [True, True], [True, False]]
+    moment = resultants(drawing, analysis.self_stresses[0])["in-plane moment"]
+    for first in (0, 4):
+        mine = moment[first : first + 4]
+        np.testing.assert_allclose(mine, mine[0, 0], rtol=1e-2 if wave > 1e-6 else 1e-9)
+    assert moment[0, 0] == pytest.approx(-moment[4, 0], rel=1e-9)
