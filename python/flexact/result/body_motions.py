@@ -72,15 +72,7 @@ class Moving(Frozen):
     @cached_property
     def bodies(self) -> tuple[BodyMotion, ...]:
         """Bodies and joints that move, those that move as one together; bodies first, by name."""
-        groups: list[list[_Item]] = []
-        for item in self._items:
-            if item.screw:
-                same = next((group for group in groups if self._is_same(group[0], item)), None)
-                if same is None:
-                    groups.append([item])
-                else:
-                    same.append(item)
-        groups = self._with_points_as_one(groups)
+        groups = self._with_points_as_one(self._grouped([i for i in self._items if i.screw]))
         made = [
             BodyMotion(
                 tuple(item.body for item in group if item.body is not None),
@@ -255,21 +247,29 @@ class Moving(Frozen):
             rounding=self.outcome.rounding,
         )
 
-    def _is_same(self, one: _Item, other: _Item) -> bool:
-        """Whether two move as one body would."""
-        far = 1.0 + float(np.linalg.norm(one.screw.centre - other.screw.centre)) / self._length
-        limit = 10.0 * self._rest * far
-        joint = other.joint
-        if joint is None or joint.position is not None:
-            off = one.screw.at(other.screw.centre) - other.screw.velocity
-            if np.linalg.norm(off) > limit:
-                return False
-        if joint is not None and joint.orientation is None:
-            return True
-        if one.joint is not None and one.joint.orientation is None:
-            return False
-        turned = one.screw.rotation - other.screw.rotation
-        return bool(np.linalg.norm(turned) * self._length <= limit)
+    def _grouped(self, items: list[_Item]) -> list[list[_Item]]:
+        """Those that move as one body would: each with the first that it agrees with."""
+        velocity, rotation, centre = (
+            np.array([getattr(item.screw, name) for item in items]).reshape(-1, 3)
+            for name in ("velocity", "rotation", "centre")
+        )
+        joints = [item.joint for item in items]
+        placed = np.array([joint is None or joint.position is not None for joint in joints], bool)
+        turning = np.array([j is None or j.orientation is not None for j in joints], bool)
+        left, groups = np.ones(len(items), bool), []
+        while left.any():
+            i = int(np.argmax(left))
+            arms = centre - centre[i]
+            far = 1.0 + np.linalg.norm(arms, axis=1) / self._length
+            limit = 10.0 * self._rest * far
+            off = velocity[i] + np.cross(rotation[i], arms) - velocity
+            turned = np.linalg.norm(rotation - rotation[i], axis=1) * self._length
+            same = ~placed | (np.linalg.norm(off, axis=1) <= limit)
+            same &= ~turning | (turning[i] & (turned <= limit))
+            same[i] = True
+            groups.append([items[k] for k in np.flatnonzero(same & left).tolist()])
+            left &= ~same
+        return groups
 
     def _screw_of_all(self, items: Sequence[_Item]) -> Screw:
         """Of several that move as one, about the middle of all."""
