@@ -11,7 +11,7 @@ from pictures import VIEW, Pixels
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.drawing import drawing_of, move, resultants, stations
+from flexact.drawing import QUANTITIES, drawing_of, move, resultants, stations
 from flexact.mesh import to_meshio
 from flexact.model.parts.forms import Form
 from flexact.picture import draw
@@ -195,3 +195,14 @@ def test_a_divided_sheet_is_drawn_as_one(wave: float) -> None:
         mine = moment[first : first + 4]
         np.testing.assert_allclose(mine, mine[0, 0], rtol=1e-2 if wave > 1e-6 else 1e-9)
     assert moment[0, 0] == pytest.approx(-moment[4, 0], rel=1e-9)
+
+
+def test_a_body_that_is_a_solid_offers_no_stress_of_its_links() -> None:
+    """Its twist is as large as the moments of the sheets, and nobody could see it."""
+    analysis = flexact.analyse(guide())
+    stress = analysis.self_stresses[0]
+    as_solid = resultants(drawing_of(analysis.given), stress)
+    assert [name for name in QUANTITIES if as_solid.largest(name)] == ["in-plane moment"]
+    links = flexact.analyse(guide(section=(0.01, 0.02)))
+    as_links = resultants(drawing_of(links.given), links.self_stresses[0])
+    assert as_links.largest("twist moment") == pytest.approx(as_links.largest("in-plane moment"))

@@ -18,6 +18,8 @@ from ..core.arrays import FloatArray
 
 #: By so much points are moved, parts of the extent, and so near to a plane they are in it.
 _MOVED, _IN_PLANE = 1.0e-6, 1.0e-4
+#: Cosine of the angle between faces from which on the edge between them is seen: 4 degrees.
+_EDGE = 0.9976
 #: What is nearer to a line than this part of the extent lies in it.
 _FLAT = 1.0e-9
 
@@ -32,7 +34,7 @@ class Hull(NamedTuple):
     normal: FloatArray
     """(faces, 3) outward unit vectors."""
     edges: np.ndarray
-    """(e, 2) indices of points: where two faces meet."""
+    """(e, 2) indices of points: where faces meet at an angle that is seen."""
     beside: np.ndarray
     """(e, 2) those faces."""
 
@@ -91,11 +93,11 @@ def hull_round(points: FloatArray) -> Hull | None:
                     face[other] = len(seeds)
                     grown.append(other)
         seeds.append(seed)
-    ways = [
-        way for way, k in owner.items() if way[0] < way[1] and face[k] != face[owner[way[::-1]]]
-    ]
-    beside = [(face[owner[way]], face[owner[way[::-1]]]) for way in ways]
-    return Hull(triangles, face, normal[seeds], np.array(ways), np.array(beside))
+    ways = np.array([way for way in owner if way[0] < way[1]])
+    beside = np.array([(face[owner[a, b]], face[owner[b, a]]) for a, b in ways.tolist()])
+    flat = normal[seeds]
+    turns = np.sum(flat[beside[:, 0]] * flat[beside[:, 1]], axis=1) < _EDGE
+    return Hull(triangles, face, flat, ways[turns], beside[turns])
 
 
 def _around(face: list[int]) -> list[tuple[int, int]]:

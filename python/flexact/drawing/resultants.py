@@ -30,12 +30,14 @@ class Resultants(Frozen):
             between.
         hinges: (h, 4) their sizes in the hinges.
         flexible: (k,) which members are sheets, wires or bars.
+        shown: (k,) which members are drawn themselves, and not a body in their place.
         length: The characteristic length [m] by which moments compare with forces.
     """
 
     members: FloatArray
     hinges: FloatArray
     flexible: np.ndarray
+    shown: np.ndarray
     length: float
 
     def __getitem__(self, quantity: str) -> FloatArray:
@@ -55,9 +57,9 @@ class Resultants(Frozen):
         return made
 
     def largest(self, quantity: str) -> float:
-        """Largest magnitude of a quantity, of members and hinges."""
+        """Largest magnitude of a quantity, of members that are shown and of hinges."""
         column, weight = QUANTITIES.index(quantity), self._weight
-        sizes = np.abs(self.members).max(axis=(0, 2), initial=0.0)
+        sizes = np.abs(self.members[self.shown]).max(axis=(0, 2), initial=0.0)
         sizes = np.maximum(sizes, np.abs(self.hinges).max(axis=0, initial=0.0))
         # Rounding errors are no stress.
         noise = sizes[column] * weight[column] <= _NOISE * (sizes * weight).max()
@@ -72,7 +74,8 @@ class Resultants(Frozen):
         """
         squares = np.sum(self.members[self.flexible] ** 2, axis=(0, 2))
         if not squares.any():
-            squares = np.sum(self.members**2, axis=(0, 2)) + np.sum(self.hinges**2, axis=0)
+            squares = np.sum(self.members[self.shown] ** 2, axis=(0, 2))
+            squares += np.sum(self.hinges**2, axis=0)
         sizes = np.sqrt(squares) * self._weight
         # Of practically equal ones the first.
         return QUANTITIES[int(np.argmax(sizes >= sizes.max() * (1 - 1.0e-9)))]
@@ -89,5 +92,6 @@ def resultants(drawing: Drawing, stress: SelfStress) -> Resultants:
         members,
         hinges[..., 0],
         np.isin(drawing.members.form, (Form.SHEET, Form.WIRE, Form.BAR)),
+        ~drawing.in_solid,
         stress.analysis.characteristic_length,
     )
