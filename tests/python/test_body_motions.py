@@ -99,6 +99,27 @@ def test_points_bodies_and_handles() -> None:
     assert screws[0].at((1.0, 2.0, 3.0)) == pytest.approx([0.0, 1.0, 0.0], abs=1e-12)
 
 
+def test_what_the_builder_hands_out_is_understood() -> None:
+    model = Model()
+    clamp = model.node(0.0, 0.0, 0.0, name="clamp")
+    fold = model.node(0.1, 0.0, 0.0, name="fold")
+    end = model.node(0.1, 0.1, 0.0, name="end")
+    first = model.sheet(clamp, fold, EZ, name="first")
+    model.sheet(fold, end, EZ, name="second")
+    table = model.body([end, (0.2, 0.1, 0.0), (0.1, 0.2, 0.05)], "table")
+    model.fix(clamp)
+    analysis = analyse(model)
+    (motion,) = [motion for motion in analysis.motions if not motion.of(table)]
+    # The fold turns about its line, and nothing else moves.
+    for screw in (motion.of("fold"), motion.of(fold)):
+        assert screw.kind is ScrewKind.ROTATION
+        assert screw.direction == pytest.approx([0, 0, 1]) and screw.point[0] == pytest.approx(0.1)
+    assert motion.at("fold").displacement == pytest.approx([0, 0, 0], abs=1e-12)
+    assert str(analysis.motions[-1].of(table)) == str(analysis.motions[-1].of("table"))
+    with pytest.raises(ModelError):
+        motion.of(first)
+
+
 @pytest.mark.parametrize(
     "ask",
     [

@@ -31,6 +31,7 @@ import flexact
 from flexact import Model, analyse
 from flexact.core.elements import Class
 from flexact.drawing import Form, drawing_of
+from flexact.model.names import part_name
 
 SHAPES = {
     "straight": Division(),
@@ -72,9 +73,15 @@ def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> 
 
 
 def components(analysis: flexact.Analysis) -> list[list[tuple[str, str, float]]]:
-    """Of each self-stress in the JSON: part, word and value."""
+    """Of each self-stress in the JSON: parts with units and sizes of what they carry.
+
+    An element and its deformation are those of the beam at that end.
+    """
     return [
-        [(each["name"], each["word"], round(each["value"], 9)) for each in mode["components"]]
+        sorted(
+            (part_name(each["name"]), each["unit"], round(abs(each["value"]), 9))
+            for each in mode["components"]
+        )
         for mode in analysis.to_dict()["self_stresses"]
     ]
 

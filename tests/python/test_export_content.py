@@ -200,7 +200,7 @@ def test_what_is_not_drawn_has_its_line_and_numbers_alone(
 def test_very_many_elements_have_lines_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    analysis = flexact.analyse(ROOT / "input_decks" / "flexures" / "notch_guide.dat")
+    analysis = flexact.analyse(ROOT / "input_decks" / "linkages" / "four_bar_in_space.dat")
     assert np.count_nonzero(written(analysis, ".vtu", tmp_path).shape == QUAD) > 0
     monkeypatch.setattr(content, "MOST_SURFACES", 8)
     few = written(analysis, ".vtu", tmp_path)

@@ -311,6 +311,44 @@ def test_what_is_said_depends_on_the_mechanism_alone(make: object, place: Place)
     assert words(analyse(make(place))) == words(analyse(make(HERE)))  # type: ignore[operator]
 
 
+def test_what_has_no_name_is_ordered_by_its_place() -> None:
+    """Bars without names to one joint, and three loose ones, made in different orders."""
+
+    def forces_and_motions(order: Sequence[int]) -> tuple[list[object], list[object]]:
+        feet = [(1.0, 0.0), (0.6, 0.8), (-0.3, 1.0), (-1.0, -0.2), (0.1, -0.9)]
+        model = Model(planar=True)
+        middle = model.node(0.0, 0.0)
+        for k in order:
+            foot = model.node(*feet[k])
+            model.truss(*((middle, foot) if k % 2 else (foot, middle)))
+            model.fix(foot)
+            model.truss(foot, model.node(feet[k][0], feet[k][1] + 3.0))
+        analysis = analyse(model)
+        places = analysis.data.arrays.node_value[:2]
+        ends = analysis.data.arrays.element_node[[0, 2]] - 1
+        stresses = [
+            sorted(
+                (tuple((places[:, p] + places[:, q]).round(9)), round(float(force), 9))
+                for p, q, force in zip(*ends, stress.forces[:, 0], strict=True)
+                if abs(force) > 1e-9
+            )
+            for stress in analysis.self_stresses
+        ]
+        motions = [
+            sorted(
+                (tuple(place.round(9)), tuple(moved.round(9) + 0.0))
+                for place, moved in zip(places.T, motion.displacement, strict=True)
+                if moved.any()
+            )
+            for motion in analysis.motions
+        ]
+        return stresses, motions
+
+    first, again = forces_and_motions(range(5)), forces_and_motions([3, 1, 4, 0, 2])
+    assert len(first[0]) == 3 and len(first[1]) == 5
+    assert first == again
+
+
 @pytest.mark.parametrize("name", ["in millimetres", "turned", "all of it"])
 @pytest.mark.parametrize("make", [guide, cross_hinge, lambda p: hexapod(8, p)])
 def test_who_moves_and_who_presses_does_not_depend_on_the_place(make: object, name: str) -> None:

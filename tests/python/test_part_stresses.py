@@ -13,7 +13,7 @@ from part_models import CROSSING, EX, EY, EZ, HERE, PLACES, Placed, cross_hinge,
 from reference_decks import NAMES, ROOT
 
 from flexact import Analysis, Model, ModelError, SelfStress, analyse
-from flexact.model.parts.parts import PartKind
+from flexact.model.parts.parts import PartKind, natural
 from flexact.result.part_stresses import Load
 from flexact.result.wrenches import Wrench, WrenchKind
 
@@ -175,6 +175,50 @@ def test_what_each_part_says_of_itself() -> None:
             ask("sheet 9")
         with pytest.raises(TypeError):
             ask(1.5)
+
+
+def test_six_folded_sheets_carry_equal_loads() -> None:
+    # Paper, section 4.3: threefold symmetry, and mirrored above and below.
+    (stress,) = deck("paper/six_folded_sheets").self_stresses
+    outer = [part for part in stress.parts if "ground to fold" in part.part.name]
+    inner = [part for part in stress.parts if "fold to rim" in part.part.name]
+    assert len(outer) == len(inner) == 6
+    for parts in (outer, inner):
+        assert [part.share for part in parts] == pytest.approx([parts[0].share] * 6)
+        names = [part.part.name for part in parts]
+        assert names == sorted(names, key=natural)
+    forces = [load.wrench.force for load in stress.on("cylinder")]
+    assert np.sum(forces, axis=0) == pytest.approx([0, 0, 0], abs=1e-9)
+    assert all(abs(force[2]) < 1e-9 for force in forces)
+
+
+@pytest.mark.parametrize("beams", [2, 5])
+def test_a_divided_sheet_that_is_bent_is_told_as_one(beams: int) -> None:
+    def made(beams: int, height: float) -> Model:
+        model, ends = Model(), []
+        for k in (0, 1):
+            share = np.linspace(0, 1, beams + 1)
+            wave = height * np.sin(np.pi * share) * (1 - 2 * k)
+            places = [(0.1 * s, 0.05 * k + w, 0.0) for s, w in zip(share, wave, strict=True)]
+            points = [model.node(*place) for place in places]
+            model.fix(points[0])
+            for i in range(beams):
+                name = f"sheet {k + 1}, {i + 1}"
+                free = (2, 5, 6) if i == 0 else ()
+                beam = model.beam(points[i], points[i + 1], (0, 1, 0), free, name=name)
+                if i:
+                    model.independent(beam, 2, 5, 6)
+            ends.append(points[-1])
+        model.rigid(*ends, name="stage")
+        return model
+
+    (straight,), (bent,) = (
+        analyse(model).self_stresses for model in (made(1, 0.0), made(beams, 0.004))
+    )
+    for one, other in zip(straight.parts, bent.parts, strict=True):
+        assert other.is_constant_bending
+        assert other.in_plane_moments == pytest.approx(one.in_plane_moments, rel=1e-9)
+        assert other.normal == pytest.approx(one.normal, abs=1e-9)
 
 
 def test_parts_that_carry_nothing_are_left_out() -> None:

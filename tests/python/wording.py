@@ -37,7 +37,7 @@ def masked(text: str) -> str:
     """The text without what differs between machines."""
     text = _MODES.sub(lambda modes: _MODE.sub(r"  \1. ...", modes[0]), text)
     text = _ONE_MODE.sub(lambda mode: re.sub(r" -(?=\d)", " +-", mode[0]), text)
-    text = _ONE_MODE.sub(lambda mode: re.sub(r" (?=\d\S* (?:m|rad|N))", " +-", mode[0]), text)
+    text = _ONE_MODE.sub(lambda mode: re.sub(r" (?=\d\S* (?:m|rad|N)\b)", " +-", mode[0]), text)
     text = _BROKEN.sub(r"\1 ", text)
     for pattern, instead in _MASKS:
         text = pattern.sub(instead, text)

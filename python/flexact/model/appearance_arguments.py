@@ -13,7 +13,7 @@ from ..core.elements import kind_of
 from ..diagnostics.errors import model_error
 from .appearance import CrossSection
 from .appearance_draft import Colour, Said, Shape
-from .arguments import UNORDERED, real
+from .arguments import UNORDERED, real, several
 from .draft import Draft
 from .handles import Assembly, FoldedSheet, Node, Sheet
 from .part_arguments import indices_of as indices_of_part
@@ -118,7 +118,8 @@ def numbers_of_size(given: object, sizes: tuple[int, ...], what: str) -> tuple[f
     Raises:
         ModelError: they are not.
     """
-    parts = tuple(given) if isinstance(given, Iterable) else (given,)
+    single = not isinstance(given, Iterable) or getattr(given, "ndim", 1) == 0
+    parts = (given,) if single else several(given, what)
     wanted = len(parts) if len(parts) in sizes else sizes[0]
     return _numbers(given if isinstance(given, UNORDERED) else parts, wanted, what)
 

@@ -42,6 +42,49 @@ def real(part: object) -> float:
     return float(part)  # type: ignore[arg-type]
 
 
+def several(given: object, what: str) -> tuple[object, ...]:
+    """The items of a list, tuple or array.
+
+    Raises:
+        ModelError: it has none, or is a single text.
+    """
+    try:
+        if isinstance(given, (str, bytes, bytearray)):
+            raise TypeError
+        return tuple(given)  # type: ignore[arg-type]
+    except TypeError:
+        raise model_error("bad-number", f"{what} are wanted, not {in_short(given)}") from None
+
+
+def count(given: object, least: int, most: int, what: str) -> int:
+    """A whole number from `least` to `most`.
+
+    Raises:
+        ModelError: it is none.
+    """
+    made = whole(given, f"the number of {what} must be a whole number")
+    if not least <= made <= most:
+        raise model_error(
+            "out-of-range", f"{in_short(made)} {what}: there can be {least} to {most}"
+        )
+    return made
+
+
+def angle(given: object) -> float:
+    """An angle in degrees.
+
+    Raises:
+        ModelError: it is no finite number.
+    """
+    try:
+        made = real(given)
+    except (TypeError, ValueError, OverflowError):
+        made = math.nan
+    if not math.isfinite(made):
+        raise model_error("bad-number", f"an angle is a number of degrees, not {in_short(given)}")
+    return made
+
+
 def text(given: object, what: str) -> str:
     """A text, such as a name."""
     if not isinstance(given, str):

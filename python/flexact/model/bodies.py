@@ -77,9 +77,14 @@ def points_name(name: str) -> str:
     return points.checked_name(name)
 
 
+def _is_single(given: Iterable[Point]) -> bool:
+    """Whether it is an array of no dimension, which cannot be gone through after all."""
+    return getattr(given, "ndim", 1) == 0
+
+
 def _members(draft: Draft, given: Iterable[Point]) -> tuple[tuple[Node, ...], list[Element], str]:
     """Points of a body, each once, the links of bodies among them, and the name of the first."""
-    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable) or _is_single(given):
         raise model_error(
             "not-a-point", f"a body goes through several points, not {in_short(given)}"
         )

@@ -10,7 +10,7 @@ from . import coordinate_arguments as coordinates
 from . import deformation_arguments as deformations
 from .handles import FoldedSheet
 from .making import Making, call
-from .names import COORDINATES, nearest
+from .names import is_coordinate, nearest
 from .part_arguments import PartLike
 from .point_arguments import Point
 
@@ -31,8 +31,8 @@ class ClassMethods(Making):
             ModelError: there is no such point or coordinate, or it has another class.
         """
         draft = self._change()
-        targets = [each for each in points if not _is_coordinate(each)]
-        names = [each for each in points if _is_coordinate(each)]
+        targets = [each for each in points if not is_coordinate(each)]
+        names = [each for each in points if is_coordinate(each)]
         if not targets:
             raise model_error("not-a-node", "fix needs a point", 'such as fix("clamp 1", "x")')
         for each in targets[1:]:
@@ -116,7 +116,3 @@ class ClassMethods(Making):
     def _is_point(self, name: str) -> bool:
         draft = self._change()
         return name in draft.points_by_name or name in draft.parts_by_name
-
-
-def _is_coordinate(given: object) -> bool:
-    return isinstance(given, str) and given in COORDINATES

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 
 from ..base.plain_text import in_short
 from ..diagnostics.errors import model_error
+from .arguments import text
 from .copying import Copy
 from .draft import Draft
 from .names import part_name
@@ -43,7 +44,7 @@ def renamer(names: Names | None, number: int) -> Callable[[str], str]:
                 'say names="upper {}", with {} for the name of the original',
             ) from None
         return lambda name: form.format(name, number)
-    if isinstance(names, Mapping):
+    if isinstance(names, Mapping) and all(map(_are_texts, names.items())):
         pairs = dict(names)
 
         def replaced(name: str) -> str:
@@ -52,7 +53,18 @@ def renamer(names: Names | None, number: int) -> Callable[[str], str]:
             return name
 
         return replaced
-    return names
+    if not callable(names):
+        raise model_error(
+            "bad-name",
+            f"names of copies cannot be made with {in_short(names)}",
+            'say names="upper {}", {"upper": "lower"}, or give a function',
+        )
+    made = names
+    return lambda name: text(made(name), "the name of a copy")
+
+
+def _are_texts(pair: tuple[object, object]) -> bool:
+    return all(isinstance(each, str) for each in pair)
 
 
 class Naming:

@@ -24,6 +24,7 @@ from .point_arguments import place, whole_point
 from .transform import Transform, reflection, rotation, translation
 
 _ORIGIN = (0.0, 0.0, 0.0)
+_MOST_COPIES = 100_000
 Parts = Iterable[PartLike | FoldedSheet | Assembly]
 
 
@@ -68,7 +69,7 @@ class CopyMethods(HexapodMethods):
             raise model_error(
                 "two-kinds-of-model", "one of the models is planar and the other is not"
             )
-        turn = rotation(_axis(target, axis), degrees, _ORIGIN)
+        turn = rotation(_axis(target, axis), arguments.angle(degrees), _ORIGIN)
         move = Transform(turn.matrix, _vector(target, at, "place"))
         naming = Naming(source, target, names)
         every = list(range(len(source.kinds))), list(source.node_kind)
@@ -110,10 +111,8 @@ class CopyMethods(HexapodMethods):
             The originals and each copy, with parts and points by the names of the originals.
         """
         draft = self._change()
-        count = arguments.whole(n, "the number of copies must be a whole number")
-        if count < 1:
-            raise model_error("out-of-range", "a pattern has at least one member")
-        angle = 360.0 / count if degrees is None else degrees
+        count = arguments.count(n, 1, _MOST_COPIES, "members of a pattern")
+        angle = 360.0 / count if degrees is None else arguments.angle(degrees)
         centre = _vector(draft, at, "point of the axis")
         indices, further = self._chosen(parts)
         naming = Naming(draft, draft, names)
@@ -181,7 +180,9 @@ class CopyMethods(HexapodMethods):
             ModelError: a class of single coordinates is not along x, y or z any more.
         """
         draft = self._change()
-        move = rotation(_axis(draft, axis), degrees, _vector(draft, at, "point of the axis"))
+        move = rotation(
+            _axis(draft, axis), arguments.angle(degrees), _vector(draft, at, "point of the axis")
+        )
         turn(draft, move)
 
     def _chosen(self, parts: Parts | None) -> tuple[list[int], list[int]]:
@@ -189,9 +190,8 @@ class CopyMethods(HexapodMethods):
         draft = self._change()
         if parts is None:
             return list(range(len(draft.kinds))), list(draft.node_kind)
-        if isinstance(parts, str) or not isinstance(parts, Iterable):
-            parts = [parts]
-        return list(dict.fromkeys(i for each in parts for i in indices_of(draft, each))), []
+        chosen = arguments.several(parts, "parts")
+        return list(dict.fromkeys(i for each in chosen for i in indices_of(draft, each))), []
 
 
 def _axis(draft: Draft, axis: Direction) -> Vector:

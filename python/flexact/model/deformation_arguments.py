@@ -17,7 +17,7 @@ from .arguments import whole
 from .division import classes_of_division
 from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Part
-from .names import COORDINATES
+from .names import is_coordinate
 from .part_arguments import end_positions, indices_of, part, planes_of, words_for
 from .point_arguments import existing
 from .words import is_word, numbers_of
@@ -158,12 +158,12 @@ def means_part(draft: Draft, target: object, which: Sequence[str | int]) -> bool
         ModelError: it can be a point and a part.
     """
     if isinstance(target, Body):
-        return bool(which) and not all(item in COORDINATES for item in which)
+        return bool(which) and not all(map(is_coordinate, which))
     if isinstance(target, (Element, Part, FoldedSheet, Assembly)):
         return True
     if isinstance(target, str):
         if which:
-            return not all(item in COORDINATES for item in which)
+            return not all(map(is_coordinate, which))
         a_part, a_point = target in draft.parts_by_name, target in draft.points_by_name
         if a_part and a_point:
             raise model_error(

@@ -157,7 +157,7 @@ class ElementMethods(PointMethods):
         near = points.point(draft, p)
         if q is None:
             q = self.pivot(near)
-        elif points.point(draft, q).position != near.position:
+        elif (q := points.point(draft, q)).position != near.position:
             raise model_error(
                 "two-positions",
                 "a hinge joins two points at one position node",

@@ -10,6 +10,7 @@ from . import arguments
 from . import point_arguments as points
 from .appearance_arguments import numbers_of_size
 from .assembly_names import AssemblyNames
+from .draft import Draft
 from .handles import Assembly
 from .making import call
 from .material import MaterialLike
@@ -71,7 +72,7 @@ class HexapodMethods(SheetAssemblyMethods):
                     raise model_error(
                         "bad-number", "a hexapod has two radii, or points of both sides"
                     )
-                near, far = _six(base, 0), _six(platform, 1)
+                near, far = _six(draft, base, 0), _six(draft, platform, 1)
             else:
                 near, far = _zigzag(base, platform, height, spread, at)
             ends = [[points.point(draft, each) for each in side] for side in (near, far)]
@@ -89,15 +90,16 @@ class HexapodMethods(SheetAssemblyMethods):
                 )
                 for p, q, wire in zip(*ends, names, strict=True)
             ]
+            further = points.listed(draft, carries, "further points of the platform")
             body = self.body(
-                [*ends[1], *carries], naming.free("platform"), mass=mass, inertia=inertia
+                [*ends[1], *further], naming.free("platform"), mass=mass, inertia=inertia
             )
             return naming.assembly("wire", wires, "platform", body, ends)
 
 
-def _six(given: Iterable[Point], start: int) -> list[Point]:
+def _six(draft: Draft, given: object, start: int) -> list[Point]:
     """Six ends: each of three points twice, the platform's (start 1) in turn with the base's."""
-    made = list(given)
+    made: list[Point] = [*points.listed(draft, given, "ends of wires")]
     if len(made) == 3:
         return [made[(k + 1 - start) // 2 % 3] for k in range(6)]
     if len(made) != 6:

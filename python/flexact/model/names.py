@@ -14,6 +14,12 @@ from ..diagnostics.errors import ModelError, model_error
 #: Names of coordinates, which no point can have.
 COORDINATES = frozenset((*POSITION_NAMES, *ROTATION_NAMES))
 
+
+def is_coordinate(given: object) -> bool:
+    """Whether this is the name of a coordinate."""
+    return isinstance(given, str) and given in COORDINATES
+
+
 _TAIL = re.compile(r",?\s+(?:part\s+)?\d+\s+of\s+\d+$|,\s*\d+$")
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from ..base.plain_text import in_short
 from ..core.elements import Class, Member, NodeKind, is_position, member_table
 from ..diagnostics.errors import model_error
-from .arguments import UNORDERED, text, vector, whole
+from .arguments import UNORDERED, several, text, vector, whole
 from .draft import Draft
 from .handles import Body, Element, Node, Part
 from .lookup import one_line
@@ -23,6 +23,15 @@ def require_own(draft: Draft, handle: Node | Element | Part, what: str = "node")
     owned = handle if isinstance(handle, (Node, Element)) else handle.nodes[0]
     if owned.owner is not draft.owner:
         raise model_error("other-model", f"the {what} belongs to another model")
+
+
+def listed(draft: Draft, given: object, what: str) -> list[Node]:
+    """The points of a list, tuple or array of them.
+
+    Raises:
+        ModelError: it is none, or one of them is no point.
+    """
+    return [point(draft, each) for each in several(given, what)]
 
 
 def point(draft: Draft, given: object) -> Node:
@@ -109,7 +118,10 @@ def place(draft: Draft, given: Iterable[float]) -> tuple[float, float, float, fl
     """
     parts = given
     if not isinstance(given, UNORDERED) and isinstance(given, Iterable):
-        parts = tuple(given)
+        try:
+            parts = tuple(given)
+        except TypeError:
+            parts = ()
         if len(parts) == 2:
             parts = (*parts, 0.0)
     x, y, z = vector(parts, "position")  # type: ignore[arg-type]

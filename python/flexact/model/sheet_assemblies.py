@@ -19,6 +19,9 @@ from .material import MaterialLike
 from .point_arguments import Point
 from .sheet_geometry import normal_to, span
 
+#: Of one guide.
+_MOST_SHEETS = 1000
+
 
 class SheetAssemblyMethods(FoldedSheetMethods):
     """Methods that make cross hinges and parallel guides."""
@@ -65,8 +68,10 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         """
         draft = self._change()
         with call("cross_hinge", name):
-            near = [points.point(draft, each) for each in ground]
-            far = [points.point(draft, each) for each in moving]
+            near = [
+                points.point(draft, p) for p in arguments.several(ground, "points of the ground")
+            ]
+            far = points.listed(draft, moving, "points of the body")
             if len(near) != len(far) or len(near) < 2:
                 raise model_error(
                     "bad-number",
@@ -126,9 +131,7 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         """
         draft = self._change()
         with call("parallel_guide", name):
-            count = arguments.whole(sheets, "the number of sheets must be a whole number")
-            if count < 2:
-                raise model_error("out-of-range", "a parallel guide has at least two sheets")
+            count = arguments.count(sheets, 2, _MOST_SHEETS, "sheets")
             step = points.place(draft, offset)
             first = points.point(draft, p), points.point(draft, q)
             if width is None and not self._planar:
@@ -161,7 +164,7 @@ class SheetAssemblyMethods(FoldedSheetMethods):
             self.sheet(p, q, width, beams, sheet, **sheets)
             for p, q, sheet in zip(*ends, names, strict=True)
         ]
-        further = [points.point(self._change(), each) for each in carries]
+        further = points.listed(self._change(), carries, "further points of the body")
         body = self.body([*ends[1], *further], naming.free(body_word), mass=mass, inertia=inertia)
         return naming.assembly("sheet", made, body_word, body, list(ends))
 

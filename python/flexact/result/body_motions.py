@@ -17,7 +17,7 @@ from ..model.parts.parts import Part, PartKind, natural
 from .carriers import Joint
 from .handles import part_of, position_of
 from .outcome import Outcome
-from .screws import ROUNDING, Screw, screw_of
+from .screws import Screw, screw_of
 
 
 class NodeMotion(NamedTuple):
@@ -72,15 +72,7 @@ class Moving(Frozen):
     @cached_property
     def bodies(self) -> tuple[BodyMotion, ...]:
         """Bodies and joints that move, those that move as one together; bodies first, by name."""
-        groups: list[list[_Item]] = []
-        for item in self._items:
-            if item.screw:
-                same = next((group for group in groups if self._is_same(group[0], item)), None)
-                if same is None:
-                    groups.append([item])
-                else:
-                    same.append(item)
-        groups = self._with_points_as_one(groups)
+        groups = self._with_points_as_one(self._grouped([i for i in self._items if i.screw]))
         made = [
             BodyMotion(
                 tuple(item.body for item in group if item.body is not None),
@@ -92,15 +84,18 @@ class Moving(Frozen):
         return tuple(sorted(made, key=lambda one: one.is_joint))
 
     def of(self, body: object) -> Screw:
-        """The screw of a body; one that does not move is of the kind `NONE`.
+        """The screw of a body or joint; one that does not move is of the kind `NONE`.
 
         Args:
             body: Its name, its part, what the model handed out for it, or its index among
-                `analysis.parts.bodies`.
+                `analysis.parts.bodies`; of a joint its name or handle.
 
         Raises:
-            ModelError: there is no such body, or it is none.
+            ModelError: there is no such body or joint, or it is none.
         """
+        joint = self._joint(body)
+        if joint is not None:
+            return self._of_joint(joint)
         bodies = self.outcome.carriers.bodies
         if isinstance(body, int) and not isinstance(body, bool):
             if not 0 <= body < len(bodies):
@@ -151,6 +146,18 @@ class Moving(Frozen):
             if self._size[list(inside.nodes)].max(initial=0.0) > self._rest
         )
 
+    def _joint(self, target: object) -> Joint | None:
+        """The joint of a name, or at the point of a handle; None where there is not just one."""
+        joints = self.outcome.carriers.joints
+        if isinstance(target, str):
+            found = [joint for joint in joints if joint.name == target]
+        elif hasattr(target, "position"):
+            position = position_of(self.outcome.parts, target)
+            found = [joint for joint in joints if joint.position == position]
+        else:
+            return None
+        return found[0] if len(found) == 1 else None
+
     # What it is made of -----------------------------------------------------
 
     @property
@@ -165,22 +172,8 @@ class Moving(Frozen):
         return made
 
     @cached_property
-    def rounding(self) -> float:
-        """What part of the motion may be rounding: 1e-9, or more where D(c) is nearly singular.
-
-        A null vector is off by the noise over the gap (Wedin 1972; Stewart and Sun, *Matrix
-        Perturbation Theory*, 1990, theorem V.4.4), at most.
-        """
-        above = self.outcome.gap.smallest_nonzero
-        return (
-            max(ROUNDING, min(1.0e-3, 10.0 * self.outcome.raw.noise / above))
-            if above
-            else (ROUNDING)
-        )
-
-    @cached_property
     def _rest(self) -> float:
-        return self.rounding * float(self._size.max(initial=0.0))
+        return self.outcome.rounding * float(self._size.max(initial=0.0))
 
     @cached_property
     def _items(self) -> tuple[_Item, ...]:
@@ -209,7 +202,9 @@ class Moving(Frozen):
         arms = (places - centre) / self._length
         axes = (2,) if self.outcome.given.planar else (0, 1, 2)
         matrix = np.stack([np.cross(np.eye(3)[axis], arms).ravel() for axis in axes], axis=1)
-        turns, _, rank, _ = np.linalg.lstsq(matrix, (moved - mean).ravel(), rcond=self.rounding)
+        turns, _, rank, _ = np.linalg.lstsq(
+            matrix, (moved - mean).ravel(), rcond=self.outcome.rounding
+        )
         off = np.abs(matrix @ turns - (moved - mean).ravel()).max()
         if rank < len(axes) or off > 10.0 * self._rest:
             return None
@@ -249,24 +244,32 @@ class Moving(Frozen):
         return screw_of(
             *(rotation, velocity, centre, self._length),
             rest=self._rest,
-            rounding=self.rounding,
+            rounding=self.outcome.rounding,
         )
 
-    def _is_same(self, one: _Item, other: _Item) -> bool:
-        """Whether two move as one body would."""
-        far = 1.0 + float(np.linalg.norm(one.screw.centre - other.screw.centre)) / self._length
-        limit = 10.0 * self._rest * far
-        joint = other.joint
-        if joint is None or joint.position is not None:
-            off = one.screw.at(other.screw.centre) - other.screw.velocity
-            if np.linalg.norm(off) > limit:
-                return False
-        if joint is not None and joint.orientation is None:
-            return True
-        if one.joint is not None and one.joint.orientation is None:
-            return False
-        turned = one.screw.rotation - other.screw.rotation
-        return bool(np.linalg.norm(turned) * self._length <= limit)
+    def _grouped(self, items: list[_Item]) -> list[list[_Item]]:
+        """Those that move as one body would: each with the first that it agrees with."""
+        velocity, rotation, centre = (
+            np.array([getattr(item.screw, name) for item in items]).reshape(-1, 3)
+            for name in ("velocity", "rotation", "centre")
+        )
+        joints = [item.joint for item in items]
+        placed = np.array([joint is None or joint.position is not None for joint in joints], bool)
+        turning = np.array([j is None or j.orientation is not None for j in joints], bool)
+        left, groups = np.ones(len(items), bool), []
+        while left.any():
+            i = int(np.argmax(left))
+            arms = centre - centre[i]
+            far = 1.0 + np.linalg.norm(arms, axis=1) / self._length
+            limit = 10.0 * self._rest * far
+            off = velocity[i] + np.cross(rotation[i], arms) - velocity
+            turned = np.linalg.norm(rotation - rotation[i], axis=1) * self._length
+            same = ~placed | (np.linalg.norm(off, axis=1) <= limit)
+            same &= ~turning | (turning[i] & (turned <= limit))
+            same[i] = True
+            groups.append([items[k] for k in np.flatnonzero(same & left).tolist()])
+            left &= ~same
+        return groups
 
     def _screw_of_all(self, items: Sequence[_Item]) -> Screw:
         """Of several that move as one, about the middle of all."""

@@ -33,6 +33,8 @@ class Joint(NamedTuple):
         if self.name:
             return self.name
         names = [part.name for part in self.parts]
+        if not names:
+            return "a joint"
         if len(names) > _MOST_NAMED:
             names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
         if not names:
@@ -141,8 +143,8 @@ class Carriers:
     def _key(self, joint: Joint) -> tuple[object, ...]:
         place = self.place_of(joint)
         rounded = () if place is None else tuple(np.round(place / self._step, 9).tolist())
-        here = joint.parts[0] if joint.parts and joint.parts[0].is_named else None
-        return natural(joint.name or (here.name if here else "")), rounded, joint.orientation or -1
+        here = next((part.name for part in joint.parts if part.is_named), "")
+        return natural(joint.name or here), rounded, joint.orientation or -1
 
     @cached_property
     def _step(self) -> float:

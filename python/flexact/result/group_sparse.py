@@ -10,7 +10,7 @@ Either way the vectors are independent and span the space: that is made sure of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,11 +21,11 @@ from ..core.arrays import BoolArray, FloatArray
 #: A group with less of a unit vector than this has nothing of it.
 _NOTHING = 1.0e-9
 #: A vector that has less than this outside what is spanned already is not taken for a new one.
-_NEW = 1.0e-3
+_NEW = 1.0e-2
 #: A group that has all of a vector but this is looked at as one that may have it alone.
 _ALL_BUT = 1.0e-6
 #: Subspaces that are cut to find all flats of one component.
-_MOST_CUTS = 3_000
+_MOST_CUTS = 1_500
 #: Components of more dimensions than this are left as they are.
 MOST_DIMENSIONS = 24
 #: Of flats of more dimensions only what is not spanned yet is refined.
@@ -83,7 +83,31 @@ def pieces_of(
     change = np.linalg.inv(np.linalg.qr(stacked)[1])
     blocks = [_reduced(seen[group] @ change) for group in groups]
     search = _Search(blocks, costs, lambda given: refine(seen @ (change @ given)), seen @ change)
-    return made + sorted(search.pieces(), key=lambda piece: piece[:2])
+    found = made + sorted(search.pieces(), key=lambda piece: piece[:2])
+    return _independent(found, space, _sum(costs, range(len(groups))))
+
+
+def _independent(pieces: list[Piece], space: FloatArray, cost: Cost) -> list[Piece]:
+    """The pieces without vectors that depend on those before, and what is missing then.
+
+    Both happen where entries are neither zero nor clearly more: near a change of rank.
+    """
+    orthonormal = np.linalg.qr(space)[0]
+    spanned, made = np.zeros((space.shape[1], 0)), []
+    for piece in pieces:
+        chosen, coefficients = [], orthonormal.T @ piece.vectors
+        for k, one in enumerate(coefficients.T):
+            off = _off(one[:, None] / np.linalg.norm(one), spanned)
+            if np.linalg.norm(off) > _NEW:
+                spanned = np.concatenate([spanned, off / np.linalg.norm(off)], axis=1)
+                chosen.append(k)
+        if chosen:
+            # Rounding may have left the space where groups see little of a vector.
+            made.append(piece._replace(vectors=orthonormal @ coefficients[:, chosen]))
+    if spanned.shape[1] < space.shape[1]:
+        support = tuple(sorted({i for piece in pieces for i in piece.support}))
+        made.append(Piece(cost, support, orthonormal @ rest_of(spanned)))
+    return made
 
 
 def columns_of(pieces: Sequence[Piece], rows: int) -> FloatArray:
@@ -191,6 +215,8 @@ class _Search:
     def _of_component(self, members: list[int], within: FloatArray) -> Iterator[Piece]:
         """The greedy choice; `within` (k, d) are the vectors of the component."""
         d = within.shape[1]
+        if not d:
+            return
         blocks = [_reduced(self.blocks[i] @ within) for i in members]
         spanned = np.zeros((d, 0))
         for support, flat in self._cheapest_first(members, blocks, d):
@@ -227,8 +253,13 @@ class _Search:
         order = sorted(range(len(flats)), key=lambda n: (self._cost(supports[n]), supports[n]))
         return [(supports[n], flats[n]) for n in order]
 
-    def _cost(self, support: Sequence[int]) -> Cost:
-        return tuple(map(sum, zip(*(self.costs[i] for i in support), strict=True)))
+    def _cost(self, support: Iterable[int]) -> Cost:
+        return _sum(self.costs, support)
+
+
+def _sum(costs: Sequence[Cost], support: Iterable[int]) -> Cost:
+    """What some groups cost together."""
+    return tuple(map(sum, zip(*(costs[i] for i in support), strict=True)))
 
 
 def _rest_in(vectors: FloatArray, spanned: FloatArray) -> FloatArray:

@@ -33,10 +33,11 @@ from .group_sparse import (
 )
 from .order import column_key, ranked, row_key
 from .outcome import Outcome
-from .sparse_basis import support_of
+from .sparse_basis import index_of, support_of
 from .weights import column_weights, row_factors, row_weights
 
-#: Larger spaces are given as the core has them: entries held in full, and vectors.
+#: Larger spaces are given as the core has them: rows that are not zero, entries, and vectors.
+_MOST_ROWS = 4_000
 _MOST_ENTRIES = 400_000
 _MOST_VECTORS = 200
 #: A component of a direction below this says nothing of its sense.
@@ -50,8 +51,9 @@ Key = Callable[[int], Hashable]
 
 def is_large(raw: Basis) -> bool:
     """Whether a space is so large that its vectors are told as the core gives them."""
-    size = support_of(raw).size * raw.vectors
-    return size > _MOST_ENTRIES or raw.vectors > _MOST_VECTORS
+    rows = support_of(raw).size
+    many = rows > _MOST_ROWS or raw.vectors > _MOST_VECTORS
+    return many or rows * raw.vectors > _MOST_ENTRIES
 
 
 def scaled_motions(outcome: Outcome) -> Basis:
@@ -123,7 +125,7 @@ def internal_motions(outcome: Outcome, basis: Basis) -> int:
     largest = np.zeros(basis.vectors)
     weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
     np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
-    return int(np.count_nonzero(largest <= _UNSEEN))
+    return int(np.count_nonzero(largest <= outcome.rounding))
 
 
 def _kept(key: Key) -> Key:
@@ -141,8 +143,9 @@ def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
     """The places that the vectors reach, in canonical order, and these rows in full."""
     support = support_of(space)
     order = sorted(support.tolist(), key=key)  # type: ignore[arg-type]
-    made = np.array(order, np.int64)
-    return made, space.toarray()[made]
+    places = index_of(support, space.size)[space.place].astype(np.int32)
+    within = space._replace(size=support.size, place=places).toarray()
+    return np.array(order, np.int64), within[np.searchsorted(support, order)]
 
 
 # Scale and sign -------------------------------------------------------------
@@ -169,7 +172,7 @@ def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
     The largest displacement, rotation, force or moment, of equal ones the first by the key; its
     first component is positive by its sense.
     """
-    made = np.zeros((rows.weights.size, vectors.shape[1]))
+    made = np.zeros_like(vectors)
     support = rows.support
     for k, vector in enumerate(vectors.T):
         outside = np.where(rows.outside, vector, 0.0)
@@ -180,8 +183,11 @@ def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
         first = mine[np.argmax(np.abs(vector[mine]) > _NO_SENSE * sizes[largest])]
         plain = vector / rows.weights[support]
         size = float(np.linalg.norm(plain[mine] * rows.units[support[mine]]))
-        made[support, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
-    return Basis.of_dense(made)
+        made[:, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
+    order = np.argsort(support)
+    basis = Basis.of_dense(made[order])
+    places = support[order][basis.place].astype(np.int32)
+    return basis._replace(size=rows.weights.size, place=places)
 
 
 def _scaled_as_they_are(raw: Basis, weights: FloatArray, units: FloatArray) -> Basis:

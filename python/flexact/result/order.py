@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind, Role, role_table
-from ..model.parts.parts import PartKind, natural
+from ..model.parts.parts import Part, PartKind, natural
 from .outcome import Outcome
 
 #: Local axis about or along which a deformation is, by role; 0 where it has none of its own.
@@ -80,7 +80,7 @@ def deformation_key(outcome: Outcome, element: int, deformation: int) -> Any:
     place = _place(outcome, np.mean(places, axis=0)) if places else ()
     kind = _BENDING if bends else role
     is_body = part.kind is PartKind.BODY
-    return is_body, natural(part.name), kind, of_sheet, direction, place
+    return is_body, natural(_given_name(part)), kind, of_sheet, direction, place
 
 
 def column_key(outcome: Outcome, column: int) -> Any:
@@ -98,8 +98,13 @@ def coordinate_key(outcome: Outcome, node: int, axis: int) -> Any:
         return turns, (), (), axis
     value: FloatArray = outcome.given.arrays.node_value[:3, position]
     here = outcome.parts.at(position)
-    name = outcome.parts.name_of_point(position) or (here[0].name if here else "")
+    name = outcome.parts.name_of_point(position) or next(filter(None, map(_given_name, here)), "")
     return turns, natural(name), _place(outcome, value), axis
+
+
+def _given_name(part: Part) -> str:
+    """A part's name; empty where it follows from the number of an element."""
+    return part.name if part.is_named else ""
 
 
 def _place(outcome: Outcome, value: FloatArray) -> tuple[float, ...]:

@@ -21,7 +21,11 @@ from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Parts
 from .accuracy import Accuracy
 from .carriers import Carriers
+from .screws import ROUNDING
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
+
+#: More than this of a null vector is not taken for rounding.
+_LARGEST_ROUNDING = 1.0e-3
 
 
 class Asked(NamedTuple):
@@ -190,6 +194,17 @@ class Outcome(Frozen):
             None if above is None else float(above),
             float(values[rank]) if rank < values.size else None,
         )
+
+    @cached_property
+    def rounding(self) -> float:
+        """What part of a motion or a self-stress may be rounding, theory.md (42).
+
+        A null vector is off by the noise over the gap, at most.
+        """
+        above = self.gap.smallest_nonzero
+        if not above:
+            return ROUNDING
+        return max(ROUNDING, min(_LARGEST_ROUNDING, 10.0 * self.raw.noise / above))
 
     @cached_property
     def condition_number(self) -> float | None:

@@ -320,10 +320,11 @@ class Pressing(Frozen):
 
     @cached_property
     def _largest(self) -> float:
-        return max(
-            (self._size(both) for ends in self._ends.values() for both in ends.values()),
-            default=0.0,
-        )
+        """What any element exerts at most: members of one body may cancel out."""
+        _, node, value = self._at_nodes
+        is_force = self.outcome.given.arrays.node_kind[node] <= NodeKind.POSITION
+        length = np.where(is_force, self.outcome.characteristic_length, 1.0)
+        return float((np.linalg.norm(value, axis=1) * length).max(initial=0.0))
 
     def _size(self, both: FloatArray) -> float:
         force, moment = np.linalg.norm(both, axis=1)

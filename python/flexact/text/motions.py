@@ -13,7 +13,7 @@ from ..result.outcome import Outcome
 from ..result.result import Result
 from ..result.screws import Screw, ScrewKind
 from .naming import coordinate_in_words, named_element, named_node, unit_of_coordinate
-from .places import axis_words, listed, part_words
+from .places import direction_words, listed, part_words
 from .sentences import Pieces
 
 #: With more nodes than these, motions are told by their largest coordinates.
@@ -90,7 +90,7 @@ def _group(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
 
 def _verb(outcome: Outcome, screw: Screw, many: bool, alone: bool) -> str:
     s = "" if many else "s"
-    axis = axis_words(screw.direction)
+    axis = direction_words(screw.direction)
     if screw.kind is ScrewKind.TRANSLATION:
         return f"move{s} along {axis}" + ("" if alone else f" by {screw.magnitude:.4g} m")
     about = f"about {line_words(outcome, screw.point, screw.direction)}"
@@ -101,14 +101,18 @@ def _verb(outcome: Outcome, screw: Screw, many: bool, alone: bool) -> str:
 
 
 def line_words(outcome: Outcome, point: FloatArray, direction: FloatArray) -> str:
-    """A line by a point of it [m] and its direction; along an axis any point of it serves."""
-    axis = axis_words(direction)
+    """A line by a point of it [m] and its direction; along an axis any point of it serves.
+
+    Across the plane of a planar model it is a point.
+    """
+    axis = direction_words(direction)
     numbers = [_number(outcome, value) for value in point]
-    if outcome.given.planar:
+    if outcome.given.planar and axis == "z":
         return f"the point ({', '.join(numbers[:2])}) m"
     if axis in ("x", "y", "z"):
         numbers["xyz".index(axis)] = "*"
-    return f"the line through ({', '.join(numbers)}) m along {axis}"
+    shown = numbers[:2] if outcome.given.planar else numbers
+    return f"the line through ({', '.join(shown)}) m along {axis}"
 
 
 def _number(outcome: Outcome, value: float) -> str:

@@ -154,9 +154,15 @@ def point_words(parts: Parts, position: int) -> str:
 
 def axis_words(axis: FloatArray) -> str:
     """A direction without sense: "x", or its components."""
-    largest = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
-    unit = axis / np.linalg.norm(axis) * (1.0 if axis[largest] > 0.0 else -1.0)
+    first = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
+    return direction_words(axis if axis[first] > 0.0 else -axis)
+
+
+def direction_words(direction: FloatArray) -> str:
+    """A direction with its sense: "x", "-x", or its components."""
+    unit = direction / np.linalg.norm(direction)
+    largest = int(np.argmax(np.abs(unit)))
     if np.all(np.abs(np.delete(unit, largest)) < _ALONG):
-        return "xyz"[largest]
+        return ("-" if unit[largest] < 0.0 else "") + "xyz"[largest]
     rounded = np.round(unit, 3) + 0.0
     return f"({', '.join(f'{value:.3g}' for value in rounded)})"

@@ -64,7 +64,8 @@ def plain(pieces: Iterable[Piece]) -> str:
 
 
 def _tied(words: str) -> str:
-    return words.replace(" ", _TIE)
+    """Words that are not to be torn apart, unless they are longer than a row."""
+    return words.replace(" ", _TIE) if len(words) < _WIDTH - len(_INDENT) else words
 
 
 def filled(line: Line) -> str:
