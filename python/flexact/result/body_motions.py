@@ -218,7 +218,7 @@ class Moving(Frozen):
 
     def _key_of_body(self, body: int) -> tuple[object, ...]:
         part = self.outcome.carriers.bodies[body]
-        name = natural(part.name) if part.is_named else ()
+        name = natural(part.name)
         return name, tuple(np.round(self._of_body(body).centre / self._length, 9).tolist())
 
     def _of_body(self, body: int) -> Screw:

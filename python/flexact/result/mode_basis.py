@@ -74,7 +74,7 @@ def motion_basis(outcome: Outcome, space: Basis) -> Basis:
         outcome: The analysis.
         space: An orthonormal basis of them, rotations in lengths.
     """
-    key = _kept(partial(column_key, outcome))
+    key = _kept(partial(column_key, outcome, numbered=False))
     support, dense = _held(space, key)
     groups = _MotionGroups(outcome, support)
     found = groups.basis(dense)
@@ -95,7 +95,7 @@ def stress_basis(outcome: Outcome, space: Basis) -> Basis:
         outcome: The analysis.
         space: An orthonormal basis of them, moments in forces.
     """
-    key = _kept(partial(row_key, outcome))
+    key = _kept(partial(row_key, outcome, numbered=False))
     support, dense = _held(space, key)
     each, every = np.arange(support.size), np.ones(support.size, bool)
     found = _StressGroups(outcome, support).basis(dense)

@@ -57,13 +57,18 @@ def ranked(weighted: FloatArray, most: int, key: Callable[[int], Any] | None = N
     return chosen
 
 
-def row_key(outcome: Outcome, row: int) -> Any:
-    """By what a row of D(c) is sorted among equals: flexures first, part, what deforms, where."""
+def row_key(outcome: Outcome, row: int, *, numbered: bool = True) -> Any:
+    """By what a row of D(c) is sorted among equals: flexures first, part, what deforms, where.
+
+    Parts without a name go by the number that they are called by, or by place alone.
+    """
     element, deformation = (outcome.raw.row_label[:, row] - 1).tolist()
-    return deformation_key(outcome, element, deformation)
+    return deformation_key(outcome, element, deformation, numbered=numbered)
 
 
-def deformation_key(outcome: Outcome, element: int, deformation: int) -> Any:
+def deformation_key(
+    outcome: Outcome, element: int, deformation: int, *, numbered: bool = True
+) -> Any:
     """The same of a deformation, from 0, of an element, by its index in `outcome.data`."""
     data, given = outcome.data, int(outcome.condensed.elements[element])
     role = int(role_table()[data.arrays.element_kind[element], deformation])
@@ -80,16 +85,16 @@ def deformation_key(outcome: Outcome, element: int, deformation: int) -> Any:
     place = _place(outcome, np.mean(places, axis=0)) if places else ()
     kind = _BENDING if bends else role
     is_body = part.kind is PartKind.BODY
-    return is_body, natural(_given_name(part)), kind, of_sheet, direction, place
+    return is_body, natural(_name(part, numbered)), kind, of_sheet, direction, place
 
 
-def column_key(outcome: Outcome, column: int) -> Any:
+def column_key(outcome: Outcome, column: int, *, numbered: bool = True) -> Any:
     """By what a column of D(c) is sorted among equals: displacement or rotation, where, axis."""
     node, axis = (outcome.raw.column_label[:, column] - 1).tolist()
-    return coordinate_key(outcome, node, axis)
+    return coordinate_key(outcome, node, axis, numbered=numbered)
 
 
-def coordinate_key(outcome: Outcome, node: int, axis: int) -> Any:
+def coordinate_key(outcome: Outcome, node: int, axis: int, *, numbered: bool = True) -> Any:
     """The same of a coordinate of a node, by its index in `outcome.data`."""
     given = int(outcome.condensed.nodes[node])
     position = outcome.parts.place_of(given)
@@ -98,13 +103,14 @@ def coordinate_key(outcome: Outcome, node: int, axis: int) -> Any:
         return turns, (), (), axis
     value: FloatArray = outcome.given.arrays.node_value[:3, position]
     here = outcome.parts.at(position)
-    name = outcome.parts.name_of_point(position) or next(filter(None, map(_given_name, here)), "")
+    names = (_name(part, numbered) for part in here)
+    name = outcome.parts.name_of_point(position) or next(filter(None, names), "")
     return turns, natural(name), _place(outcome, value), axis
 
 
-def _given_name(part: Part) -> str:
-    """A part's name; empty where it follows from the number of an element."""
-    return part.name if part.is_named else ""
+def _name(part: Part, numbered: bool) -> str:
+    """A part's name; empty where it follows from a number that does not count."""
+    return part.name if part.is_named or numbered else ""
 
 
 def _place(outcome: Outcome, value: FloatArray) -> tuple[float, ...]:

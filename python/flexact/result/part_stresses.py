@@ -455,7 +455,7 @@ class Pressing(Frozen):
         return np.stack((force, np.cross(arm, force) if arm.any() else np.zeros(3)))
 
     def _key(self, part: Part) -> tuple[object, ...]:
-        name = natural(part.name) if part.is_named else ()
+        name = natural(part.name)
         nodes = self.outcome.given.arrays.element_node[[0, 2], part.elements[0]] - 1
         places = [self.outcome.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
         step = self.outcome.characteristic_length
