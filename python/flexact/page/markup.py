@@ -10,8 +10,6 @@ from html import escape
 from ..base.plain_text import harmless
 from ..text.sentences import Line, Named, Pieces
 
-_BAR_WIDTH, _BAR_HEIGHT = 56, 10
-
 
 def text(words: str) -> str:
     """Text as HTML that shows it as it is."""
@@ -56,24 +54,6 @@ def row(head: str, *cells: str, about: str = "") -> str:
     """A row; head and cells are HTML, `about` are attributes."""
     rest = "".join(f"<td>{cell}</td>" for cell in cells)
     return f'<tr{about}><th scope="row">{head}</th>{rest}</tr>'
-
-
-def bar(share: float) -> str:
-    """A bar to the left or right of its middle, for a value from -1 to 1."""
-    middle = _BAR_WIDTH / 2
-    width = abs(share) * middle
-    left = middle - width if share < 0 else middle
-    side = "low" if share < 0 else "high"
-    return (
-        f'<svg class="bar" width="{_BAR_WIDTH}" height="{_BAR_HEIGHT}" aria-hidden="true">'
-        f'<rect class="{side}" x="{left:.1f}" width="{width:.1f}" height="{_BAR_HEIGHT}"/>'
-        f'<path d="M{middle:.0f} 0V{_BAR_HEIGHT}"/></svg>'
-    )
-
-
-def number(value: float) -> str:
-    """A number of four digits with a real minus sign."""
-    return f"{value:.4g}".replace("-", "\N{MINUS SIGN}")
 
 
 def section(name: str, title: str, *parts: str) -> str:

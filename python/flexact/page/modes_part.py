@@ -5,14 +5,11 @@ from __future__ import annotations
 
 from ..result.modes import Motion, SelfStress
 from ..result.result import Result
-from ..text.naming import (
-    coordinate_in_words,
-    deformation_in_words,
-    unit_of,
-    unit_of_coordinate,
-)
+from ..text.motions import motion_in_parts
+from ..text.self_stresses import conflict_in_words, stress_in_parts
+from ..text.sentences import Line, Named, Pieces
 from .limits import MOST_MODES, MOST_PARTS
-from .markup import bar, linked, number, row, section, table
+from .markup import flowing, linked, row, section, table, text
 
 #: How many tables are open at first.
 _OPEN = 2
@@ -30,7 +27,7 @@ def motions_part(analysis: Result, drawn: int) -> str:
 def stresses_part(analysis: Result) -> str:
     """The self-stresses."""
     parts = [
-        _mode(f"Self-stress {k}", f"stress {k - 1}", _of_stress(analysis, stress), k)
+        _mode(f"Self-stress {k}", f"stress {k - 1}", _of_stress(stress), k)
         for k, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1)
     ]
     return _modes("Self-stress", "es", analysis.over_constrained, parts)
@@ -70,42 +67,22 @@ def _mode(title: str, shown_by: str, content: str, place: int) -> str:
 
 
 def _of_motion(motion: Motion) -> str:
-    parts, analysis = motion.largest(MOST_PARTS), motion.analysis
-    length = analysis.characteristic_length
-    sizes = [value * (length if name.startswith("r") else 1.0) for _, name, value in parts]
-    rows = (
-        row(
-            linked(coordinate_in_words(analysis, node, name)),
-            number(value),
-            unit_of_coordinate(name),
-            bar(size / _largest(sizes)),
-            about=f' data-node="{node}"',
-        )
-        for (node, name, value), size in zip(parts, sizes, strict=True)
-    )
-    return table(("what moves", "value", "unit", ""), rows, kind="parts")
+    """A row for all that moves as one."""
+    rows = [_row(pieces) for pieces in motion_in_parts(motion, MOST_PARTS)[:MOST_PARTS]]
+    return table(("what moves", "how"), rows, kind="parts")
 
 
-def _of_stress(analysis: Result, stress: SelfStress) -> str:
-    parts = stress.largest(MOST_PARTS)
-    units = [unit_of(analysis, element, mode) for element, mode, _ in parts]
-    length = analysis.characteristic_length
-    sizes = [
-        value / (1.0 if unit == "N" else length)
-        for (_, _, value), unit in zip(parts, units, strict=True)
-    ]
-    rows = (
-        row(
-            linked(deformation_in_words(analysis, element, mode)),
-            number(value),
-            unit.replace(" ", "\N{NO-BREAK SPACE}"),
-            bar(size / _largest(sizes)),
-            about=f' data-element="{element}"',
-        )
-        for (element, mode, value), unit, size in zip(parts, units, sizes, strict=True)
-    )
-    return table(("what is stressed", "value", "unit", ""), rows, kind="parts")
+def _of_stress(stress: SelfStress) -> str:
+    """Which parts fight, and a row for each part that carries something."""
+    conflict = conflict_in_words(stress)
+    start = f"<p>{flowing(Line(conflict))}.</p>" if conflict else ""
+    rows = [_row(pieces) for pieces in stress_in_parts(stress, MOST_PARTS)[:MOST_PARTS]]
+    return start + table(("what is stressed", "with"), rows, kind="parts")
 
 
-def _largest(sizes: list[float]) -> float:
-    return max(map(abs, sizes), default=1.0) or 1.0
+def _row(pieces: Pieces) -> str:
+    """Names, and in a cell the words behind them."""
+    *named, words = pieces if isinstance(pieces[-1], str) else (*pieces, "")
+    first = next((piece for piece in named if isinstance(piece, Named)), None)
+    about = f' data-{first.kind}="{first.number}"' if first is not None else ""
+    return row(linked(tuple(named)), text(str(words).lstrip(": ")), about=about)
