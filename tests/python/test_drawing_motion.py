@@ -247,7 +247,7 @@ def test_degrees_of_freedom_move_alone_and_hold_what_is_held(name: str) -> None:
 def test_the_guided_motion_of_the_paper_is_a_translation() -> None:
     analysis = flexact.analyse(flexact.read_text(text_of("paper/five_wires")))
     (freedom,) = analysis.freedoms
-    assert freedom.label == "node 1 z"
+    assert freedom.label == "centre of the body z"
     assert freedom.motion is not None
     body = [analysis.model.node_index(number) for number in (1, 13, 23, 33, 43, 53)]
     np.testing.assert_allclose(freedom.motion.displacement[body], [[0, 0, 1]] * 6, atol=1e-12)

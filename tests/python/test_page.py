@@ -153,8 +153,8 @@ def test_verdict_counts_decision_and_remedies_are_told() -> None:
         "deformations 12 6 6 0",
         "D(c) has 6 rows and 6 columns; its rank is 5.",
         "Proven for the decimals as typed: the rank is 5.",
-        "node 4 ry 1 rad",
-        "element 1 first sheet, ground to fold e3 bending at p in the local xz plane",
+        "the fold turns about the line through (0.06, *, 0) m along y",
+        "the first sheet, ground to fold in-plane moment -1 N m at the ground",
         "If this motion is wanted, declare one of these independent",
         "To remove it, release one of:",
     ):
@@ -175,14 +175,14 @@ def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
         "Margin: no small misalignment of one node or element would change this.",
         "rank proven",
         "Motion: If this motion is wanted, declare one of these independent; if not, hold (fix) "
-        "it: node 4 ry (DYNX 4 3 or FIX 4 3)",
-        "Self-stress: To remove it, release one of: element 1 (first sheet, ground to fold) e3 "
-        "bending at p in the local xz plane (RLSE 1 3); element 2 (second sheet",
+        "it: the fold about y (DYNX 4 3 or FIX 4 3)",
+        "Self-stress: To remove it, release one of: the first sheet, ground to fold : in-plane "
+        "bending at the ground (RLSE 1 3); the second sheet, fold to end : in-plane bending",
     ):
         assert told in head, told
     over = head_of(page(flexact.analyse(CLAMPED.with_name("six_folded_sheets.dat"))))
-    assert "(RLSE 21 2); element 1 (upper 90, ground to fold)" in over
-    assert len(re.findall(r"element \d", over)) == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
+    assert "(RLSE 21 2)" in over and "lower 30, fold to rim : in-plane bending" in over
+    assert len(re.findall(r"RLSE \d", over)) == 2 and "\N{HORIZONTAL ELLIPSIS}" in over
     exact = head_of(page(flexact.analyse(CLAMPED.with_name("five_wires.dat"))))
     assert "rank proven" in exact and "remove" not in exact
 
@@ -205,22 +205,25 @@ def test_a_doubtful_decision_is_doubted_in_the_first_line() -> None:
 def test_degrees_of_freedom_are_told_in_words() -> None:
     deck = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
     movements = data_of(page(flexact.analyse(deck)))["movements"]
-    assert [movement["label"] for movement in movements[:2]] == ["node 1 z", "element 1 e6"]
+    assert [movement["label"] for movement in movements[:2]] == [
+        "the upper centre along z",
+        "upper 90, ground to fold: out-of-plane bending at the fold",
+    ]
     assert [movement["title"] for movement in movements[:2]] == [
-        "Degree of freedom: displacement along z of node 1",
-        "Degree of freedom: bending at q in the local xy plane of element 1 "
-        "(upper 90, ground to fold)",
+        "Degree of freedom: the upper centre along z",
+        "Degree of freedom: upper 90, ground to fold: out-of-plane bending at the fold",
     ]
     deck = ROOT / "input_decks" / "flexures" / "cross_hinge_sheet_and_wires.dat"
     text = page(flexact.analyse(deck))
     titles = [attributes.get("title") for tag, attributes in Elements(text).tags if tag == "input"]
-    assert "Degree of freedom: rotation about y of node 14" in titles
+    assert "Degree of freedom: arm to wire at y = -20 mm about y" in titles
 
 
 def test_degrees_of_freedom_that_cannot_move_are_told() -> None:
     deck = ROOT / "input_decks" / "flexures" / "folded_sheet_clamped_trap.dat"
     words = words_of(page(flexact.analyse(deck)))
-    assert "Declared, but a self-stress stops it: element 1 e5" in words
+    stuck = "the first sheet, ground to fold : out-of-plane bending at the ground"
+    assert f"Declared, but a self-stress stops it: {stuck}" in words
     assert "Declared, but" not in words_of(page(flexact.analyse(CLAMPED)))
 
 

@@ -91,5 +91,5 @@ def _of_freedom(analysis: Result, number: int) -> Selection:
     require_there(number, count, "degree of freedom", "degrees of freedom")
     chosen = analysis.freedoms[number - 1]
     if (found := way_of(chosen)) is None:
-        raise NotThereError(f"degree of freedom {number} cannot move: a self-stress stops it")
+        raise NotThereError(f"degree of freedom {number}, {chosen.label}, cannot move")
     return Selection(found, number, chosen)
