@@ -24,8 +24,6 @@ from .weights import column_weights, row_duals, row_factors, row_weights
 
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12
-#: With more nodes than these a mode is told by its largest entries.
-_MOST_NODES = 2_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +114,7 @@ class Motion(Moves, Frozen):
 
     def __repr__(self) -> str:
         """What moves."""
-        if self.analysis.given.arrays.node_number.size > _MOST_NODES:
+        if not self.analysis.is_told_by_parts:
             parts = [f"node {n} {c} {v:.4g}" for n, c, v in self.largest(4)]
         elif self.is_internal:
             parts = [f"inside {', '.join(part.name for part in self.internal_to)}"]
@@ -223,7 +221,7 @@ class SelfStress(Frozen):
 
     def __repr__(self) -> str:
         """What is stressed."""
-        if self.analysis.given.arrays.node_number.size > _MOST_NODES:
+        if not self.analysis.is_told_by_parts:
             parts = [f"element {e}, {d}: {v:.4g}" for e, d, v in self.largest(4)]
         else:
             parts = [str(each) for each in self.parts[:4]]

@@ -43,6 +43,9 @@ class Asked(NamedTuple):
 
 _PLAIN = Asked()
 
+#: Nodes or elements, and modes, beyond which bodies and parts are not told one by one.
+_MOST_TOLD, _MOST_MODES = 2_000, 400
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outcome(Frozen):
@@ -79,6 +82,14 @@ class Outcome(Frozen):
     def carriers(self) -> Carriers:
         """What moves in the model as given: bodies, joints, and what is inside of parts."""
         return Carriers(self.parts)
+
+    @property
+    def is_told_by_parts(self) -> bool:
+        """Whether bodies and parts are looked at one by one: in models that are not large."""
+        arrays = self.given.arrays
+        most = max(arrays.node_number.size, arrays.element_number.size)
+        modes = self.under_constrained + self.over_constrained
+        return most <= _MOST_TOLD and modes <= _MOST_MODES
 
     @property
     def rank(self) -> int:

@@ -13,7 +13,6 @@ from ..result.part_stresses import Conflict, PartStress
 from ..result.result import Result
 from ..result.screws import Screw, ScrewKind
 from ..result.wrenches import Wrench
-from .motions import MOST_NODES
 from .places import place_words
 from .self_stresses import moments_at_ends
 
@@ -21,11 +20,6 @@ from .self_stresses import moments_at_ends
 _MOST_ELEMENTS = 10_000
 
 Entries = dict[str, Any]
-
-
-def is_told(result: Result) -> bool:
-    """Whether bodies and parts are told: of models that are not large."""
-    return result.given.arrays.node_number.size <= MOST_NODES
 
 
 def parts(result: Result) -> list[Entries] | None:
@@ -62,7 +56,7 @@ def internal_motions(result: Result) -> Entries | None:
 
 def of_motion(result: Result, index: int) -> Entries:
     """What bodies and joints do in a motion."""
-    if not is_told(result):
+    if not result.is_told_by_parts:
         return {}
     motion = result.motions[index]
     return {
@@ -73,7 +67,7 @@ def of_motion(result: Result, index: int) -> Entries:
 
 def of_self_stress(result: Result, index: int) -> Entries:
     """What parts carry in a self-stress, and what they press on."""
-    if not is_told(result):
+    if not result.is_told_by_parts:
         return {}
     stress = result.self_stresses[index]
     return {

@@ -16,8 +16,6 @@ from .naming import coordinate_in_words, named_element, named_node, unit_of_coor
 from .places import direction_words, listed, part_words
 from .sentences import Pieces
 
-#: With more nodes than these, motions are told by their largest coordinates.
-MOST_NODES = 2_000
 #: How many names stand in a row.
 _MOST_NAMES = 4
 #: Coordinates below this part of the mechanism's size are zero.
@@ -30,7 +28,7 @@ def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
     Bodies stand before joints; of a large model these are coordinates.
     """
     outcome = motion.analysis
-    if outcome.given.arrays.node_number.size > MOST_NODES:
+    if not outcome.is_told_by_parts:
         return tuple(
             (
                 *coordinate_in_words(outcome, node, name),

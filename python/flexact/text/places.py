@@ -41,10 +41,9 @@ def listed(words: Sequence[str]) -> str:
 
 def parts_words(parts: Sequence[Part], most: int = _MOST_NAMED) -> str:
     """Such as "sheet 1, sheet 2 and 3 more"."""
-    words = [part_words(part) for part in parts]
-    if len(words) > most + 1:
-        words = [*words[:most], f"{len(words) - most} more"]
-    return listed(words)
+    if len(parts) > most + 1:
+        return listed([*map(part_words, parts[:most]), f"{len(parts) - most} more"])
+    return listed([part_words(part) for part in parts])
 
 
 def others_words(parts: Sequence[Part]) -> str:

@@ -16,7 +16,7 @@ from ..result.part_stresses import Conflict, PartStress
 from ..result.resultants import QUANTITIES, shared_resultants
 from ..result.screws import ROUNDING
 from ..result.wrenches import Wrench, WrenchKind
-from .motions import MOST_NODES, line_words
+from .motions import line_words
 from .naming import deformation_in_words, named_element, named_node, unit_of
 from .places import axis_words, listed, part_words, place_words
 from .sentences import Pieces
@@ -34,7 +34,7 @@ def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
     Of a large model these are deformations.
     """
     outcome = stress.analysis
-    if outcome.given.arrays.node_number.size > MOST_NODES:
+    if not outcome.is_told_by_parts:
         return tuple(
             (
                 *deformation_in_words(outcome, element, number),
@@ -55,7 +55,7 @@ def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
 def conflict_in_words(stress: SelfStress) -> Pieces:
     """Which parts fight over what; nothing where that cannot be said in short."""
     outcome = stress.analysis
-    if outcome.given.arrays.node_number.size > MOST_NODES:
+    if not outcome.is_told_by_parts:
         return ()
     chosen = _clearest(stress)
     if chosen is None:

@@ -79,6 +79,7 @@ class Parts:
         """Keep the model, as it was given."""
         self.data = data
         self._known: dict[tuple[str, int], Part] = {}
+        self._at: dict[int, tuple[Part, ...]] = {}
 
     def __len__(self) -> int:
         """How many there are."""
@@ -220,8 +221,11 @@ class Parts:
 
     def at(self, position: int) -> tuple[Part, ...]:
         """The parts that end at or belong to a position node, by name."""
-        found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
-        return tuple(sorted(found, key=lambda part: (natural(part.name), part.elements)))
+        if position not in self._at:
+            found = dict.fromkeys(self.of_element(i) for i in self.elements_at(position))
+            order = sorted(found, key=lambda part: (natural(part.name), part.elements))
+            self._at[position] = tuple(order)
+        return self._at[position]
 
     def turning(self, orientation: int) -> tuple[Part, ...]:
         """The parts that turn with an orientation node, by name."""
