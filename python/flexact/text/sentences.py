@@ -65,7 +65,7 @@ def plain(pieces: Iterable[Piece]) -> str:
 
 def _tied(words: str) -> str:
     """Words that are not to be torn apart, unless they are longer than a row."""
-    return words.replace(" ", _TIE) if len(words) < _WIDTH - len(_INDENT) else words
+    return words.replace(" ", _TIE) if len(words) < _WIDTH - 2 * len(_INDENT) else words
 
 
 def filled(line: Line) -> str:
