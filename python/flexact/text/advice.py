@@ -59,6 +59,7 @@ def _lines_on_internal(result: Result, whole: Result, advice: Advice) -> Iterato
 
 def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
     """What may be released, freed or taken away so that there are fewer self-stresses."""
+    is_hidden = not result.over_constrained
     result = result.with_internal_declared or result
     count = result.over_constrained
     ways = {
@@ -67,6 +68,8 @@ def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
         Step.FREE_SUPPORT: "free a support: ",
     }
     start = "To remove it, " if count == 1 else "To remove one, "
+    if is_hidden:
+        start = "To remove a self-stress that there is with one beam each, "
     made = []
     for advice in on_self_stresses(result):
         if advice.step is Step.RELEASE_ALL:
