@@ -18,8 +18,6 @@ _MASKS = (
     (re.compile(r"largest zero \S+ \(ratio \S+\)"), "largest zero ~ (ratio ~)"),
     (re.compile(r"(?<![\w.])-?\d(\.\d+)?e-[1-3]\d\b"), "~0"),
     (re.compile(r"^( +flexact ).*$", re.MULTILINE), r"\1..."),
-    # Of many that lift a zero alike.
-    (re.compile(r"(however small, such as one of) [^.]*\."), r"\1 ~."),
 )
 #: Numbers with all their digits.
 _LONG = re.compile(r"(?<![\w.])-?\d\.\d{10,}(e[+-]\d+)?\b")

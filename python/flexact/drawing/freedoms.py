@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..result.freedoms import Freedom
-from ..result.modes import Velocities
 from ..result.order import coordinate_key, ranked
+from ..result.velocities import Velocities
 from .pose import Moving
 
 

@@ -22,7 +22,7 @@ from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from ..model.parts.bodies import bodies_of
-from ..result.modes import Velocities
+from ..result.velocities import Velocities
 from .pose import Pose, pose_of, reference_pose
 from .rotations import matrix_of, screw_matrix
 

@@ -13,7 +13,7 @@ from ..core.arrays import FloatArray, ModelArrays
 from ..core.elements import NodeKind
 from ..model.configuration import Configuration
 from ..model.parts.condensing import Condensed
-from ..result.modes import Velocities
+from ..result.velocities import Velocities
 from .rotations import matrix_of, matrix_of_euler
 
 

@@ -6,18 +6,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..diagnostics.errors import model_error
+from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Part, PartKind, natural
 from .carriers import Joint
 from .handles import part_of, position_of
 from .outcome import Outcome
 from .screws import Screw, screw_of
+from .velocities import Velocities
 
 
 class NodeMotion(NamedTuple):
@@ -303,15 +305,30 @@ class Moves:
 
     analysis: Outcome
 
+    if TYPE_CHECKING:
+        # A property here would be the default of a field of this name.
+        @property
+        def analysed(self) -> Velocities:
+            """The velocities of the nodes of the model as it was analysed."""
+
+    @property
+    def condensed(self) -> Condensed:
+        """The model at whose nodes it is a motion, and the one that was analysed."""
+        return self.analysis.condensed
+
     @property
     def displacement(self) -> FloatArray:
         """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
-        raise NotImplementedError
+        return self._at_nodes[0]
 
     @property
     def rotation(self) -> FloatArray:
         """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
-        raise NotImplementedError
+        return self._at_nodes[1]
+
+    @cached_property
+    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
+        return self.analysed.at_all_nodes(self.condensed)
 
     @cached_property
     def _moving(self) -> Moving:

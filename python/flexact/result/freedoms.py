@@ -21,12 +21,11 @@ from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind, coordinate_name
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
-from ..model.parts.condensing import Condensed
 from .body_motions import Moves
 from .decompose import decompose
-from .modes import Velocities
 from .order import coordinate_key, ranked
 from .outcome import Asked, Outcome
+from .velocities import Velocities
 
 #: Independent velocities that depend on each other to within this part cannot be told apart.
 _DEPENDENT = 1.0e-12
@@ -51,25 +50,6 @@ class FreeMotion(Moves, Frozen):
 
     analysis: Outcome
     analysed: Velocities
-
-    @property
-    def condensed(self) -> Condensed:
-        """The model at whose nodes it is a motion, and the one that was analysed."""
-        return self.analysis.condensed
-
-    @property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) of each position [m]; zero rows for orientations."""
-        return self._at_nodes[0]
-
-    @property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) of each orientation [rad]; zero rows for positions."""
-        return self._at_nodes[1]
-
-    @cached_property
-    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
-        return self.analysed.at_all_nodes(self.condensed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -14,40 +14,15 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, coordinate_name
-from ..model.data import ModelData
-from ..model.parts.condensing import Condensed
 from .body_motions import Moves
 from .order import column_key, ranked, row_key
 from .part_stresses import Conflict, Load, PartStress, Pressing
 from .spaces import Spaces
+from .velocities import Velocities
 from .weights import column_weights, row_duals, row_factors, row_weights
 
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12
-
-
-@dataclass(frozen=True, eq=False)
-class Velocities(Frozen):
-    """The velocities of all nodes of a model.
-
-    Attributes:
-        data: The model.
-        displacement: (nodes, 3) of each position [m]; zero rows for orientations.
-        rotation: (nodes, 3) of each orientation [rad]; zero rows for positions.
-    """
-
-    data: ModelData
-    displacement: FloatArray
-    rotation: FloatArray
-
-    def at_all_nodes(self, condensed: Condensed) -> tuple[FloatArray, FloatArray]:
-        """Displacement and rotation at the nodes of the model as it was given."""
-        if not condensed.chains:
-            return self.displacement, self.rotation
-        made = condensed.motion(self.displacement, self.rotation)
-        for array in made:
-            array.flags.writeable = False
-        return made
 
 
 @dataclass(frozen=True, repr=False)
@@ -61,11 +36,6 @@ class Motion(Moves, Frozen):
 
     index: int
     analysis: Spaces
-
-    @property
-    def condensed(self) -> Condensed:
-        """The model at whose nodes it is a motion, and the one whose coordinates it is made of."""
-        return self.analysis.condensed
 
     @property
     def vector(self) -> FloatArray:
@@ -83,20 +53,6 @@ class Motion(Moves, Frozen):
         both = np.zeros((2, kinds.size, 3))
         both[(kinds[node] > NodeKind.POSITION).astype(int), node, axis] = value
         return Velocities(self.analysis.data, *both)
-
-    @property
-    def displacement(self) -> FloatArray:
-        """(nodes, 3) displacement of each position [m]; zero rows for orientations."""
-        return self._at_nodes[0]
-
-    @property
-    def rotation(self) -> FloatArray:
-        """(nodes, 3) rotation of each orientation [rad]; zero rows for positions."""
-        return self._at_nodes[1]
-
-    @cached_property
-    def _at_nodes(self) -> tuple[FloatArray, FloatArray]:
-        return self.analysed.at_all_nodes(self.condensed)
 
     def largest(self, k: int = 6) -> list[tuple[int, str, float]]:
         """Node number, coordinate and value [m, rad] of the k largest parts.

@@ -119,7 +119,12 @@ def _place(outcome: Outcome, value: FloatArray) -> tuple[float, ...]:
     return tuple((whole + 0.0).tolist())
 
 
+def without_sense(axis: FloatArray) -> FloatArray:
+    """An axis or its opposite: the first component that is not small beside others is positive."""
+    first = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
+    return axis if axis[first] > 0.0 else -axis
+
+
 def _direction(axis: FloatArray) -> tuple[float, ...]:
     """An axis without sense, rounded."""
-    first = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
-    return tuple((np.round(axis * np.sign(axis[first]), 6) + 0.0).tolist())
+    return tuple((np.round(without_sense(axis), 6) + 0.0).tolist())

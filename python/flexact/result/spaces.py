@@ -56,7 +56,7 @@ class Spaces(Outcome):
     def internal_motions(self) -> int:
         """How many motions move nothing but what is inside of sheets and wires.
 
-        It is the dimension of the space of these, where the space of the motions is so large
-        that it is told as the core gives it the number of its vectors that are so.
+        It is the dimension of the space of these. Of a space so large that it is told as the
+        core gives it, it is how many of the core's vectors are so.
         """
         return internal_motions(self, self.motion_basis)

@@ -10,6 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts
+from ..result.order import without_sense
 
 #: Names that say themselves what they are.
 _ARTICLES = ("the ", "a ", "an ")
@@ -153,8 +154,7 @@ def point_words(parts: Parts, position: int) -> str:
 
 def axis_words(axis: FloatArray) -> str:
     """A direction without sense: "x", or its components."""
-    first = int(np.argmax(np.abs(axis) >= 0.7 * np.abs(axis).max()))
-    return direction_words(axis if axis[first] > 0.0 else -axis)
+    return direction_words(without_sense(axis))
 
 
 def direction_words(direction: FloatArray) -> str:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
 from enum import Enum
 from functools import cached_property
 from typing import NamedTuple
@@ -148,15 +147,19 @@ class Parts:
             )
         return found[0]
 
-    @cached_property
+    @property
     def form(self) -> np.ndarray:
         """(elements,) `Form`, 0 where an element is no member."""
-        return forms_of(self.data.arrays)[0]
+        return self._forms[0]
 
-    @cached_property
+    @property
     def wide(self) -> np.ndarray:
         """(elements,) local axis, 1 or 2, along which a sheet is wide, else 0."""
-        return forms_of(self.data.arrays)[1]
+        return self._forms[1]
+
+    @cached_property
+    def _forms(self) -> tuple[np.ndarray, np.ndarray]:
+        return forms_of(self.data.arrays)
 
     def _part(self, kind: str, key: int, make: object) -> Part:
         if (kind, key) not in self._known:
@@ -279,8 +282,3 @@ def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
     return tuple(
         (not word.isdecimal(), int(word) if word.isdecimal() else 0, word) for word in words
     )
-
-
-def names_of(parts: Iterable[Part]) -> tuple[str, ...]:
-    """The names of parts in their natural order, each once."""
-    return tuple(sorted({part.name for part in parts}, key=natural))
