@@ -19,14 +19,14 @@ FORTRAN = ROOT / "fortran"
 #: What stands on what, from the ground up: a package uses only those in lines above its own.
 FLOORS = (
     ("base",),
-    ("core", "files"),
+    ("core", "engine", "files"),
     ("diagnostics",),
     ("model",),
     ("deck", "result"),
-    ("advice", "drawing", "regress"),
+    ("advice", "convert", "drawing", "regress"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("saving",),
+    ("saving", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )

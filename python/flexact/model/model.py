@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..base.errors import require_kind
 from ..base.plain_text import in_short
@@ -17,6 +18,7 @@ from .configuration import Configuration
 from .data import ModelData
 from .deck_text import deck_of
 from .parts.declaring import surplus_of
+from .variation import held_given, positions_given, with_held, with_positions
 
 
 class Model(Builder):
@@ -195,6 +197,37 @@ class Model(Builder):
         """
         for element, deformations in surplus_of(self.data):
             self._change().declare(element, deformations)
+
+    def with_positions(self, positions: ArrayLike) -> Model:
+        """The same mechanism with its nodes elsewhere; vectors of elements stay as they are.
+
+        Args:
+            positions: (nodes, 3) [m], as `positions`; rows of orientations are ignored.
+
+        Raises:
+            DeckError, ModelError: this model is wrong.
+            TypeError: they are no numbers.
+            ValueError: the shape is another, or a position is not finite.
+        """
+        self.check()
+        given = positions_given(self.data, positions, many=False)
+        return Model.from_data(with_positions(self.data, given))
+
+    def with_held(self, held: ArrayLike) -> Model:
+        """The same mechanism with these deformations held, and the others released.
+
+        Args:
+            held: (elements, 6) of bool, such as `deformation_classes == 1` is for the model as
+                it is. What is declared independent stays so unless it is held, and what stands
+                for deformations that an element has not is ignored.
+
+        Raises:
+            DeckError, ModelError: this model is wrong.
+            TypeError: they are no truth values.
+            ValueError: the shape is another.
+        """
+        self.check()
+        return Model.from_data(with_held(self.data, held_given(self.data, held, many=False)))
 
     def to_deck(self) -> str:
         """The model in the deck language; reading it gives the same model.

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same topology in another geometry, or with something else held."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.arrays import BoolArray, FloatArray, IntArray, floats
+from ..core.elements import Class, NodeKind
+from .data import ModelData
+
+
+def positions_given(data: ModelData, given: ArrayLike, *, many: bool) -> FloatArray:
+    """(nodes, 3) positions [m] as given for a model, or (variants, nodes, 3).
+
+    What stands for nodes that are orientations, and for z in a planar model, is ignored.
+
+    Raises:
+        TypeError: they are no numbers.
+        ValueError: the shape is another, or a position is not finite.
+    """
+    array = floats(given, "positions")
+    _require_shape("positions", array.shape, (data.arrays.node_number.size, 3), many)
+    used = axes_used(data)
+    wrong = ~np.isfinite(array) & used
+    if wrong.any():
+        place = np.argwhere(wrong)[0].tolist()
+        number = int(data.arrays.node_number[place[-2]])
+        where = f"variant {place[0]}, counted from 0, has " if many else "there is "
+        value = array[tuple(place)]
+        raise ValueError(
+            f"{where}{value} as {'xyz'[place[-1]]} of node {number}; positions must be finite"
+        )
+    return array
+
+
+def axes_used(data: ModelData) -> BoolArray:
+    """(nodes, 3) which of the numbers of positions there are."""
+    kind = data.arrays.node_kind
+    used = np.zeros((kind.size, 3), np.bool_)
+    used[kind == NodeKind.POSITION] = True
+    used[kind == NodeKind.PLANAR_POSITION, :2] = True
+    return used
+
+
+def held_given(data: ModelData, given: ArrayLike, *, many: bool) -> BoolArray:
+    """(elements, 6) which deformations are held, as given for a model, or (variants, elements, 6).
+
+    What stands for deformations that an element has not is ignored.
+
+    Raises:
+        TypeError: they are no truth values.
+        ValueError: the shape is another.
+    """
+    try:
+        array = np.asarray(given)
+    except ValueError:
+        raise ValueError("what is held must be truth values of one shape") from None
+    if array.dtype != np.bool_:
+        raise TypeError(f"what is held must be truth values (bool), not {array.dtype}")
+    _require_shape("what is held", array.shape, (data.arrays.element_number.size, 6), many)
+    return array
+
+
+def _require_shape(what: str, shape: Sequence[int], one: tuple[int, int], many: bool) -> None:
+    if tuple(shape[-2:]) == one and len(shape) == (3 if many else 2):
+        return
+    rows = "nodes" if what == "positions" else "elements"
+    wanted = f"(variants, {one[0]} {rows}, {one[1]})" if many else f"({one[0]} {rows}, {one[1]})"
+    raise ValueError(f"{what} must have the shape {wanted}, not {tuple(shape)}")
+
+
+def with_positions(data: ModelData, positions: FloatArray) -> ModelData:
+    """The model with its nodes at other positions, (nodes, 3) as `positions_given` gives them."""
+    arrays = data.arrays
+    value = arrays.node_value.copy(order="F")
+    used = axes_used(data).T
+    value[:3][used] = positions.T[used]
+    return _changed(data, replace_arrays={"node_value": value})
+
+
+def with_held(data: ModelData, held: BoolArray) -> ModelData:
+    """The model with these deformations held, (elements, 6), and the others released.
+
+    What is declared independent stays so unless it is held.
+    """
+    return _changed(data, replace_arrays={"deformation_class": classes_held(data, held)})
+
+
+def classes_held(data: ModelData, held: BoolArray) -> IntArray:
+    """(..., 6, elements) classes where these are held, (..., elements, 6)."""
+    own = data.arrays.deformation_class
+    released = np.where(own == Class.INDEPENDENT, own, np.int32(Class.DEPENDENT))
+    made = np.where(np.swapaxes(held, -1, -2), np.int32(Class.FIXED), released)
+    there: IntArray = np.where(own == Class.NONE, own, made).astype(np.int32)
+    return there
+
+
+def _changed(data: ModelData, replace_arrays: dict[str, np.ndarray]) -> ModelData:
+    """The data with other arrays, to be checked anew; comments of its deck stay."""
+    made = data.arrays._replace(
+        **{name: np.asfortranarray(array) for name, array in replace_arrays.items()}
+    )
+    return replace(
+        data, arrays=made, source=None, found=None, began_as=data.source or data.began_as
+    )

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many mechanisms: sweeps, tolerances, tables of results."""
