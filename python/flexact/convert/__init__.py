@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models from and to other formats: tables, and meshes of lines."""
+"""Models from and to other formats: tables, meshes of lines; uses models."""
