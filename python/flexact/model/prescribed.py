@@ -66,16 +66,8 @@ def _statements(data: ModelData) -> Iterator[tuple[bytes, int, list[int]]]:
     text = data.source.text
     end = _END.search(text)
     for found in _INPUTS.finditer(text, 0, len(text) if end is None else end.start()):
-        number, *components = (_whole(word) for word in found[2].split())
+        number, *components = map(int, found[2].split())
         yield found[1].upper(), number, components
-
-
-def _whole(word: bytes) -> int:
-    """An integer of a sound deck, which may be typed as a real."""
-    try:
-        return int(word)
-    except ValueError:
-        return int(float(word.upper().replace(b"D", b"E")))
 
 
 def _mark(marks: BoolArray, components: list[int], first: int) -> None:

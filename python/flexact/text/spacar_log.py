@@ -186,7 +186,12 @@ class _Log:
 
     def _verdict(self) -> Iterator[str]:
         analysis = self.analysis
+        x, e = np.diff((0, *self.numbering.coordinates.ends)), self.numbering.deformations.ends
         yield f" Flexact: {verdict_in_words(analysis).start}"
+        yield " Coordinates: {} fixed, {} calculable, {} input, {} dynamic".format(*x)
+        yield " Deformations: {} fixed, {} input, {} dynamic, {} calculable".format(
+            *np.diff((0, *e))
+        )
         yield (
             f" D(c) without Euler parameters: {analysis.rows} x {analysis.columns}, "
             f"rank {analysis.rank}; under-constrained {analysis.under_constrained}, "
