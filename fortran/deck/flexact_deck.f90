@@ -12,6 +12,7 @@ module flexact_deck
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_labels, only: names_t
+   use flexact_ground_points, only: excuse_ground_points
    use flexact_lexer, only: operand_span
    use flexact_silent_mistakes, only: check_silent_mistakes
    use flexact_statement, only: statement_t, read_statements, find_unreadable, has_warping
@@ -41,6 +42,7 @@ contains
       associate (all_statements => statements(:count))
          call read_elements(all_statements, deck)
          if (deck%model%elements > 0) then
+            call excuse_ground_points(all_statements, deck)
             call read_values(all_statements, deck)
             call read_classes(all_statements, deck)
             call check_warping(deck)
