@@ -63,39 +63,33 @@ contains
       end associate
    end subroutine read_statement
 
-   !> Take the numbers behind the element or the node; those that are more than there
-   !> can be are left out. Those of warping, one behind the others, are not used. Programs
-   !> write statements without numbers, which say nothing.
+   !> Take the numbers behind the element or the node, at least one; those that are
+   !> more than there can be are left out. One of warping, behind the others, is not used.
    subroutine take_numbers(operands, of_warping, numbers, stated)
       type(operands_t), intent(inout) :: operands
       integer, intent(in) :: of_warping
       real(wp), intent(inout) :: numbers(:)
       type(span_t), intent(inout) :: stated
       type(operands_t) :: ahead
-      type(span_t) :: owner
+      type(span_t) :: owner, surplus
       real(wp) :: value, taken(size(numbers))
       integer :: count
 
       owner = operands%word
-      ahead = operands
-      if (.not. ahead%another()) then
-         call operands%diagnostics%warning('missing-operand', owner, 'no number stands behind this', &
-                                           'the statement is left out', 'add the numbers, or remove the statement')
-         return
-      end if
       count = 0
       do
          call operands%real_number('number', value)
          if (.not. operands%fine) return
          count = count + 1
          if (count <= size(taken)) taken(count) = value
-         if (count == size(taken) + of_warping + 1) &
-            call operands%diagnostics%warning('surplus-operand', operands%word, 'there are more numbers than can be meant; '// &
-                                              'they are left out', 'from here on', &
-                                              'ESTIFF takes up to 6 numbers, EM up to 5, XM up to 6')
+         if (count == size(taken) + 1) surplus = operands%word
          ahead = operands
          if (.not. ahead%another()) exit
       end do
+      if (count > size(taken) .and. count /= size(taken) + of_warping) &
+         call operands%diagnostics%warning('surplus-operand', surplus, 'there are more numbers than can be meant; '// &
+                                           'they are left out', 'from here on', &
+                                           'ESTIFF takes up to 6 numbers, EM up to 5, XM up to 6')
       if (stated%first > 0) &
          call operands%diagnostics%warning('repeated-value', owner, 'the same is given already', 'this one counts', &
                                            'remove one of the two statements', stated)
