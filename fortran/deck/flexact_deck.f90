@@ -8,7 +8,7 @@ module flexact_deck
    use flexact_deck_picture, only: read_picture
    use flexact_deck_model, only: deck_model_t
    use flexact_deck_properties, only: read_properties
-   use flexact_deck_warping, only: check_warping
+   use flexact_deck_warping, only: check_warping_nodes, note_warping
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_labels, only: names_t
@@ -45,7 +45,7 @@ contains
             call excuse_ground_points(all_statements, deck)
             call read_values(all_statements, deck)
             call read_classes(all_statements, deck)
-            call check_warping(deck)
+            call check_warping_nodes(deck)
             call read_picture(all_statements, deck)
             call read_properties(all_statements, deck)
             call read_forms(all_statements, deck)
@@ -56,6 +56,7 @@ contains
          call check_model(deck%model, names, diagnostics)
          if (.not. diagnostics%has_errors()) then
             call check_silent_mistakes(deck%model, names, diagnostics)
+            call note_warping(deck)
             call note_unused(all_statements, unused, diagnostics)
          end if
       end associate

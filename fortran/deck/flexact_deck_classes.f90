@@ -3,6 +3,7 @@
 module flexact_deck_classes
    use flexact_choice, only: choice_t, components_of, deformations_of, warping_components, take_choice
    use flexact_deck_model, only: deck_model_t, take_node, take_element
+   use flexact_element_table, only: beam_with_warping
    use flexact_keywords, only: keywords, role_coordinate, role_deformation
    use flexact_lexer, only: operand_span
    use flexact_model, only: class_none, class_fixed, class_dependent, class_independent
@@ -14,7 +15,7 @@ module flexact_deck_classes
    private
    public :: read_classes
 
-   !> Those of the model, and two of warping.
+   !> Those of the model, and two of warping, which are calculable whatever is said.
    integer, parameter :: most_stated = most_deformations + 2
 
    !> Where each class was stated first, 0 where none was.
@@ -37,7 +38,7 @@ contains
 
       allocate (origins%coordinate(3, deck%model%nodes), source=0)
       allocate (origins%warping(1, size(deck%warping_nodes%number)), source=0)
-      allocate (origins%deformation(most_stated, deck%model%elements), source=0)
+      allocate (origins%deformation(most_deformations, deck%model%elements), source=0)
       do i = 1, size(statements)
          select case (statements(i)%role)
          case (role_coordinate)
@@ -74,17 +75,38 @@ contains
       type(deck_model_t), intent(inout) :: deck
       type(origins_t), intent(inout) :: origins
       type(operands_t) :: operands
-      integer :: element, classes(most_stated)
+      integer :: element, classes(most_stated), origin(most_stated)
 
       operands = operands_of(deck%text, deck%diagnostics, statement)
       call take_element(deck, operands, element)
       if (element == 0) return
-      classes = [deck%model%deformation_class(:, element), deck%warping_deformation(:, element)]
-      call read_choice(operands, deformations_of(deck%model%element_kind(element), deck%warps(element)), &
-                       class_of(keywords(statement%what)%name), classes, origins%deformation(:, element))
+      classes = [deck%model%deformation_class(:, element), class_none, class_none]
+      origin = [origins%deformation(:, element), 0, 0]
+      call read_choice(operands, deformations_of(deck%model%element_kind(element), deck%has_warping(element)), &
+                       class_of(keywords(statement%what)%name), classes, origin)
+      origins%deformation(:, element) = origin(:most_deformations)
       deck%model%deformation_class(:, element) = classes(:most_deformations)
-      deck%warping_deformation(:, element) = classes(most_deformations + 1:)
+      if (any(classes(most_deformations + 1:) == class_independent)) call warping_is_calculable(statement, deck)
    end subroutine read_of_element
+
+   !> What SPACAR makes of such a statement is not known.
+   subroutine warping_is_calculable(statement, deck)
+      type(statement_t), intent(in) :: statement
+      type(deck_model_t), intent(in) :: deck
+      type(operands_t) :: operands
+      integer :: words
+
+      operands = operands_of(deck%text, deck%diagnostics, statement)
+      words = 0
+      do while (operands%another())
+         words = words + 1
+         if (words > 1 .and. leading_integer(operands%spelling()) > most_deformations) exit
+      end do
+      call operands%diagnostics%error('not-covered', operands%word, &
+                                      'Flexact does not analyse '//beam_with_warping//' with an independent 7 or 8: '// &
+                                      'in SPACAR they are always calculable', 'not covered', &
+                                      'leave them out; FIX holds the warping at a node, DYNX declares it')
+   end subroutine warping_is_calculable
 
    !> Take the number of a warping node; 0, and nothing taken, where it is none.
    subroutine take_warping_node(deck, operands, node)

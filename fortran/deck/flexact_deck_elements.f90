@@ -44,7 +44,7 @@ contains
          call allocate_elements(model)
          allocate (deck%element_names(model%elements))
          allocate (deck%warping_node(2, model%elements), source=0)
-         allocate (deck%warping_deformation(2, model%elements), source=class_none)
+         allocate (deck%has_warping(model%elements), source=.false.)
          k = 0
          do i = 1, size(statements)
             select case (statements(i)%role)
@@ -106,6 +106,7 @@ contains
       logical :: warps
 
       warps = has_warping(deck%text, statement%keyword%first)
+      deck%has_warping(k) = warps
       associate (model => deck%model, kind => element_kinds(statement%what))
          model%element_kind(k) = statement%what
          model%element_origin(k) = statement%keyword%first
@@ -118,7 +119,6 @@ contains
             if (warps .and. modulo(slot, 2) == 0) &
                call operands%positive_integer(warping_in_slot(slot/2), deck%warping_node(slot/2, k))
          end do
-         if (warps) deck%warping_deformation(:, k) = class_dependent
          call read_vector(operands, kind%vector, model%element_vector(:, k))
          if (operands%fine) then
             ahead = operands
@@ -246,7 +246,7 @@ contains
       integer :: word
 
       word = 2 + count(element_kinds(deck%model%element_kind(k))%slot_kind(:slot) /= 0)
-      if (slot > 2 .and. deck%warps(k)) word = word + 1
+      if (slot > 2 .and. deck%has_warping(k)) word = word + 1
       place = operand_span(deck%text, deck%model%element_origin(k), word, word)
    end function place_of_slot
 

@@ -4,7 +4,7 @@
 module flexact_deck_model
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_appearance, only: appearance_t
-   use flexact_model, only: model_t, class_none
+   use flexact_model, only: model_t
    use flexact_numbering, only: numbering_t
    use flexact_operands, only: operands_t
    use flexact_properties, only: properties_t
@@ -35,24 +35,15 @@ module flexact_deck_model
       type(numbering_t) :: warping_nodes
       !> Class of the warping of each of warping_nodes, (1, nodes).
       integer, allocatable :: warping_class(:, :)
-      !> Class of the deformations 7 and 8 of each element, none without warping.
-      integer, allocatable :: warping_deformation(:, :)
+      !> Whether each element is stated as a beam with warping.
+      logical, allocatable :: has_warping(:)
       !> How the elements are to be drawn, where the deck says something about it.
       type(appearance_t), allocatable :: appearance
       !> Stiffness and mass, where the deck says something about them.
       type(properties_t), allocatable :: properties
-   contains
-      procedure :: warps
    end type deck_model_t
 
 contains
-
-   !> Whether an element is stated as a beam with warping.
-   pure logical function warps(self, element)
-      class(deck_model_t), intent(in) :: self
-      integer, intent(in) :: element
-      warps = self%warping_deformation(1, element) /= class_none
-   end function warps
 
    !> Take a node number; the index is 0 where there is no such node, which
    !> has then been reported.

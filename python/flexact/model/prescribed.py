@@ -44,7 +44,9 @@ def prescribed_in(data: ModelData) -> Prescribed:
     )
     for letter, number, components in _statements(data):
         if letter == b"X":
-            node = data.node_index[number]
+            if (node := data.node_index.get(number)) is None:
+                # Of warping, which a model does not have.
+                continue
             first = FIRST_COMPONENT[NodeKind(int(arrays.node_kind[node]))]
             _mark(found.coordinates[:, node], components, first)
         else:
@@ -71,9 +73,9 @@ def _statements(data: ModelData) -> Iterator[tuple[bytes, int, list[int]]]:
 
 
 def _mark(marks: BoolArray, components: list[int], first: int) -> None:
-    """Mark some components, all where none is named; lambda0 is none of its own."""
+    """Mark some components, all where none is named; lambda0 and warping are none of its own."""
     if not components:
         marks[:] = True
     for component in components:
-        if component >= first:
+        if first <= component < first + marks.size:
             marks[component - first] = True
