@@ -8,7 +8,7 @@ module flexact_deck
    use flexact_deck_picture, only: read_picture
    use flexact_deck_model, only: deck_model_t
    use flexact_deck_properties, only: read_properties
-   use flexact_deck_warping, only: check_warping_nodes, note_warping
+   use flexact_deck_warping, only: check_warping_nodes, excuse_fixed_warping, note_warping
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_labels, only: names_t
@@ -42,6 +42,7 @@ contains
       associate (all_statements => statements(:count))
          call read_elements(all_statements, deck)
          if (deck%model%elements > 0) then
+            call excuse_fixed_warping(all_statements, deck)
             call excuse_ground_points(all_statements, deck)
             call read_values(all_statements, deck)
             call read_classes(all_statements, deck)

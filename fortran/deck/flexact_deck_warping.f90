@@ -6,10 +6,15 @@ module flexact_deck_warping
    use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: span_t
    use flexact_element_table, only: beam_with_warping
-   use flexact_lexer, only: operand_span
+   use flexact_keywords, only: keywords, role_coordinate
+   use flexact_lexer, only: operand_span, upper_case
+   use flexact_numbering, only: make_numbering
+   use flexact_numbers, only: leading_integer
+   use flexact_operands, only: operands_t, operands_of
+   use flexact_statement, only: statement_t
    implicit none
    private
-   public :: check_warping_nodes, note_warping
+   public :: check_warping_nodes, excuse_fixed_warping, note_warping
 
 contains
 
@@ -31,6 +36,29 @@ contains
          end do
       end do
    end subroutine check_warping_nodes
+
+   !> SPACAR Light fixes the warping of each node that it clamps, with the comment
+   !> "warping", whether a beam has warping there or not: such a node may be missing.
+   subroutine excuse_fixed_warping(statements, deck)
+      type(statement_t), intent(in) :: statements(:)
+      type(deck_model_t), intent(inout) :: deck
+      integer :: number(size(statements)), i
+      type(operands_t) :: operands
+
+      number = 0
+      do i = 1, size(statements)
+         if (statements(i)%role /= role_coordinate .or. statements(i)%comment%first == 0) cycle
+         if (keywords(statements(i)%what)%name /= 'FIX') cycle
+         associate (comment => statements(i)%comment)
+            if (upper_case(deck%text(comment%first:comment%last)) /= 'WARPING') cycle
+         end associate
+         operands = operands_of(deck%text, deck%diagnostics, statements(i))
+         if (.not. operands%another()) cycle
+         number(i) = leading_integer(operands%spelling())
+         if (deck%nodes%find(number(i)) > 0) number(i) = 0
+      end do
+      if (any(number > 0)) deck%excused = make_numbering([deck%excused%number, pack(number, number > 0)])
+   end subroutine excuse_fixed_warping
 
    !> Say once that beams with warping are read as beams.
    subroutine note_warping(deck)

@@ -119,6 +119,14 @@ def test_places_of_words_behind_the_warping_nodes() -> None:
     assert (found.code, found.line, found.column) == ("parallel-vector", 1, 23)
 
 
+def test_fixed_warping_where_no_beam_has_any() -> None:
+    """As SPACAR Light writes it of every node that it clamps; without its comment it is a slip."""
+    plain = "BEAM 1 1 2 4 5 0 1 0 # element 1\nX 4 .1 0 0\nFIX 1\nFIX 2\n"
+    model = flexact.read_text(f"{plain}FIX\t\t  3  #warping\nFIX 6 # Warping\nEND\n")
+    assert model.diagnostics == ()
+    assert errors_of(f"{plain}FIX 3\nEND\n") == [("no-such-node", 5)]
+
+
 @pytest.mark.parametrize(
     "keyword", ["PLBEAR 1 1 2 3 4", "PLBELT 1 1 2 3 4", "WHEEL 1 1 2 3 4 0 0 1"]
 )
