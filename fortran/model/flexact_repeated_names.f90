@@ -38,7 +38,7 @@ contains
       if (any(names%node%first > 0)) then
          name = names%node
          do i = 1, model%nodes
-            if (.not. is_position(model%node_kind(i))) name(i) = span_t()
+            if (.not. is_position(model%node_kind(i)) .or. is_intermediate(names%text, name(i))) name(i) = span_t()
          end do
          group = [(0, i=1, model%nodes)]
          call find_equal_texts(names%text, name, group, groups)
@@ -46,6 +46,15 @@ contains
             call check(model, names, name, group, groups, [(i, i=1, model%nodes)], 'points are called', diagnostics)
       end if
    end subroutine check_repeated_names
+
+   !> Whether a name is that which SPACAR Light gives to every inner node.
+   pure logical function is_intermediate(text, name)
+      character(len=*), intent(in) :: text
+      type(span_t), intent(in) :: name
+
+      is_intermediate = .false.
+      if (name%first > 0) is_intermediate = text(name%first:name%last) == 'intermediate node'
+   end function is_intermediate
 
    !> The part of each element, as one of its elements.
    subroutine find_parts(model, group, groups, part)

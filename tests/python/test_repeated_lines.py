@@ -121,3 +121,16 @@ def test_a_deck_of_a_hundred_thousand_lines() -> None:
     lines += [f"FIX {9 * beams + k}\nRLSE {k} 2\nRLSE {k} 5\n" for k in range(1, beams)]
     model = flexact.read_text("".join(lines))
     assert int(np.sum(model.data.arrays.deformation_class == 2)) == 2 * (beams - 1)
+
+
+def test_names_that_spacar_light_gives() -> None:
+    """Every inner node has one name, and the beams of an element are one part."""
+    lines = ["X 1 0 0 0 #node 1", "X 4 .1 0 0 #node 2"]
+    lines += [f"X {7 + 3 * k} {0.025 * (k + 1)} 0 0 #intermediate node" for k in range(3)]
+    ends = (1, 7, 10, 13, 4)
+    for k in range(4):
+        nodes = f"{ends[k]} {ends[k] + 1} {ends[k + 1]} {ends[k + 1] + 1}"
+        lines += [f"BEAM {k + 1} {nodes} 0 0 1 #element 1 beam {k + 1}", f"DYNE {k + 1} 2 3 4"]
+    model = flexact.read_text("\n".join([*lines, "FIX 1", "FIX 2", "FIX 3 #warping", "END\n"]))
+    assert model.diagnostics == ()
+    assert [part.name for part in flexact.analyse(model).parts.all] == ["element 1"]
