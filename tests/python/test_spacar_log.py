@@ -112,7 +112,7 @@ def test_tables_are_those_of_a_published_log() -> None:
 
 
 def test_an_under_constrained_system_as_in_a_published_log() -> None:
-    """The slider-crank there has a fixed node besides that no element uses: three more of NX, NXO."""
+    """The slider-crank there has a fixed node besides, three more of NX and of NXO."""
     deck = (
         "HINGE 1 2 11 0 0 1\nBEAM 2 10 11 4 5 0 0 1\nHINGE 3 5 14 0 0 1\nBEAM 4 13 14 7 8 0 0 1\n"
         "X 4 1 1 0\nX 7 3 0 0\nDYNE 1 1\nDYNE 2 1 2 3 4 5 6\nDYNE 3 1\nFIX 2\nFIX 7 2 3\nEND\n"
