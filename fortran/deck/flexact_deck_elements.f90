@@ -59,8 +59,9 @@ contains
          end do
          deck%warping_nodes = make_numbering(reshape(deck%warping_node, [2*model%elements]))
          allocate (deck%warping_class(1, size(deck%warping_nodes%number)), source=class_dependent)
+         deck%excused = make_numbering(excused)
          ! What is said of a warping node is read with the classes alone.
-         deck%excused = make_numbering([excused, deck%warping_nodes%number])
+         deck%left_out = deck%warping_nodes
          deck%nodes = make_numbering(reshape(model%element_node, [slots*model%elements]))
       end associate
       call make_nodes(deck)

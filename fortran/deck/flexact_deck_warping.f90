@@ -57,7 +57,7 @@ contains
          number(i) = leading_integer(operands%spelling())
          if (deck%nodes%find(number(i)) > 0) number(i) = 0
       end do
-      if (any(number > 0)) deck%excused = make_numbering([deck%excused%number, pack(number, number > 0)])
+      if (any(number > 0)) deck%left_out = make_numbering([deck%left_out%number, pack(number, number > 0)])
    end subroutine excuse_fixed_warping
 
    !> Say once that beams with warping are read as beams.

@@ -45,7 +45,7 @@ contains
          at = placed%find(leading_integer(operands%spelling()))
          if (at > 0) call fix(operands, is_fixed(:, at))
       end do
-      deck%excused = make_numbering([deck%excused%number, pack(placed%number, all(is_fixed, dim=1))])
+      deck%left_out = make_numbering([deck%left_out%number, pack(placed%number, all(is_fixed, dim=1))])
       do i = 1, size(place)
          if (all(is_fixed(:, i))) &
             call deck%diagnostics%warning('unused-node', place(i), 'a fixed point that no element uses is left out', &
@@ -67,7 +67,8 @@ contains
          operands = operands_of(deck%text, deck%diagnostics, statements(i))
          if (operands%another()) found(i) = leading_integer(operands%spelling())
          if (found(i) == 0) cycle
-         if (deck%nodes%find(found(i)) > 0 .or. deck%excused%find(found(i)) > 0) found(i) = 0
+         if (deck%nodes%find(found(i)) > 0 .or. deck%excused%find(found(i)) > 0 .or. &
+             deck%left_out%find(found(i)) > 0) found(i) = 0
       end do
       number = pack(found, found > 0)
       row = pack([(i, i=1, size(statements))], found > 0)

@@ -108,6 +108,14 @@ def test_one_that_could_move_is_an_error(lines: str, errors: int) -> None:
     assert [d.code for d in caught.value.diagnostics] == ["no-such-node"] * errors
 
 
+def test_an_element_of_the_number_of_such_a_point_is_still_missing() -> None:
+    for node in ("X 9 1 0 0\nFIX 9\n", "FIX 9 #warping\n", "BEAMW 3 5 6 9 7 8 10\nX 7 1 1 1\n"):
+        with pytest.raises(flexact.DeckError) as caught:
+            flexact.read_text(f"{START}{node}FIX 1\nRLSE 9\nEND\n")
+        found = [d.code for d in caught.value.diagnostics if str(d.severity) == "error"]
+        assert found == ["no-such-element"]
+
+
 def test_in_the_plane_two_components_are_all() -> None:
     model = flexact.read_text(f"{PLANAR}FIX 1\nFIX 2\nX 9 1 0\nFIX 9 1\nFIX 9 2\nEND\n")
     assert [d.code for d in model.diagnostics] == ["unused-node"]
