@@ -9,30 +9,26 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby, islice
+from collections.abc import Iterable, Iterator
+from itertools import islice
 
 import numpy as np
 
 from ..base.plain_text import harmless
 from ..base.version import VERSION
 from ..core.arrays import FloatArray
-from ..core.elements import keywords_of
 from ..diagnostics.source import decode
 from ..model.deck_text import deck_of
 from ..result.result import Result
 from .describe import verdict_in_words
 from .spacar_matrix import condition_number, shape_of
-from .spacar_numbering import Numbered, SpacarNumbering
+from .spacar_numbering import SpacarNumbering
+from .spacar_tables import tables
 
 _LINE = "=" * 80
 _END = re.compile(r"\s*END(?:[\s%#]|$)", re.IGNORECASE)
-_RULE_OF_ELEMENTS = f"   --- {'-' * 8} {'-' * 23} {'-' * 47} -----"
-_RULE_OF_NODES = f"  ---- {'-' * 23} {'-' * 47}"
-_RULE_OF_FREEDOMS = "   --- ------ ------ ---------"
-#: Nodes and deformations that an element has at most in SPACAR, values in a line, and beams.
-_SLOTS, _DEFORMATIONS, _IN_A_LINE, _BEAMS_IN_A_LINE = 6, 8, 6, 18
-_LETTER = {"o": "O", "c": "C", "i": "M", "m": "M"}
+#: Values in a line.
+_IN_A_LINE = 6
 
 
 def spacar_log(analysis: Result) -> str:
@@ -56,9 +52,7 @@ class _Log:
         yield f"Deck: {harmless(self.analysis.name)}"
         yield from ("", _LINE, " Kinematic data", "", *kinematics, "")
         yield from self._not_square()
-        yield from self._elements()
-        yield from self._nodes()
-        yield from self._freedoms()
+        yield from tables(self.numbering)
         yield self._condition()
         yield from self._values()
         yield from (_LINE, " Dynamic data", "", *dynamics, "")
@@ -91,74 +85,13 @@ class _Log:
         ):
             yield from (line, "")
 
-    def _elements(self) -> Iterator[str]:
-        yield " Elements used in this model:"
-        yield (
-            "    No  Type         Element nodes          "
-            "Deformation parameters (with type)    Max.def.par."
-        )
-        yield _RULE_OF_ELEMENTS
-        rows = _rows(self.numbering.deformations)
-        for (number, word, nodes), row in zip(self._members(), rows, strict=True):
-            places = "".join(f" {node:3d}" for node in nodes).ljust(4 * _SLOTS)
-            cells = "".join(row).ljust(6 * _DEFORMATIONS)
-            yield f" {number:5d} {word:<8}{places}{cells}{len(row):6d}"
-        yield from (_RULE_OF_ELEMENTS, "")
-        beams = [number for number, word, _ in self._members() if word == "Beam"]
-        if beams:
-            # A long line is broken, which SPACAR was not seen to do.
-            head = " Bending-linked elongation calculated for beam(s):"
-            for first in range(0, len(beams), _BEAMS_IN_A_LINE):
-                line = beams[first : first + _BEAMS_IN_A_LINE]
-                yield head + "".join(f" {number:3d}" for number in line)
-                head = " " * len(head)
-            yield ""
-
-    def _members(self) -> Iterator[tuple[int, str, list[int]]]:
-        """Number, type and nodes of each element, those of Euler elements last."""
-        arrays, order = self.data.arrays, self.numbering.elements
-        numbers = arrays.element_number[order]
-        node_number = np.concatenate([[0], arrays.node_number])
-        nodes = node_number[arrays.element_node[:, order]].T.tolist()
-        words = keywords_of(arrays.element_kind[order])
-        for number, word, row in zip(numbers.tolist(), words, nodes, strict=True):
-            yield number, word.capitalize(), [node for node in row if node]
-        orientations = arrays.node_number[self.numbering.euler_nodes].tolist()
-        for number, node in enumerate(orientations, start=int(numbers.max()) + 1):
-            yield number, "Euler", [node]
-
-    def _nodes(self) -> Iterator[str]:
-        yield " Nodal point information"
-        yield "  Node   Pos.pars (with type)    Values"
-        yield _RULE_OF_NODES
-        arrays = self.data.arrays
-        values = arrays.node_value.T.tolist()
-        rows = _rows(self.numbering.coordinates)
-        for number, value, row in zip(arrays.node_number.tolist(), values, rows, strict=True):
-            numbers = "".join(f"{each:12.5f}" for each in value[: len(row)])
-            yield f" {number:5d}{''.join(row):<24}{numbers:<48}"
-        yield from (_RULE_OF_NODES, "")
-
-    def _freedoms(self) -> Iterator[str]:
-        yield " Degree of freedom information:"
-        yield "   DOF PosPar DefPar Type     "
-        yield _RULE_OF_FREEDOMS
-        x, e = self.numbering.coordinates, self.numbering.deformations
-        of_nodes = [(f"{x.number[i]:7d}{'':7}", x.letter[i]) for i in x.inputs_first]
-        of_elements = [(f"{'':7}{e.number[i]:7d}", e.letter[i]) for i in e.inputs_first]
-        for number, (place, letter) in enumerate(of_nodes + of_elements, start=1):
-            word = "Input" if letter == "i" else "-Dynamic"
-            yield f" {number:5d}{place} {word:<9}"
-        yield _RULE_OF_FREEDOMS
-
     def _condition(self) -> str:
-        analysis = self.analysis
         words = " Condition number of Dcc:"
-        if analysis.rank < min(analysis.rows, analysis.columns):
-            return f"{words}    Infinity"
         condition = condition_number(self.numbering)
         if condition is None:
             return f"{words}  not computed of so large a matrix"
+        if math.isinf(condition):
+            return f"{words}    Infinity"
         return f"{words}        none" if math.isnan(condition) else words + _fortran(condition)
 
     def _values(self) -> Iterator[str]:
@@ -193,9 +126,8 @@ class _Log:
             *np.diff((0, *e))
         )
         yield (
-            f" D(c) without Euler parameters: {analysis.rows} x {analysis.columns}, "
-            f"rank {analysis.rank}; under-constrained {analysis.under_constrained}, "
-            f"over-constrained {analysis.over_constrained}"
+            f" Under-constrained by {analysis.under_constrained}, "
+            f"over-constrained by {analysis.over_constrained}"
         )
 
 
@@ -205,15 +137,6 @@ def _block(lines: Iterable[str]) -> Iterator[str]:
         yield f" {harmless(line.rstrip()) or ' '}"
         if _END.match(line):
             return
-
-
-def _rows(numbered: Numbered) -> Iterator[Sequence[str]]:
-    """The numbers with their letters, of each node or element in its own row."""
-    owners, numbers = numbered.owner.tolist(), numbered.number.tolist()
-    letters = numbered.letter.tolist()
-    cells = zip(owners, numbers, letters, strict=True)
-    for _, row in groupby(cells, key=lambda cell: cell[0]):
-        yield [f" {number:3d}-{_LETTER[letter]}" for _, number, letter in row]
 
 
 def _sixes(values: FloatArray) -> Iterator[str]:

@@ -19,9 +19,10 @@ MOST_ROWS = 2000
 
 
 def condition_number(numbering: SpacarNumbering) -> float | None:
-    """The 2-norm condition number of Dcc, of full rank; None where Dcc is too large.
+    """The 2-norm condition number of Dcc; None where Dcc is too large.
 
-    Nan where it has no rows or no columns.
+    Infinite where the smallest singular value is within the rounding of a zero, nan where
+    there is no row or no column.
     """
     rows, columns = shape_of(numbering)
     if not rows or not columns:
@@ -29,7 +30,8 @@ def condition_number(numbering: SpacarNumbering) -> float | None:
     if max(rows, columns) > MOST_ROWS:
         return None
     values = np.linalg.svd(dcc(numbering), compute_uv=False)
-    return float(values[0] / values[-1])
+    rounding = max(rows, columns) * np.finfo(float).eps * values[0]
+    return float(values[0] / values[-1]) if values[-1] > rounding else np.inf
 
 
 def shape_of(numbering: SpacarNumbering) -> tuple[int, int]:
