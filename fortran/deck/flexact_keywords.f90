@@ -154,7 +154,7 @@ contains
 
       select case (name)
       case ('PLBEAR')
-         instead = 'write PLRBEAM e p op q for the translations of q against p, and PLHINGE e op oq for the rotation'
+         instead = 'write PLRBEAM e p op q for the translations, or one node for p and q, and PLHINGE e op oq for the rotation'
       case ('PLBELT')
          instead = 'write a PLTRUSS for each free part of the belt, between points that PLRBEAM joins to the pulleys: '// &
                    'to first order it is the same'
