@@ -27,6 +27,7 @@ contains
          allocate (name(model%elements))
          do i = 1, model%elements
             name(i) = part_name(names, i)
+            if (is_of_beams(names%text, name(i))) name(i) = span_t()
          end do
          allocate (group(model%elements))
          call find_equal_texts(names%text, name, group, groups)
@@ -55,6 +56,17 @@ contains
       is_intermediate = .false.
       if (name%first > 0) is_intermediate = text(name%first:name%last) == 'intermediate node'
    end function is_intermediate
+
+   !> Whether a name is one that SPACAR Light gives to beams of every element: "beam", "beam 2".
+   pure logical function is_of_beams(text, name)
+      character(len=*), intent(in) :: text
+      type(span_t), intent(in) :: name
+
+      is_of_beams = .false.
+      if (name%first < 1 .or. name%last < name%first + 3) return
+      if (text(name%first:name%first + 3) /= 'beam') return
+      is_of_beams = verify(text(name%first + 4:name%last), ' 0123456789') == 0
+   end function is_of_beams
 
    !> The part of each element, as one of its elements.
    subroutine find_parts(model, group, groups, part)

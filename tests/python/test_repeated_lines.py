@@ -131,6 +131,13 @@ def test_a_deck_of_a_hundred_thousand_lines() -> None:
     assert int(np.sum(model.data.arrays.deformation_class == 2)) == 2 * (beams - 1)
 
 
+@pytest.mark.parametrize(("name", "notes"), [("beam", 0), ("beam 2", 0), ("beams", 1), ("leg", 1)])
+def test_names_that_older_ones_give_to_all_beams(name: str, notes: int) -> None:
+    lines = f"BEAM 1 1 2 4 5 #{name}\nBEAM 2 7 8 10 11 #{name}\nX 4 1 0 0\nX 7 0 1 0\nX 10 1 1 0\n"
+    model = flexact.read_text(f"{lines}FIX 1\nFIX 2\nFIX 7\nFIX 8\nEND\n")
+    assert [d.code for d in model.diagnostics] == ["repeated-name"] * notes
+
+
 def test_names_that_spacar_light_gives() -> None:
     """Every inner node has one name, and the beams of an element are one part."""
     lines = ["X 1 0 0 0 #node 1", "X 4 .1 0 0 #node 2"]
