@@ -14,6 +14,7 @@ from flexact.mesh.file import find_format, mesh_bytes
 from flexact.result.result import Result
 from flexact.text.json_result import text_of
 from flexact.text.log import log_text
+from flexact.text.spacar_log import spacar_log
 
 
 class ResultFiles:
@@ -24,8 +25,11 @@ class ResultFiles:
         MeshFormatError: There is no such mesh format.
     """
 
-    def __init__(self, decks: Sequence[DeckFile], folder: Path, mesh_format: str) -> None:
-        """Plan the files of all decks."""
+    def __init__(
+        self, decks: Sequence[DeckFile], folder: Path, mesh_format: str, log: str | None = None
+    ) -> None:
+        """Plan the files of all decks; `log` is the form of the logs, None that of Flexact."""
+        self._log = log
         with unwinding():
             self._format = find_format(mesh_format)
         self._plan = plan_files(decks, folder, (".json", ".log", f".{self._format}"))
@@ -35,7 +39,11 @@ class ResultFiles:
         try:
             contents = [f"{text_of(result)}\n".encode()]
             meshes = Meshes(result)
-            log = log_text(result, most_in_mesh=meshes.most_modes)
+            log = (
+                spacar_log(result)
+                if self._log
+                else log_text(result, most_in_mesh=meshes.most_modes)
+            )
             contents.append(log.encode("utf-8", "backslashreplace"))
             mesh = meshes.still()
             with unwinding():

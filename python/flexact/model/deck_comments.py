@@ -91,6 +91,8 @@ class _Reader:
         self.waiting: list[str] = []
         kinds = element_kinds()
         self.elements = {word for kind in kinds for word in (kind.keyword, kind.synonym) if word}
+        # Read as beams, and written as such.
+        self.elements.add("BEAMW")
 
     def read(self, line: str) -> None:
         """Take the next line."""
