@@ -47,6 +47,10 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .variants.crossings import Crossing, Crossings
+    from .variants.parameters import grid
+    from .variants.sweep import sweep
+    from .variants.table import Table
 
 __version__ = VERSION
 
@@ -71,6 +75,10 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
+    "variants.crossings": ("Crossing", "Crossings"),
+    "variants.parameters": ("grid",),
+    "variants.sweep": ("sweep",),
+    "variants.table": ("Table",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -84,6 +92,8 @@ __all__ = [
     "ClassCounts",
     "Configuration",
     "Counts",
+    "Crossing",
+    "Crossings",
     "DeckError",
     "Diagnostic",
     "Element",
@@ -105,14 +115,17 @@ __all__ = [
     "SelfStress",
     "Severity",
     "Sheet",
+    "Table",
     "Verdict",
     "Wire",
     "__version__",
     "analyse",
     "deformations",
+    "grid",
     "jacobian",
     "read",
     "read_text",
+    "sweep",
 ]
 
 

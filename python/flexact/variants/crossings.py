@@ -13,12 +13,11 @@ import numpy as np
 from ..base.errors import FlexactError
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..diagnostics.errors import ProblemsError
 from ..engine.running import results_of
 from ..result.outcome import Asked
 from ..result.result import Result, result_of
 from ..result.verdict import Verdict
-from .lines import ROWS, lines_of
+from .lines import lines_of
 from .parameters import Row
 from .roots import Zero, minimum, sign_change
 from .signed import SignedColumns, columns_of_signed, signed_value
@@ -155,13 +154,12 @@ def crossings_of(
 
 def _once(every: Sequence[Crossing]) -> Iterator[Crossing]:
     """Without those at rows that were found along another parameter, too."""
-    seen: set[tuple[int, str]] = set()
+    seen: set[int] = set()
     for each in every:
+        if each.kind != "row" or each.rows[0] not in seen:
+            yield each
         if each.kind == "row":
-            if (each.rows[0], each.along) in seen:
-                continue
-            seen.add((each.rows[0], each.along))
-        yield each
+            seen.add(each.rows[0])
 
 
 class _Rows(NamedTuple):
