@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from .variants.parameters import grid
     from .variants.sweep import sweep
     from .variants.table import Table
+    from .variants.tolerances import Tolerances, tolerances
 
 __version__ = VERSION
 
@@ -79,6 +80,7 @@ _HOMES = {
     "variants.parameters": ("grid",),
     "variants.sweep": ("sweep",),
     "variants.table": ("Table",),
+    "variants.tolerances": ("Tolerances", "tolerances"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -116,6 +118,7 @@ __all__ = [
     "Severity",
     "Sheet",
     "Table",
+    "Tolerances",
     "Verdict",
     "Wire",
     "__version__",
@@ -126,6 +129,7 @@ __all__ = [
     "read",
     "read_text",
     "sweep",
+    "tolerances",
 ]
 
 

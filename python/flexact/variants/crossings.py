@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, overload
 
@@ -20,7 +20,7 @@ from ..result.verdict import Verdict
 from .lines import lines_of
 from .parameters import Row
 from .roots import Zero, minimum, sign_change
-from .signed import SignedColumns, columns_of_signed, signed_value
+from .signed import Signed, SignedColumns, columns_of_signed, signed_value
 from .source import Positions, Source, between
 from .worker import signed_or_none
 
@@ -102,8 +102,9 @@ class Crossings(Frozen, Sequence[Crossing]):
 
 
 def _in_short(each: Crossing) -> str:
-    place = ", ".join(f"{k} {v:.10g}" for k, v in each.parameters.items() if isinstance(v, float))
-    return f"{place or f'rows {each.rows[0]} and {each.rows[1]} at {each.share:.6g}'}, {each.verdict}"
+    told = [f"{k} {v:.10g}" for k, v in each.parameters.items() if isinstance(v, float)]
+    told = told or [f"{each.share:.6g} from row {each.rows[0]} to {each.rows[1]}"]
+    return f"{', '.join(told)}: {each.verdict}"
 
 
 class _Search(NamedTuple):
@@ -162,16 +163,18 @@ def _once(every: Sequence[Crossing]) -> Iterator[Crossing]:
             seen.add(each.rows[0])
 
 
-class _Rows(NamedTuple):
+@dataclass(frozen=True)
+class _Rows:
     """Makes the variants of rows, and signs them."""
 
     table: Table
     source: Source
 
-    def __call__(self, index: int) -> object:
+    def __call__(self, index: int) -> Signed | None:
         """The signed smallest singular value of a row; None where there is none."""
         try:
-            data = self.source.variant(index, index, 0.0, _parameters(self.table, index, index, 0.0))
+            row = _parameters(self.table, index, index, 0.0)
+            data = self.source.variant(index, index, 0.0, row)
             data.require_sound()
         except Exception:
             return None
@@ -179,10 +182,11 @@ class _Rows(NamedTuple):
 
 
 def _signed_rows(table: Table, source: Source, workers: int | None) -> SignedColumns:
-    every: list[object] = [None] * len(table)
-    for done in results_of(_Rows(table, source), range(len(table)), workers=workers):
+    every: list[Signed | None] = [None] * len(table)
+    work: Callable[[int], Signed | None] = _Rows(table, source)
+    for done in results_of(work, range(len(table)), workers=workers):
         every[done.index] = done.result
-    return columns_of_signed(every)  # type: ignore[arg-type]
+    return columns_of_signed(every)
 
 
 def _parameters(table: Table, a: int, b: int, share: float) -> Row:
@@ -252,7 +256,8 @@ def _nan_if_none(value: float | None) -> float:
 
 def _at_row(table: Table, along: str, run: list[int], k: int, value: float) -> Crossing:
     row = run[k]
-    verdicts = [Verdict(table.verdict[run[j]]) for j in (max(k - 1, 0), k, min(k + 1, len(run) - 1))]
+    beside = (max(k - 1, 0), k, min(k + 1, len(run) - 1))
+    verdicts = [Verdict(table.verdict[run[j]]) for j in beside]
     return Crossing(
         _parameters(table, row, row, 0.0),
         along,
@@ -310,7 +315,7 @@ class _Follow:
     ) -> Result | None:
         data = source.variant(a, b, share, row)
         # The numbers there are rounded: to prove something of them says nothing.
-        result = result_of(data, Asked(prove=False))
+        result: Result = result_of(data, Asked(prove=False))
         if result.rank >= rank and (kind == "sign change" or abs(zero.value) < _ZERO):
             # A root lies between two neighbouring numbers, at which it is not quite zero.
             tolerance = max(result.tolerance, 2.0 * abs(zero.value), 2.0 * _last(result))
@@ -361,6 +366,8 @@ def _zeros(search: _Search, function: _Counted) -> Iterator[tuple[Zero, str]]:
         # Two roots near to each other.
         below = upward(lowest)
         for place, value in ((0.0, values[0]), (end, values[-1])):
-            zero = None if below is None else sign_change(upward, place, lowest, sign * value, below)
+            if below is None:
+                return
+            zero = sign_change(upward, place, lowest, sign * value, below)
             if zero is not None:
                 yield zero, "sign change"

@@ -33,7 +33,8 @@ def in_short(table: Table) -> str:
 def described(table: Table) -> str:
     """See `Table.describe`."""
     lines = [f"{_counted(len(table), 'variant')}{_of_parameters(table)}."]
-    lines += [f"{_capital(words)}: {_share(count, len(table))}." for words, count in counts_of(table)]
+    for words, count in counts_of(table):
+        lines.append(f"{_capital(words)}: {share_in_words(count, len(table))}.")
     lines += _smallest(table)
     lines += _first_error(table)
     return "\n".join(
@@ -60,16 +61,18 @@ def row_in_words(table: Table, row: int) -> str:
 def html_of(table: Table) -> str:
     """The words, and the first rows."""
     heads = "".join(f"<th>{escape(harmless(name))}</th>" for name in table.columns)
-    rows = "".join(
-        "<tr>" + "".join(f"<td>{escape(harmless(_value(v)))}</td>" for v in table[k].values()) + "</tr>"
-        for k in range(min(len(table), _MOST_ROWS))
-    )
+    rows = "".join(_row(table[k]) for k in range(min(len(table), _MOST_ROWS)))
     left = len(table) - _MOST_ROWS
     more = f"<p>and {_counted(left, 'further row')}</p>" if left > 0 else ""
     return (
         f"<div><pre>{escape(described(table))}</pre><table><thead><tr>{heads}</tr></thead>"
         f"<tbody>{rows}</tbody></table>{more}</div>"
     )
+
+
+def _row(row: dict[str, Any]) -> str:
+    cells = (f"<td>{escape(harmless(_value(value)))}</td>" for value in row.values())
+    return f"<tr>{''.join(cells)}</tr>"
 
 
 def _of_parameters(table: Table) -> str:
@@ -82,7 +85,8 @@ def _values(column: np.ndarray) -> str:
     if len(every) <= _FEW_VALUES:
         return ", ".join(map(_value, every))
     if column.dtype.kind in "if":
-        return f"{len(every)} values from {_value(np.nanmin(column).item())} to {_value(np.nanmax(column).item())}"
+        ends = (_value(end(column).item()) for end in (np.nanmin, np.nanmax))
+        return f"{len(every)} values from {' to '.join(ends)}"
     return f"{len(every)} values"
 
 
@@ -90,10 +94,11 @@ def _value(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _share(count: int, total: int) -> str:
+def share_in_words(count: int, total: int) -> str:
+    """A count, and how many per cent that is."""
     per_cent = 100.0 * count / total
-    shown = f"{per_cent:.3g}" if per_cent <= 99.0 or count == total else f"{per_cent:.{_digits(per_cent)}f}"
-    return f"{count} ({shown} %)"
+    short = 99.0 < per_cent < 100.0
+    return f"{count} ({f'{per_cent:.{_digits(per_cent)}f}' if short else f'{per_cent:.3g}'} %)"
 
 
 def _digits(per_cent: float) -> int:

@@ -18,9 +18,7 @@ ROWS = "rows"
 Array = np.ndarray
 
 
-def lines_of(
-    table: Table, along: str | None, in_order: bool
-) -> list[tuple[str, list[int]]]:
+def lines_of(table: Table, along: str | None, in_order: bool) -> list[tuple[str, list[int]]]:
     """Lines of neighbours: a name, and the rows in their order.
 
     Args:

@@ -76,7 +76,7 @@ class Given(NamedTuple):
 
     rows: Iterator[Row | Wrong]
     """Taken as they are needed."""
-    count: int | None
+    number: int | None
     """How many there are; None where that shows only as they come."""
 
 
@@ -200,7 +200,7 @@ def _plain(name: str, value: Any) -> Value:
         value = value.item()
     for kind in (bool, int, float, str):
         if isinstance(value, kind):
-            return kind(value)  # type: ignore[no-any-return]
+            return kind(value)
     if value is None:
         return None
     raise TypeError(

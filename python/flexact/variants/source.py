@@ -124,11 +124,11 @@ def made_by(make: Make, row: Row) -> ModelData:
     return data
 
 
-def between(names: Sequence[str], first: Sequence[Value], last: Sequence[Value], share: float) -> Row:
+def between(
+    names: Sequence[str], first: Sequence[Value], last: Sequence[Value], share: float
+) -> Row:
     """The parameters between those of two rows; what is no number is that of the first."""
-    return {
-        name: _between(a, b, share) for name, a, b in zip(names, first, last, strict=True)
-    }
+    return {name: _between(a, b, share) for name, a, b in zip(names, first, last, strict=True)}
 
 
 def _between(a: Value, b: Value, share: float) -> Value:

@@ -115,8 +115,13 @@ def _source_of(model: Model, positions: ArrayLike | None, held: ArrayLike | None
     moved = None if positions is None else positions_given(data, positions, many=True)
     masks = None if held is None else held_given(data, held, many=True)
     if moved is not None and masks is not None and len(moved) != len(masks):
-        raise ValueError(f"there are {len(moved)} positions, but {len(masks)} masks of what is held")
-    return Positions(data, *(None if each is None else each.copy() for each in (moved, masks)))
+        raise ValueError(
+            f"there are {len(moved)} positions, but {len(masks)} masks of what is held"
+        )
+    # What is given may change afterwards.
+    return Positions(
+        data, None if moved is None else moved.copy(), None if masks is None else masks.copy()
+    )
 
 
 def _of_model(
@@ -154,9 +159,7 @@ def _labels(parameters: Parameters | None, count: int) -> list[Row]:
     return [row for row in rows if not isinstance(row, Wrong)]
 
 
-def _of_function(
-    make: Make, parameters: Parameters, want: str, asked: Asked, work: Work
-) -> Table:
+def _of_function(make: Make, parameters: Parameters, want: str, asked: Asked, work: Work) -> Table:
     rows, count = given(parameters)
     kept: list[Row] = []
 

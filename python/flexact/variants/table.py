@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
@@ -13,14 +13,17 @@ import numpy as np
 
 from ..base.errors import FlexactError
 from ..base.frozen import Frozen
-from ..core.arrays import BoolArray, FloatArray
+from ..base.loading import load
+from ..core.arrays import BoolArray
 from ..result.verdict import Certainty
 from .columns import COLUMNS, ERROR, Column, columns_of
 from .crossings import Crossings, crossings_of
+from .curve_plot import curve
 from .described import described, html_of, in_short
+from .map_plot import parameter_map
 from .modes import NO_MOTIONS, NO_STRESSES, MotionArrays, StressArrays
 from .parameters import Row, Value, array_of
-from .plot import plot
+from .plot import chosen, finished, found_crossings
 from .signed import SignedColumns, columns_of_signed
 from .source import Source
 from .worker import Answer
@@ -161,7 +164,13 @@ class Table(Frozen):
             KeyError: there is no such column.
             ValueError: it holds no numbers.
         """
-        return plot(self, x, y, crossings, None if path is None else Path(path))
+        x, y = chosen(self, x, y)
+        found = found_crossings(self, crossings)
+        if x is not None and y in self.parameter_names:
+            made = parameter_map(self, x, str(y), found)
+        else:
+            made = curve(self, x, y, found)
+        return finished(made, self, None if path is None else Path(path))
 
     def describe(self) -> str:
         """What the variants are, and where the margin is smallest, in plain English."""
@@ -198,7 +207,7 @@ class Table(Frozen):
             FlexactError: pandas is missing.
         """
         try:
-            import pandas
+            pandas = load("pandas")
         except ImportError:
             raise FlexactError(
                 "a DataFrame needs the package pandas: pip install 'flexact[tables]'"
@@ -289,7 +298,7 @@ def table_of_answers(
     kept = (*columns_of(want), ERROR)
     cells: list[Sequence[Value]] = list(zip(*(answer.cells for answer in answers), strict=True))
     cells = cells or [[] for _ in kept]
-    found = {
+    found: dict[str, Array] = {
         column.name: np.array(values, np.str_ if column.kind is str else column.kind)
         for column, values in zip(kept, cells, strict=True)
     }

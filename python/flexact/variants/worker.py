@@ -12,7 +12,7 @@ from ..model.data import ModelData
 from ..model.variation import with_held, with_positions
 from ..result.decompose import AnalysisError
 from ..result.outcome import Asked
-from ..result.result import result_of
+from ..result.result import Result, result_of
 from .modes import MotionArrays, StressArrays, modes_of
 from .parameters import Row, in_a_line
 from .row import Value, error_row, row_of
@@ -72,7 +72,7 @@ class OfModel:
 
 
 def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
-    result = result_of(data, asked)
+    result: Result = result_of(data, asked)
     modes = modes_of(result) if want == "all" else None
     return Answer(
         tuple(row_of(result, want).values()), signed_or_none(data) if is_signed else None, modes
