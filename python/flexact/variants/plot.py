@@ -82,6 +82,7 @@ def add_legend(axes: Any, table: Table, *, has_singular: bool, marks: bool) -> N
     from matplotlib.patches import Patch
 
     handles: list[Any] = []
+    mark: Any
     for verdict in Verdict:
         if count := int((table.verdict == verdict.value).sum()):
             told = f"{verdict.value}: {count}"

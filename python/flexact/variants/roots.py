@@ -23,6 +23,8 @@ _NO_ZERO, _WARM = 10.0, 6
 _MOST_STEPS = 200
 #: What cannot be told from the minimum: so many times as much, or rounding of values about one.
 _AS_LOW, _NOTHING = 2.0, 4.0e-16
+#: A function is below zero where it is so by more than rounding.
+_BELOW = 1.0e-14
 
 
 class Zero(NamedTuple):
@@ -107,7 +109,7 @@ def _minimum(at: Callable[[float], float], a: float, c: float) -> float | None:
     fa, fb, fc, fd = at(a), at(b), at(c), at(d)
     for step in range(_MOST_STEPS):
         for place, value in ((b, fb), (d, fd)):
-            if value < 0.0:
+            if value < -_BELOW:
                 return place
         least, most = min(fa, fb, fc, fd), max(fa, fc)
         if step >= _WARM and least > _NO_ZERO * (most - least):
@@ -127,7 +129,7 @@ def _minimum(at: Callable[[float], float], a: float, c: float) -> float | None:
 
 def _lowest(seen: list[tuple[float, float]]) -> Zero:
     """The middle of where the function cannot be told from its minimum."""
-    value = min(seen)[0]
-    lowest = [place for each, place in seen if each <= max(_AS_LOW * value, _NOTHING)]
+    value = min(abs(each) for each, _ in seen)
+    lowest = [place for each, place in seen if abs(each) <= max(_AS_LOW * value, _NOTHING)]
     first, last = min(lowest), max(lowest)
     return Zero(0.5 * (first + last), value, max(last - first, _LAST_BITS))

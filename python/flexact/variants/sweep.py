@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from itertools import repeat
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.progress import Progress
@@ -137,6 +138,7 @@ def _of_model(
             workers=work.workers,
             progress=work.progress,
         )
+        found["error"] = np.array([" ".join(each.split()) for each in found["error"].tolist()], str)
         return table_of(labels, found, want, source)
     items = zip(
         *(repeat(None, source.count) if a is None else a for a in (source.positions, source.held)),
