@@ -150,22 +150,17 @@ def table(model: flexact.Model, count: int, rounds: int) -> str:
         f"| numpy, `linalg.svd(compute_uv=False)` of ready matrices | singular values of D(c) "
         f"| {per_million['numpy']:.0f} | 1 |"
     )
-    for kind, words in (
-        ("positions", "`sweep(model, positions=P, "),
-        ("function", "`sweep(make, p, "),
-    ):
+    for kind, words in KINDS.items():
         for want, known in KNOWN.items():
             name = f"{kind} {want}"
             told = f"{words}want={want!r})`".replace("'", '"')
             rows.append(f"| {told} | {known} | {per_million[name]:.0f} | {ratio[name]:.2g} |")
     rows.append(f"| of which `make` itself, in one process | | {per_million['making']:.0f} | |")
     size = memory_of(count)
-    rows += [
-        "",
-        f"{count} variants by positions, {count // 50} otherwise; medians of {rounds} rounds.",
-    ]
+    rows.append("")
     rows.append(
-        f"A process that sweeps {count} by positions takes {size:.0f} MB of memory at most."
+        f"{count} variants by positions, of the slower ones {few_of(count)}; medians of {rounds} "
+        f"rounds. A process that sweeps {count} by positions takes {size:.0f} MB at most."
     )
     return "\n".join(rows) + "\n"
 
