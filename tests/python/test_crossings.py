@@ -9,14 +9,17 @@ folded flat (input_decks/linkages/parallelogram_flat.dat).
 
 import math
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import flexact
-from flexact import Model, Table, Verdict, sweep
+from flexact import Model, Table, Verdict, analyse, sweep
 from flexact.variants.roots import Zero, minimum, sign_change
+from flexact.variants.signed import scaled_jacobian
 
+DECKS = Path(__file__).parents[2] / "input_decks"
 BASE = [(math.cos(a), math.sin(a), 0.0) for a in np.radians((0, 120, 240))]
 
 
@@ -274,6 +277,23 @@ def test_what_cannot_be_searched_is_told_in_words() -> None:
     assert back["yaw"].tolist() == [0.0, 10.0] and back.rank.tolist() == table.rank.tolist()
     with pytest.raises(flexact.FlexactError, match="Sweep again"):
         back.crossings()
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        "paper/six_folded_sheets",
+        "paper/twelve_trusses",
+        "flexures/five_wires",
+        "flexures/parallel_guide_four_beams",
+        "linkages/bennett",
+        "linkages/parallelogram_flat",
+    ],
+)
+def test_what_is_followed_is_the_scaled_matrix_of_the_analysis(deck: str) -> None:
+    model = flexact.read(DECKS / f"{deck}.dat")
+    values = np.linalg.svd(scaled_jacobian(model.data).matrix, compute_uv=False)
+    assert values == pytest.approx(analyse(model).scaled_singular_values, abs=1e-14)
 
 
 @pytest.mark.parametrize("root", [0.5, 1e-9, 1 - 1e-9, 1 / 3])

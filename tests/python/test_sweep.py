@@ -198,8 +198,16 @@ def test_a_grid_has_every_combination_and_its_last_parameter_changes_fastest() -
 
 
 def test_a_single_value_stands_for_all_rows() -> None:
-    table = sweep(platform, {"yaw": [0.0, 10.0], "name": "both"}, workers=1)
-    assert table["name"].tolist() == ["both", "both"]
+    parameters = {"yaw": [0.0, 10.0], "name": "both", "height": np.float64(2.0)}
+    table = sweep(platform, parameters, workers=1)
+    assert table["name"].tolist() == ["both", "both"] and table["height"].tolist() == [2.0, 2.0]
+
+
+def test_decks_are_swept_by_their_paths() -> None:
+    paths = sorted(str(path) for path in (DECKS / "paper").glob("*.dat"))[:3]
+    table = sweep(flexact.read, {"path": [*paths, "nowhere.dat"]}, workers=1)
+    assert table.rank.tolist()[:3] == [analyse(path).rank for path in paths]
+    assert table.error[3] == "DeckError: there is no such file"
 
 
 def test_what_fails_is_a_row_and_the_others_stay() -> None:
@@ -326,6 +334,8 @@ MODEL = platform(0.0)
         (lambda: sweep(platform, {"yaw": [1]}, want="more"), ValueError, "verdict, values, all"),
         (lambda: sweep(platform, {"yaw": [1]}, method="qr2"), ValueError, "qr2"),
         (lambda: sweep(platform, {"yaw": [1]}, workers=0), ValueError, "workers"),
+        (lambda: sweep(MODEL, positions=MODEL.positions[None], workers=0), ValueError, "workers"),
+        (lambda: sweep(MODEL, positions=MODEL.positions[None], workers="2"), TypeError, "str"),
         (lambda: sweep(platform, {"yaw": [1]}, progress=3), TypeError, "progress"),
         (lambda: sweep(Model(), positions=np.zeros((1, 0, 3))), flexact.ModelError, "nothing"),
     ],

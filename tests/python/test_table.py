@@ -144,6 +144,25 @@ def test_without_pandas_the_reason_is_told(monkeypatch: pytest.MonkeyPatch, tabl
         table.to_pandas()
 
 
+def test_models_of_rows_and_of_singular_variants(table: Table) -> None:
+    assert flexact.analyse(table.model(1)).gap.smallest_nonzero == pytest.approx(table.gap[1])
+    chosen = table[table["height"] == 0.5]
+    (found,) = chosen.crossings(workers=1)
+    assert flexact.analyse(chosen.model(found), prove=False).under_constrained == 1
+    with pytest.raises(RuntimeError, match="too high"):
+        table.model(7)
+    with pytest.raises(IndexError):
+        table.model(8)
+    model = platform(0.0)
+    places = np.array([platform(yaw).positions for yaw in (80.0, 95.0)])
+    moved = sweep(model, positions=places)
+    (found,) = moved.crossings(workers=1)
+    assert moved.model(1).positions == pytest.approx(places[1])
+    assert moved.model(found).positions == pytest.approx(
+        places[0] + found.share * (places[1] - places[0])
+    )
+
+
 # Pictures: what is drawn, not how it looks.
 
 

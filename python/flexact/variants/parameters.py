@@ -13,6 +13,7 @@ import numpy as np
 
 from ..base.plain_text import in_short
 from .columns import COLUMNS, ERROR
+from .row import in_a_line
 
 #: A parameter of a variant.
 Value = str | int | float | bool | None
@@ -22,7 +23,7 @@ Parameters = Any
 
 _TAKEN = {column.name for column in (*COLUMNS, ERROR)}
 _TEXTS = (str, bytes, bytearray)
-_PLAIN = (str, int, float, bool, type(None))
+_SINGLE = (str, int, float, bool, type(None), np.generic)
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ def _by_columns(columns: Mapping[Any, Any]) -> Given:
     for name in columns:
         require_name(name)
     made = {
-        name: values if isinstance(values, _PLAIN) else _column(name, values)
+        name: _plain(name, values) if isinstance(values, _SINGLE) else _column(name, values)
         for name, values in columns.items()
     }
     lengths = {name: len(values) for name, values in made.items() if isinstance(values, list)}
@@ -207,12 +208,6 @@ def _plain(name: str, value: Any) -> Value:
         f"the parameter {name} must be a number, a text, a truth value or None, "
         f"not {in_short(value)}"
     )
-
-
-def in_a_line(error: BaseException) -> str:
-    """Kind and message of an exception, on one line."""
-    words = " ".join(str(error).split())
-    return f"{type(error).__name__}: {words}" if words else type(error).__name__
 
 
 def array_of(values: Sequence[Value]) -> np.ndarray:

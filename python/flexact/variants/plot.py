@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 ERROR_COLOUR, DOUBT_COLOUR, SINGULAR_COLOUR = "#6b7280", "#8a6a00", "#111827"
 #: Rows of which each has a large mark.
 FEW_ROWS = 150
+#: Rows between which singular places are sought unasked.
+MOST_SEARCHED = 20_000
 #: Width and height of a picture [inch], and of each further panel.
 _SIZE, _PANEL, _DPI = (8.0, 6.2), 2.6, 120
 
@@ -136,7 +138,7 @@ def found_crossings(table: Table, given: bool | Crossings) -> Crossings:
     """The singular places to be drawn; none where rows have no neighbours."""
     if isinstance(given, Crossings):
         return given
-    if given:
+    if given and len(table) <= MOST_SEARCHED and varying(table):
         try:
             return table.crossings()
         except (ValueError, FlexactError):

@@ -31,7 +31,7 @@ from ..result.outcome import Asked
 from ..result.result import result_of
 from ..result.verdict import Certainty, Verdict
 from .columns import columns_of
-from .row import MISSING, Value, error_row, row_of
+from .row import MISSING, Value, error_row, in_a_line, row_of
 
 Columns = dict[str, np.ndarray]
 #: So many variants at once: some milliseconds of work, and few numbers.
@@ -193,4 +193,4 @@ def _row(data: ModelData, want: str) -> dict[str, Value]:
     try:
         return row_of(result_of(data, Asked()), want)
     except (AnalysisError, DeckError, ModelError) as error:
-        return error_row(str(error), want)
+        return error_row(in_a_line(error), want)

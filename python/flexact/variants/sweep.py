@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from itertools import repeat
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.progress import Progress
@@ -88,6 +87,10 @@ def sweep(
     asked = asked_for(method, tolerance, prove)
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be something to call, not {type(progress).__name__}")
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int)):
+        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
+    if workers is not None and workers < 1:
+        raise ValueError(f"workers must be 1 or more, not {workers}")
     work = Work(workers, executor, progress)
     if isinstance(of, Model):
         source = _source_of(of, positions, held)
@@ -138,7 +141,6 @@ def _of_model(
             workers=work.workers,
             progress=work.progress,
         )
-        found["error"] = np.array([" ".join(each.split()) for each in found["error"].tolist()], str)
         return table_of(labels, found, want, source)
     items = zip(
         *(repeat(None, source.count) if a is None else a for a in (source.positions, source.held)),

@@ -15,9 +15,10 @@ from ..base.errors import FlexactError
 from ..base.frozen import Frozen
 from ..base.loading import load
 from ..core.arrays import BoolArray
+from ..model.model import Model
 from ..result.verdict import Certainty
 from .columns import COLUMNS, ERROR, Column, columns_of
-from .crossings import Crossings, crossings_of
+from .crossings import Crossing, Crossings, crossings_of
 from .curve_plot import curve
 from .described import described, html_of, in_short
 from .map_plot import parameter_map
@@ -131,12 +132,7 @@ class Table(Frozen):
             FlexactError: nobody knows how to make variants between the rows.
             ValueError: there is no such parameter, or no row has a neighbour.
         """
-        if self._source is None:
-            raise FlexactError(
-                "this table does not know how its variants were made: it was read from a pickle, "
-                "and the function could not be kept. Sweep again"
-            )
-        return crossings_of(self, self._source, self._signed, along, workers)
+        return crossings_of(self, self._known_source(), self._signed, along, workers)
 
     def plot(
         self,
@@ -156,7 +152,8 @@ class Table(Frozen):
             y: Another parameter, for a map, or a column of the results, for a curve of it. By
                 default the second parameter that varies; without one, the smallest singular
                 value and the margin.
-            crossings: Whether singular places are sought, or those that were found.
+            crossings: Whether singular places are sought, or those that were found. They are not
+                sought unasked between more than 20,000 rows, or where no parameter varies.
             path: A file to write, too: .png or .svg.
 
         Raises:
@@ -171,6 +168,23 @@ class Table(Frozen):
         else:
             made = curve(self, x, y, found)
         return finished(made, self, None if path is None else Path(path))
+
+    def model(self, variant: int | Crossing) -> Model:
+        """The model of a row, by its number from 0, or of a singular variant between rows.
+
+        Raises:
+            FlexactError: the table does not know how its variants were made, or the model is
+                wrong.
+            IndexError: there is no such row.
+            Exception: whatever the function raises that makes the models.
+        """
+        source = self._known_source()
+        if isinstance(variant, Crossing):
+            return Model.from_data(source.variant(*variant.rows, variant.share, variant.parameters))
+        row = range(len(self))[variant]
+        own = self._row(row)
+        parameters = {name: own[name] for name in self.parameter_names}
+        return Model.from_data(source.variant(row, row, 0.0, parameters))
 
     def describe(self) -> str:
         """What the variants are, and where the margin is smallest, in plain English."""
@@ -228,6 +242,14 @@ class Table(Frozen):
             return super().__reduce__()
         return replace(self, _source=source).__reduce__()
 
+    def _known_source(self) -> Source:
+        if self._source is None:
+            raise FlexactError(
+                "this table does not know how its variants were made: it was read from a pickle, "
+                "and the function could not be kept. Sweep again"
+            )
+        return self._source
+
     def _row(self, index: int) -> dict[str, Any]:
         cells = (column[index : index + 1].tolist()[0] for column in self.arrays)
         return dict(zip(self.columns, cells, strict=True))
@@ -268,6 +290,11 @@ def _column_of(name: str, array: Array) -> Column:
     return Column(name, kind, "parameter", "verdict")
 
 
+def _kind_of(column: Column) -> type:
+    """Of the numbers or texts of a column; errors are few, and may be long."""
+    return object if column is ERROR else column.kind
+
+
 def table_of(
     rows: Sequence[Row],
     found: dict[str, Array],
@@ -299,7 +326,7 @@ def table_of_answers(
     cells: list[Sequence[Value]] = list(zip(*(answer.cells for answer in answers), strict=True))
     cells = cells or [[] for _ in kept]
     found: dict[str, Array] = {
-        column.name: np.array(values, np.str_ if column.kind is str else column.kind)
+        column.name: np.array(values, _kind_of(column))
         for column, values in zip(kept, cells, strict=True)
     }
     further: dict[str, Any] = {}

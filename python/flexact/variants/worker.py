@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..core.arrays import BoolArray, FloatArray
-from ..diagnostics.errors import ProblemsError
 from ..model.data import ModelData
 from ..model.variation import with_held, with_positions
 from ..result.decompose import AnalysisError
 from ..result.outcome import Asked
 from ..result.result import Result, result_of
 from .modes import MotionArrays, StressArrays, modes_of
-from .parameters import Row, in_a_line
-from .row import Value, error_row, row_of
+from .parameters import Row
+from .row import Value, error_row, in_a_line, row_of
 from .signed import Signed, signed_value
 from .source import Make, made_by
 
@@ -49,7 +48,7 @@ class OfFunction:
             data = made_by(self.make, row)
             return _answer(data, self.want, self.asked, is_signed=self.want != "verdict")
         except Exception as error:
-            return failed(first_problem(error), self.want)
+            return failed(in_a_line(error), self.want)
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ class OfModel:
             data = data if held is None else with_held(data, held)
             return _answer(data, self.want, self.asked)
         except Exception as error:
-            return failed(first_problem(error), self.want)
+            return failed(in_a_line(error), self.want)
 
 
 def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
@@ -85,12 +84,3 @@ def signed_or_none(data: ModelData) -> Signed | None:
         return signed_value(data)
     except AnalysisError:
         return None
-
-
-def first_problem(error: Exception) -> str:
-    """Kind and message of an exception on one line; of a wrong model the first error."""
-    if isinstance(error, ProblemsError):
-        first = next((each for each in error.diagnostics if each.is_error), None)
-        if first is not None:
-            return f"{type(error).__name__}: {first.message}"
-    return in_a_line(error)
