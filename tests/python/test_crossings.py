@@ -234,12 +234,37 @@ def test_positions_are_followed_along_straight_lines() -> None:
     assert len(found) == 2
     for each, angle in zip(found, (-90, 90), strict=True):
         a, b = each.rows
-        assert yaws[a] < angle < yaws[b] and each.along == "rows"
+        assert yaws[a] < angle < yaws[b] and each.along == "yaw"
         between = (1 - each.share) * positions[a] + each.share * positions[b]
         x, y, _ = between[between[:, 2] > 0][0]
         # On a chord the platform is smaller, but turned by as much at the singular place.
         assert abs(math.degrees(math.atan2(y, x)) - 60 - angle) % 360 == pytest.approx(0, abs=1e-9)
     assert found.evaluations < 100
+
+
+def test_positions_without_parameters_are_neighbours_in_their_order() -> None:
+    places = np.array([platform(yaw).positions for yaw in (60.0, 120.0, 60.0)])
+    table = sweep(platform(0.0), positions=places, workers=1)
+    found = table.crossings(workers=1)
+    assert [(each.along, each.rows) for each in found] == [("rows", (0, 1)), ("rows", (1, 2))]
+    # Halfway between 60 and 120 degrees.
+    assert [each.share for each in found] == pytest.approx([0.5, 0.5], abs=1e-12)
+    assert found[0].parameters == {}
+
+
+def test_a_grid_of_positions_is_searched_along_both_labels() -> None:
+    grid = flexact.grid(height=[1.0, 2.0], yaw=[50.0, 80.0, 110.0])
+    places = np.array([platform(**row).positions for row in grid])
+    found = sweep(platform(0.0), grid, positions=places, workers=1).crossings(workers=1)
+    assert [(each.along, each.rows) for each in found] == [("yaw", (1, 2)), ("yaw", (4, 5))]
+
+
+def test_models_too_large_to_sign_in_passing_are_signed_when_asked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("flexact.variants.worker._MOST_SIGNED", 1)
+    table = sweep(platform, {"yaw": [70.0, 100.0]}, workers=1)
+    assert table.crossings(workers=1).of("yaw") == pytest.approx([90], rel=1e-12)
 
 
 def test_masks_have_nothing_between_them() -> None:

@@ -135,7 +135,7 @@ def crossings_of(
     """See `Table.crossings`."""
     lines = lines_of(table, along, isinstance(source, Positions))
     made = 0
-    if signed is None:
+    if signed is None or bool(((signed.topology < 0) & ~table.has_error).any()):
         signed, made = _signed_rows(table, source, workers), len(table)
     at_rows: list[Crossing] = []
     searches: list[_Search] = []

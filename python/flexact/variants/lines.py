@@ -24,13 +24,15 @@ def lines_of(table: Table, along: str | None, in_order: bool) -> list[tuple[str,
     Args:
         table: The table.
         along: The parameter that changes along a line, `ROWS`, or None for all.
-        in_order: Whether rows are neighbours in their order by default.
+        in_order: Whether rows are neighbours in their order where no two differ in one parameter
+            alone.
 
     Raises:
         ValueError: there is no such parameter, or no row has a neighbour.
     """
-    if along == ROWS or (along is None and in_order):
-        return [(ROWS, list(range(len(table))))]
+    every = [(ROWS, list(range(len(table))))]
+    if along == ROWS:
+        return every
     names = varying(table)
     if along is not None and along not in names:
         told = ", ".join(names) if names else "none"
@@ -40,12 +42,14 @@ def lines_of(table: Table, along: str | None, in_order: bool) -> list[tuple[str,
         )
     chosen = names if along is None else [along]
     made = [(name, line) for name in chosen for line in _lines(table, name) if len(line) > 1]
-    if not made and len(table) > 1:
-        raise ValueError(
-            "no two rows differ in one number alone, so that none are neighbours; where "
-            f"parameters change together, say along={ROWS!r}"
-        )
-    return made
+    if made or len(table) < 2:
+        return made
+    if in_order and along is None:
+        return every
+    raise ValueError(
+        "no two rows differ in one number alone, so that none are neighbours; where parameters "
+        f"change together, say along={ROWS!r}"
+    )
 
 
 def varying(table: Table) -> list[str]:
@@ -57,9 +61,14 @@ def varying(table: Table) -> list[str]:
     ]
 
 
+def _keys(column: Array) -> list[object]:
+    """Values that can be compared: NaN is like NaN."""
+    return [None if value != value else value for value in column.tolist()]
+
+
 def _lines(table: Table, name: str) -> Iterator[list[int]]:
     """Rows that differ in one parameter alone, by its value; of equal ones the first."""
-    others = [table[other].tolist() for other in table.parameter_names if other != name]
+    others = [_keys(table[other]) for other in table.parameter_names if other != name]
     groups: dict[tuple[object, ...], list[int]] = defaultdict(list)
     for row, key in enumerate(zip(*others, strict=True) if others else [()] * len(table)):
         groups[key].append(row)

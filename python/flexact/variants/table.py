@@ -45,7 +45,7 @@ class Table(Frozen):
     A column is an attribute, `table.under_constrained`, or goes by its name, `table["angle"]`: a
     read-only array of (variants,). A row is a dictionary, `table[3]`, and
     `table[table.margin < 1e-5]` is the table of some rows. What a row has not is NaN, -1 of whole
-    numbers, or empty.
+    numbers, or empty. A parameter called like a method, such as "plot", goes by its name alone.
 
     Attributes:
         columns: The names of the columns in their order: parameters, then results.
@@ -117,8 +117,9 @@ class Table(Frozen):
         """Singular variants between neighbouring rows, found by bisection; see `Crossing`.
 
         Neighbours are rows that differ in one parameter alone, in the order of its values: of a
-        grid along each axis. Variants of a model by positions are neighbours in the order in
-        which they were given, with the straight line between them. Where D(c) is square its
+        grid along each axis. Variants of a model by positions, without such parameters, are
+        neighbours in the order in which they were given; each point goes along a straight line
+        between two of them. Where D(c) is square its
         smallest singular value is followed with the sign of the determinant, and bisected where
         that changes; where it only dips towards zero, or D(c) is not square, its minimum is
         sought. Two roots between the same neighbours can be missed: no finer than the rows.

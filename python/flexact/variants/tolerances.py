@@ -194,9 +194,8 @@ def tolerances(
 
     Each coordinate of each point, of the ground, too, is off by a normally distributed length,
     independent of all others. Position nodes at one place are one point. Nodes inside divided
-    sheets and wires are none: they follow the ends. Directions, such as the width of a sheet,
-    and the positions that other parts have to each other inside a rigid body, are not turned or
-    kept: only points move.
+    sheets and wires are none: they follow the ends. Nothing but points moves: directions, such as
+    the width of a sheet, stay, and points of one rigid body are misaligned one by one.
 
     Args:
         model: The mechanism as designed.

@@ -6,6 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from ..core.arrays import BoolArray, FloatArray
 from ..model.data import ModelData
 from ..model.variation import with_held, with_positions
@@ -17,6 +19,9 @@ from .parameters import Row
 from .row import Value, error_row, in_a_line, row_of
 from .signed import Signed, signed_value
 from .source import Make, made_by
+
+#: Entries of D(c) up to which a sign costs little beside an analysis.
+_MOST_SIGNED = 40_000
 
 
 class Answer(NamedTuple):
@@ -73,14 +78,14 @@ class OfModel:
 def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
     result: Result = result_of(data, asked)
     modes = modes_of(result) if want == "all" else None
-    return Answer(
-        tuple(row_of(result, want).values()), signed_or_none(data) if is_signed else None, modes
-    )
+    is_signed = is_signed and result.rows * result.columns <= _MOST_SIGNED
+    signed = signed_or_none(data) if is_signed else None
+    return Answer(tuple(row_of(result, want).values()), signed, modes)
 
 
 def signed_or_none(data: ModelData) -> Signed | None:
     """The signed smallest singular value; None of a model that is too large for it."""
     try:
         return signed_value(data)
-    except AnalysisError:
+    except (AnalysisError, MemoryError, np.linalg.LinAlgError):
         return None
