@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 #: Below this part of the largest a value stands at the lower edge: it is zero.
 _ZERO = 1.0e-9
+#: Rows that are joined where they follow nothing but each other, and whose marks can be told apart.
+_MOST_JOINED = 2_000
 #: So many singular places are told by their value.
 _MOST_TOLD = 6
 
@@ -71,6 +73,8 @@ _LOGARITHMIC = (
 
 
 def _lines(table: Table, x: str | None) -> list[list[int]]:
+    if x is None and len(table) > _MOST_JOINED:
+        return []
     try:
         return [rows for _, rows in lines_of(table, ROWS if x is None else x, False)]
     except ValueError:
@@ -110,9 +114,10 @@ def _draw(
             xs = np.sort(xs)
         axes.plot(xs, ys, color="#9ca3af", lw=1.0, zorder=2)
     there = np.isfinite(values)
-    size = 26 if len(table) <= FEW_ROWS else 9
-    colours = verdict_colours(table)
-    axes.scatter(along[there], values[there], c=colours[there], s=size, zorder=4, clip_on=False)
+    many = len(table) > _MOST_JOINED
+    size = 26 if len(table) <= FEW_ROWS else 2 if many else 9
+    points: Any = {"s": size, "c": verdict_colours(table)[there], "rasterized": many}
+    axes.scatter(along[there], values[there], zorder=4, clip_on=False, **points)
     if quantity.is_logarithmic:
         axes.set_ylim(bottom=floor)
     for place in places:

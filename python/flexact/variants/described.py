@@ -96,14 +96,15 @@ def _value(value: Any) -> str:
 
 def share_in_words(count: int, total: int) -> str:
     """A count, and how many per cent that is."""
-    per_cent = 100.0 * count / total
-    short = 99.0 < per_cent < 100.0
-    return f"{count} ({f'{per_cent:.{_digits(per_cent)}f}' if short else f'{per_cent:.3g}'} %)"
+    return f"{count} ({per_cent(count / total)} %)"
 
 
-def _digits(per_cent: float) -> int:
-    """So many decimals that what is short of a hundred stays so."""
-    return max(1, math.ceil(-math.log10(100.0 - per_cent)))
+def per_cent(part: float) -> str:
+    """A part in per cent; what is short of a hundred stays so."""
+    shown, left = 100.0 * part, 100.0 * (1.0 - part)
+    if not 0.0 < left < 1.0:
+        return f"{shown:.3g}"
+    return f"{shown:.{max(1, math.ceil(-math.log10(left)))}f}"
 
 
 def _smallest(table: Table) -> list[str]:

@@ -19,7 +19,7 @@ from ..core.progress import Progress
 from ..model.model import Model
 from ..result.verdict import Verdict
 from ..text.units import length_in_words
-from .described import share_in_words
+from .described import per_cent, share_in_words
 from .histogram import histograms
 from .misaligned import Spread, misaligned, spread_given
 from .plot import finished, smallest_values
@@ -61,7 +61,7 @@ class Share(NamedTuple):
 
     def __str__(self) -> str:
         """In words."""
-        between = f"{100 * self.low:.3g} to {100 * self.high:.3g} %"
+        between = f"{per_cent(self.low)} to {per_cent(self.high)} %"
         return f"{share_in_words(self.number, self.of)} of the samples, 95 % confidence {between}"
 
 
