@@ -61,7 +61,7 @@ class ExecutorCrew:
 
 def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
     try:
-        results, error, seconds = future.result()
+        results, seconds, error = future.result()
     except (BrokenExecutor, CancelledError) as reason:
         words = str(reason) or "cancelled"
         raise EngineError(f"the executor is broken ({words}); {_MEND}") from reason

@@ -12,7 +12,7 @@ from .chunks import Answer, Source
 from .errors import EngineError as EngineError
 from .processors import processors
 
-#: So many workers may die over an item.
+#: Over an item that was alone so many workers die before it is given up.
 _MOST_DEATHS = 2
 
 
@@ -129,7 +129,7 @@ def _learnt(answer: Answer, source: Source) -> Iterator[Done]:
         source.learn(len(answer.results), answer.seconds)
     elif not answer.death:
         source.put_back(chunk)
-    elif chunk.deaths + 1 >= _MOST_DEATHS:
-        yield from (Done(index, None, answer.death) for index in chunk.indices)
+    elif len(chunk.items) == 1 and chunk.deaths + answer.deaths >= _MOST_DEATHS:
+        yield Done(chunk.indices[0], None, answer.death)
     else:
-        source.repeat(chunk)
+        source.repeat(chunk, answer.deaths)
