@@ -101,3 +101,12 @@ def _awaited(log: Path, process: "subprocess.Popen[bytes]", pattern: str) -> str
             return found[1]
         time.sleep(0.02)
     raise AssertionError(f"it has not started: {log.read_text(encoding='utf-8', errors='replace')}")
+
+
+def is_alive(pid: int) -> bool:
+    """Whether there is such a process, and it is not merely waited for."""
+    try:
+        status = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2]
+    except OSError:
+        return False
+    return status.split()[0] != "Z"

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from dask_cluster import is_alive
 
 import flexact
 from flexact.engine import local_pool
@@ -83,7 +84,7 @@ def test_items_are_taken_as_they_are_needed() -> None:
     for given in range(20 * MOST_ITEMS):
         assert next(found).result is not None
         assert taken - given <= 6 * MOST_ITEMS
-    found.close()  # type: ignore[attr-defined]
+    found.close()
     assert children() == 0
 
 
@@ -247,7 +248,7 @@ def test_what_an_executor_has_not_begun_is_taken_back() -> None:
     with ThreadPoolExecutor(1) as executor:
         found = results_of(lambda k: time.sleep(0.001) or k, range(10**9), executor=executor)
         next(found)
-        found.close()  # type: ignore[attr-defined]
+        found.close()
 
 
 # Processes that end
@@ -266,14 +267,6 @@ for done in results_of(work, range(100), workers=2):
     if len(pids) == 2:
         print(*pids, flush=True)
 """
-
-
-def is_alive(pid: int) -> bool:
-    try:
-        status = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2]
-    except OSError:
-        return False
-    return status.split()[0] != "Z"
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc")

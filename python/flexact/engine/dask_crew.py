@@ -154,7 +154,7 @@ class DaskCrew:
                 cluster = self._dask.LocalCluster(
                     n_workers=self._workers or processors(),
                     threads_per_worker=1,
-                    dashboard_address=None,
+                    dashboard_address="127.0.0.1:0",
                     silence_logs=logging.CRITICAL,
                 )
                 self._own.append(cluster)
@@ -183,7 +183,7 @@ class DaskCrew:
         elif now - self._had_workers > _NO_WORKER:
             raise EngineError(
                 f"the Dask scheduler has had no worker for {_NO_WORKER:.0f} s; start some, such as "
-                f"`dask worker {self._address()}`, and go on"
+                f"`dask worker {self._address()}`, and try again"
             )
         self._looked = now
 
@@ -201,8 +201,8 @@ class DaskCrew:
         self._is_lost = True
         words = (str(reason) or type(reason).__name__).splitlines()[0]
         return EngineError(
-            f"the Dask scheduler at {self._address()} was lost ({words}); "
-            "what is done stays done: start it again and go on"
+            f"the Dask scheduler at {self._address()} was lost ({words}): start it again, then "
+            "what was not done"
         )
 
     def _address(self) -> str:

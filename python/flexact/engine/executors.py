@@ -19,7 +19,7 @@ from .chunks import Answer, Chunk, Source, timed
 from .errors import EngineError
 from .processors import processors
 
-_MEND = "what is done stays done; go on with another one"
+_MEND = "go on with another one"
 
 
 class ExecutorCrew:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import Any, NamedTuple, Protocol
 
 from ..base.loading import load
@@ -49,7 +49,7 @@ def results_of(
     *,
     executor: Any = None,
     workers: int | None = None,
-) -> Iterator[Done]:
+) -> Generator[Done, None, None]:
     """Apply a function to items by several workers; results as they come, in any order.
 
     Items are sent in chunks of some 40 ms of work, found as it runs, and taken as they are needed,
@@ -96,7 +96,7 @@ def _crew(function: Callable[[Any], Any], executor: Any, workers: int | None) ->
     return pool
 
 
-def _run(crew: Crew, source: Source) -> Iterator[Done]:
+def _run(crew: Crew, source: Source) -> Generator[Done, None, None]:
     try:
         while True:
             crew.feed(source)
