@@ -12,12 +12,14 @@ from queue import Empty, SimpleQueue
 from typing import Any
 
 from ..base.loading import load
-from .chunks import CHUNK_SECONDS, Answer, Chunk, Raised, Source, timed
+from .chunks import Answer, Chunk, Raised, Source, timed
 from .errors import EngineError
 from .processors import processors
 
-#: What a scheduler is given to do at most [chunks/s]: it can do some times as much.
-CHUNKS_PER_SECOND = 500.0
+#: What a chunk should take at least [s]: master, scheduler and worker take some 5 ms for it.
+LEAST_SECONDS = 0.25
+#: What a scheduler is given to do at most [chunks/s]: it can do some five times as much.
+CHUNKS_PER_SECOND = 100.0
 #: How long a scheduler may take to answer, and how long there may be no worker [s].
 _ANSWER, _NO_WORKER = 10.0, 60.0
 #: How often workers are counted [s].
@@ -83,7 +85,7 @@ class DaskCrew:
         if self._client is None:
             self._connect()
         self._look()
-        source.chunk_seconds = max(CHUNK_SECONDS, self._threads / CHUNKS_PER_SECOND)
+        source.chunk_seconds = max(LEAST_SECONDS, self._threads / CHUNKS_PER_SECOND)
         most = max(1, self._threads) * (2 if source.are_short else 1)
         while len(self._chunks) < most and (chunk := source.next()) is not None:
             items = self._pickled(chunk.items, "an item")
