@@ -47,7 +47,7 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
-    from .variants.crossings import Crossing, Crossings
+    from .variants.crossing import Crossing, Crossings
     from .variants.parameters import grid
     from .variants.sweep import sweep
     from .variants.table import Table
@@ -76,7 +76,7 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
-    "variants.crossings": ("Crossing", "Crossings"),
+    "variants.crossing": ("Crossing", "Crossings"),
     "variants.parameters": ("grid",),
     "variants.sweep": ("sweep",),
     "variants.table": ("Table",),

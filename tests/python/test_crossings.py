@@ -223,6 +223,18 @@ def test_what_changes_the_topology_or_fails_ends_a_search() -> None:
     assert len(table.crossings(workers=1)) == 0
 
 
+def test_another_mechanism_between_two_rows_is_not_followed() -> None:
+    """From 0.45 to 0.55 it has a bar more; its singular values are no values of the rows'."""
+
+    def make(t: float) -> Model:
+        bars = [(-1, 0, -1, 0), (0, -1, 0, -1), (1, 1 + t - 0.5, 1, 1)]
+        return held_by(*bars, *([(2, 1, 1, 3)] if 0.45 < t < 0.55 else []))
+
+    table = sweep(make, {"t": [0.0, 0.2, 0.4, 0.6, 0.8]}, workers=1)
+    assert set(table.verdict) == {Verdict.EXACT.value}
+    assert len(table.crossings(workers=1)) == 0
+
+
 def test_positions_are_followed_along_straight_lines() -> None:
     """The platform's corners go along chords: it is smaller between two rows, and turned."""
     yaws = np.linspace(-140, 155, 24)

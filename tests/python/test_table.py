@@ -245,6 +245,26 @@ def test_a_table_without_values_is_drawn() -> None:
     assert line.axes[0].get_ylabel() == "rank of D(c)"
 
 
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        {"yaw": [math.nan, 1.0, 2.0]},
+        {"yaw": [math.nan] * 3},
+        {"yaw": [0.0, 1.0, 0.0, 1.0], "height": [1.0, 1.0, math.inf, 2.0]},
+        {"yaw": [None, "a", True]},
+        grid(yaw=[100.5, 130.0], height=[2.0, 3.0]),
+        {"yaw": [5.0], "height": [2.0]},
+        [],
+    ],
+)
+def test_whatever_the_rows_are_they_are_drawn_and_told(parameters: Any) -> None:
+    for want in ("verdict", "values"):
+        table = sweep(lambda yaw, height=1.0: many(yaw, height), parameters, want=want, workers=1)
+        figure = table.plot()
+        assert table.describe() and table._repr_html_()
+    assert figure._repr_png_()  # type: ignore[attr-defined]
+
+
 def test_what_cannot_be_drawn_is_told_in_words(table: Table, tmp_path: Path) -> None:
     with pytest.raises(KeyError, match="length"):
         table.plot("length")

@@ -59,7 +59,7 @@ def answers_of(
 
     results = results_of(function, taken(), executor=work.executor, workers=work.workers)
     try:
-        with closing(results):  # type: ignore[type-var]
+        with closing(results):
             for done in results:
                 answer = done.result or failed(done.failure, want)
                 answers[sent[done.index]] = answer

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
-from .crossings import Crossing, Crossings
+from .crossing import Crossing, Crossings
 from .lines import ROWS, lines_of
 from .plot import (
     FEW_ROWS,

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .crossings import Crossing
+from .crossing import Crossing
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]

@@ -104,7 +104,7 @@ def per_cent(part: float) -> str:
     shown, left = 100.0 * part, 100.0 * (1.0 - part)
     if not 0.0 < left < 1.0:
         return f"{shown:.3g}"
-    return f"{shown:.{max(1, math.ceil(-math.log10(left)))}f}"
+    return f"{shown:.{max(1, math.ceil(-math.log10(left) - 1e-6))}f}"
 
 
 def _smallest(table: Table) -> list[str]:

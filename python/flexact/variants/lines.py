@@ -54,11 +54,13 @@ def lines_of(table: Table, along: str | None, in_order: bool) -> list[tuple[str,
 
 def varying(table: Table) -> list[str]:
     """The parameters of which there are different numbers."""
-    return [
-        name
-        for name in table.parameter_names
-        if table[name].dtype.kind in "if" and np.unique(table[name]).size > 1
-    ]
+    numbers = [name for name in table.parameter_names if table[name].dtype.kind in "if"]
+    return [name for name in numbers if np.unique(_finite(table[name])).size > 1]
+
+
+def _finite(column: Array) -> Array:
+    there: Array = column[np.isfinite(column)]
+    return there
 
 
 def _keys(column: Array) -> list[object]:

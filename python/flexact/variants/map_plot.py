@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.arrays import BoolArray, FloatArray
 from ..text.units import length_in_words
-from .crossings import Crossings
+from .crossing import Crossings
 from .curves import curves_of
 from .plot import (
     SINGULAR_COLOUR,
@@ -67,6 +67,8 @@ def _cells(
     Raises:
         ValueError: several rows have the same parameters.
     """
+    if not np.isfinite(columns).all():
+        return None
     (xs, i), (ys, j) = (np.unique(column, return_inverse=True) for column in columns)
     made = np.full((ys.size, xs.size), -1)
     made[j, i] = np.arange(len(table))

@@ -16,7 +16,7 @@ from ..picture.files import png_bytes, svg_bytes
 from ..picture.loading import load_matplotlib
 from ..picture.make import PictureError, check_packages
 from ..result.verdict import Verdict
-from .crossings import Crossings
+from .crossing import Crossings
 from .described import described, in_short
 from .lines import varying
 

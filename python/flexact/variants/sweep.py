@@ -14,12 +14,13 @@ from ..model.model import Model
 from ..model.variation import held_given, positions_given
 from ..result.decompose import asked_for
 from ..result.outcome import Asked
+from .building import table_of, table_of_answers
 from .collecting import Work, answers_of
 from .columns import columns_of
 from .parameters import Parameters, Row, Wrong, given
 from .positions import swept
 from .source import Make, Making, Positions
-from .table import Table, table_of, table_of_answers
+from .table import Table
 from .worker import OfFunction, OfModel
 
 _PLAIN = Asked()
