@@ -132,6 +132,32 @@ def test_dead_centres_of_a_slider_crank() -> None:
     assert found.of("angle") == pytest.approx([0, math.pi], rel=1e-12, abs=1e-15)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_every_change_of_sign_of_the_determinant_is_found(seed: int) -> None:
+    """Random bars that turn and wander: the determinant of their three lines, at rows alone."""
+    rng = np.random.default_rng(seed)
+    places, speeds = rng.uniform(-1, 1, (3, 2)), rng.uniform(-0.5, 0.5, (3, 2))
+    angles, turns = rng.uniform(0, 2 * math.pi, 3), rng.uniform(-2, 2, 3)
+
+    def bars(t: float) -> list[tuple[float, float, float, float]]:
+        return [
+            (*(p + t * v), math.cos(a + t * w), math.sin(a + t * w))
+            for p, v, a, w in zip(places, speeds, angles, turns, strict=True)
+        ]
+
+    def determinant(t: float) -> float:
+        return float(np.linalg.det([(u, v, x * v - y * u) for x, y, u, v in bars(t)]))
+
+    rows = np.linspace(0, 3, 20)
+    table = sweep(lambda t: held_by(*bars(t)), {"t": rows}, want="verdict", workers=1)
+    found = table.crossings(workers=1)
+    signs = np.sign([determinant(t) for t in rows])
+    changes = np.flatnonzero(signs[:-1] != signs[1:]).tolist()
+    assert set(changes) <= {each.rows[0] for each in found}
+    for t in found.of("t"):
+        assert abs(determinant(t)) < 1e-13
+
+
 def test_change_points_of_a_parallelogram() -> None:
     """Folded flat it has two motions and a self-stress, as in linkages/parallelogram_flat.dat."""
     table = sweep(parallelogram, {"angle": np.linspace(-0.45, 5.0, 12)}, workers=1)
