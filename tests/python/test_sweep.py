@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sweeps: the same rows as one analysis each, however parameters come, and errors in words."""
 
+import itertools
 import math
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -273,10 +274,23 @@ def test_a_lost_executor_leaves_what_was_done() -> None:
             executor.shutdown(wait=False)
         return platform(yaw)
 
-    table = sweep(make, ({"yaw": float(k)} for k in range(2000)), executor=executor)
+    table = sweep(make, {"yaw": range(2000)}, executor=executor)
     assert len(table) == 2000
     assert not table.error[0] and table.error[-1].startswith("not done: ")
     assert table["yaw"].tolist() == list(range(2000))
+
+
+def test_a_lost_executor_ends_rows_that_have_no_end() -> None:
+    executor = ThreadPoolExecutor(1)
+
+    def make(yaw: float) -> Model:
+        if yaw == 30:
+            executor.shutdown(wait=False)
+        return platform(yaw)
+
+    table = sweep(make, ({"yaw": k} for k in itertools.count()), executor=executor)
+    assert not table.error[0]
+    assert table.error[-1].startswith("not done, nor is what would follow: ")
 
 
 def test_progress_goes_to_one() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import closing
+from itertools import islice
 from typing import Any, NamedTuple, TypeVar
 
 from ..core.progress import Progress
@@ -69,8 +70,11 @@ def answers_of(
     except EngineError as error:
         if not answers:
             raise
-        for _ in taken():
+        left = taken()
+        # Rows that come one by one may have no end.
+        for _ in left if count is not None else islice(left, 1):
             pass
+        further = "" if count is not None else ", nor is what would follow"
         for place in range(seen):
-            answers.setdefault(place, failed(f"not done: {error}", want))
+            answers.setdefault(place, failed(f"not done{further}: {error}", want))
     return [answers[place] for place in range(seen)]
