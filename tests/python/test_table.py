@@ -212,6 +212,29 @@ def test_a_curve_over_one_parameter(tmp_path: Path) -> None:
     assert {text.get_text() for text in upper.texts} == {"-90", "90"}
 
 
+def test_a_curve_is_broken_at_errors_and_ends_below_at_zeros() -> None:
+    def make(yaw: float) -> flexact.Model:
+        if yaw == 40:
+            raise RuntimeError("no")
+        return platform(yaw)
+
+    table = sweep(make, {"yaw": [20.0, 40.0, 60.0, 90.0, 120.0]}, workers=1)
+    figure: Any = table.plot()
+    axes = figure.axes[0]
+    (line,) = [each for each in axes.lines if len(each.get_xdata()) > 2]
+    drawn = dict(zip(line.get_xdata(), line.get_ydata(), strict=True))
+    assert math.isnan(drawn[40.0]) and drawn[20.0] == table.gap[0]
+    assert drawn[90.0] == axes.get_ylim()[0] < table.gap[[2, 4]].min()
+
+
+def test_a_condition_number_does_not_fall_at_singular_places() -> None:
+    table = sweep(platform, {"yaw": [60.0, 80.0, 95.0, 110.0]}, workers=1)
+    figure: Any = table.plot("yaw", "condition_number")
+    axes = figure.axes[0]
+    (line,) = [each for each in axes.lines if len(each.get_xdata()) > 2]
+    assert line.get_ydata() == pytest.approx(table.condition_number)
+
+
 def test_a_curve_of_any_column_and_one_over_rows(table: Table) -> None:
     figure: Any = table.plot("yaw", "condition_number", crossings=False)
     (axes,) = figure.axes
@@ -230,9 +253,11 @@ def test_scattered_parameters_are_points() -> None:
         many, {"yaw": rng.uniform(-80, 150, 12), "height": rng.uniform(0.5, 2, 12)}, workers=1
     )
     figure: Any = table.plot("yaw", "height")
-    points = next(each for each in figure.axes[0].collections if len(each.get_offsets()) == 12)
-    assert np.asarray(points.get_offsets())[:, 0] == pytest.approx(table["yaw"])
-    assert table.has_error.any()
+    sound = ~table.has_error
+    drawn = [np.asarray(each.get_offsets()) for each in figure.axes[0].collections]
+    points = next(each for each in drawn if len(each) == sound.sum())
+    assert points[:, 0] == pytest.approx(table["yaw"][sound])
+    assert 0 < sound.sum() < 12
     assert legend_of(figure)[-1] == f"error: {table.has_error.sum()}"
 
 

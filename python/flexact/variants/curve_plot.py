@@ -37,6 +37,8 @@ class _Quantity(NamedTuple):
     words: str
     values: FloatArray
     is_logarithmic: bool
+    falls: bool
+    """Whether it is zero at singular places."""
 
 
 def curve(table: Table, x: str | None, y: str | None, crossings: Crossings) -> Any:
@@ -57,19 +59,17 @@ def curve(table: Table, x: str | None, y: str | None, crossings: Crossings) -> A
 def _quantities(table: Table, y: str | None) -> list[_Quantity]:
     if y is not None:
         values = table[y].astype(float)
-        return [_Quantity(y, values, y in _LOGARITHMIC)]
+        return [_Quantity(y, values, y in _LOGARITHMIC, y in _FALLING)]
     if "gap" not in table.columns:
-        return [_Quantity("rank of D(c)", table.rank, False)]
+        return [_Quantity("rank of D(c)", table.rank, False, False)]
     return [
-        _Quantity("smallest singular value", smallest_values(table), True),
-        _Quantity("margin [m]", table["margin"], True),
+        _Quantity("smallest singular value", smallest_values(table), True, True),
+        _Quantity("margin [m]", table["margin"], True, True),
     ]
 
 
-_LOGARITHMIC = (
-    *("gap", "largest_zero", "smallest_singular_value", "condition_number", "margin"),
-    "margin_angle",
-)
+_FALLING = ("gap", "smallest_singular_value", "margin", "margin_angle")
+_LOGARITHMIC = (*_FALLING, "largest_zero", "condition_number")
 
 
 def _lines(table: Table, x: str | None) -> list[list[int]]:
@@ -103,11 +103,12 @@ def _draw(
     if quantity.is_logarithmic:
         axes.set_yscale("log")
         above = values[values > _ZERO * np.nanmax(values, initial=0.0)]
-        floor = _floor(above, bool(places) or bool((values <= 0.0).any()))
-        values = np.fmax(values, floor)
+        zeros = bool((values <= 0.0).any()) or (quantity.falls and bool(places))
+        floor = _floor(above, zeros)
+        values = np.maximum(values, floor)
     for rows in lines:
         xs, ys = along[list(rows)], values[list(rows)]
-        if quantity.is_logarithmic and len(lines) == 1:
+        if quantity.falls and len(lines) == 1:
             # The curve comes down to zero at singular places between the rows.
             xs = np.concatenate((xs, places))
             ys = np.concatenate((ys, np.full(len(places), floor)))[np.argsort(xs, kind="stable")]

@@ -45,7 +45,9 @@ def parameter_map(table: Table, x: str, y: str, crossings: Crossings) -> Any:
     figure = figure_of()
     axes = figure.subplots()
     if cells is None:
-        axes.scatter(*columns, c=verdict_colours(table), s=22, zorder=3)
+        sound = ~table.has_error
+        points = (column[sound] for column in columns)
+        axes.scatter(*points, c=verdict_colours(table)[sound], s=22, zorder=3)
     else:
         _draw_cells(axes, cells, columns, _shaded(table), table.has_error)
         _draw_contours(axes, table, cells, columns)
