@@ -132,6 +132,29 @@ def test_dead_centres_of_a_slider_crank() -> None:
     assert found.of("angle") == pytest.approx([0, math.pi], rel=1e-12, abs=1e-15)
 
 
+@pytest.mark.parametrize("beams", [1, 3])
+def test_a_guide_of_two_sheets_that_point_at_its_declared_point(beams: int) -> None:
+    """Then nothing stops the rotation about it: where the second sheet, turned by an angle about
+    (0, 0.05), is in line with (0.1, 0), the end of the first. Over-constrained everywhere."""
+
+    def make(angle: float) -> Model:
+        end = (0.1 * math.cos(angle), 0.05 + 0.1 * math.sin(angle), 0)
+        model = Model()
+        for p, q in (((0, 0, 0), (0.1, 0, 0)), ((0, 0.05, 0), end)):
+            model.sheet(p, q, width=(0, 0, 1), beams=beams)
+            model.fix(p)
+        model.body([(0.1, 0, 0), end], name="stage")
+        model.independent("stage", "y")
+        return model
+
+    table = sweep(make, {"angle": np.linspace(-3, 3.1, 16)}, workers=1)
+    assert set(table.verdict) == {Verdict.OVER.value}
+    found = table.crossings(workers=1)
+    known = [-math.atan(0.5), math.pi - math.atan(0.5)]
+    assert found.of("angle") == pytest.approx(known, rel=1e-12)
+    assert [(each.kind, each.verdict) for each in found] == [("touch", Verdict.BOTH)] * 2
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_every_change_of_sign_of_the_determinant_is_found(seed: int) -> None:
     """Random bars that turn and wander: the determinant of their three lines, at rows alone."""
