@@ -12,7 +12,7 @@ PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist workstea
 QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
          derivatives certainty accuracy json advice advice_on_declarations modes broken_decks no_cascades \
          diagnostics_rendering reading regress cli outputs wording docs version package_files parts screws \
-         builder_words builder_bodies builder_edits gallery
+         builder_words builder_bodies builder_edits gallery sweep crossings notebooks
 
 # Tests that compare words with files.
 WORDED := wording broken_decks appearance docs element_table gallery

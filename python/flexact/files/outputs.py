@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import stat
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import BinaryIO
 
 from ..base.errors import BatchError, reason_of
 from ..base.interruption import undisturbed
@@ -116,6 +118,47 @@ def write_together(files: Mapping[Path, bytes]) -> None:
         with undisturbed():
             for temporary in waiting:
                 temporary.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def written_whole(target: Path) -> Iterator[BinaryIO]:
+    """A file to write piece by piece, which is at its place when the block ends, or not at all.
+
+    It is on the disk by then, so that a power cut cannot take it away. As `write_together`
+    otherwise.
+
+    Raises:
+        OutputError: The file cannot be written; the one that was there has not changed then.
+    """
+    temporary: Path | None = None
+    try:
+        place = _place(target)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        remove_left(place.parent)
+        temporary = place.with_name(temporary_name())
+        with open(temporary, "wb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        with undisturbed():
+            os.replace(temporary, place)
+            keep_names(place.parent)
+    except OSError as error:
+        raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
+    finally:
+        with undisturbed():
+            if temporary is not None:
+                temporary.unlink(missing_ok=True)
+
+
+def keep_names(folder: Path) -> None:
+    """Have the disk keep which files a folder holds, where the system can."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
 def _place(target: Path) -> Path:
