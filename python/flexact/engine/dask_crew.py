@@ -143,6 +143,8 @@ class DaskCrew:
         """Find or open a client."""
         if not isinstance(self._executor, str):
             self._client = self._executor
+            if self._client.asynchronous:
+                raise EngineError("an asynchronous Dask client cannot be used: give its address")
             return
         if self._executor == "dask":
             with suppress(ValueError):
