@@ -11,7 +11,7 @@ from types import ModuleType
 import pytest
 from dask_cluster import Cluster, is_alive, running_cluster
 
-from flexact.engine import dask_crew
+from flexact.engine import dask_client
 from flexact.engine.running import Done, EngineError, results_of
 
 distributed = pytest.importorskip("distributed")
@@ -27,8 +27,8 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
 
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dask_crew, "_ANSWER", 1.0)
-    monkeypatch.setattr(dask_crew, "_LOOK", 0.2)
+    monkeypatch.setattr(dask_client, "_ANSWER", 1.0)
+    monkeypatch.setattr(dask_client, "LOOK", 0.2)
 
 
 def slow_square(number: int) -> int:
@@ -119,7 +119,7 @@ def test_without_dask_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPat
 def test_workers_are_not_waited_for_in_vain(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(dask_crew, "_NO_WORKER", 0.5)
+    monkeypatch.setattr(dask_client, "_NO_WORKER", 0.5)
     with (
         running_cluster(tmp_path, workers=0) as cluster,
         pytest.raises(EngineError, match="dask worker"),
