@@ -69,8 +69,8 @@ class Member:
         code = self.process.exitcode or 0
         if code > 0 and not self.has_started:
             raise EngineError(
-                f"worker processes do not start (exit code {code}); a script that uses them "
-                'needs `if __name__ == "__main__":` before what it does'
+                f"worker processes do not start (exit code {code}); where they are not forked, a "
+                'script needs `if __name__ == "__main__":` before what it does'
             )
         death = f"the worker process died ({_words_of(code)})"
         left = [Answer(chunk) for chunk in self.chunks]
