@@ -27,7 +27,6 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
 
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dask_client, "_ANSWER", 1.0)
     monkeypatch.setattr(dask_client, "LOOK", 0.2)
 
 
@@ -106,6 +105,7 @@ def test_what_kills_its_workers_is_a_failure_and_a_lost_scheduler_an_error(
                 if len(found) == 100:
                     cluster.kill_scheduler()
         assert len(found) >= 100 and all(done.result == done[0] ** 2 for done in found)
+    monkeypatch.setattr(dask_client, "_ANSWER", 1.0)
     with pytest.raises(EngineError, match="dask scheduler"):
         list(results_of(slow_square, range(3), executor=cluster.address))
 
