@@ -101,8 +101,8 @@ if [ "$purpose" = test ] && ! has_browser; then
 fi
 
 [ -x .venv/bin/python ] || "$python" -m venv .venv
-requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm matplotlib pillow"
-[ "$purpose" = run ] || requirements="$requirements pytest pytest-xdist hypothesis jsonschema mpmath selenium vtk pyarrow ruff mypy fprettify"
+requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm threadpoolctl matplotlib pillow"
+[ "$purpose" = run ] || requirements="$requirements distributed pytest pytest-xdist hypothesis jsonschema mpmath selenium vtk pyarrow ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086
 .venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||
