@@ -26,10 +26,15 @@ _CONTROLS = bytes(c for c in range(32) if chr(c) not in "\t\n\r\f\v\x1a") + b"\x
 def read_file(path: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> ModelData:
     """Read a deck from a file; see `flexact.read`."""
     name = os.fsdecode(path)
-    return read_bytes(_file_bytes(name), name)
+    return read_bytes(file_bytes(name), name)
 
 
-def _file_bytes(path: str) -> bytes:
+def file_bytes(path: str) -> bytes:
+    """The text of a deck as it stands in a file.
+
+    Raises:
+        DeckError: the file cannot be read.
+    """
     try:
         status = os.stat(path)
         if stat.S_ISDIR(status.st_mode):

@@ -38,7 +38,7 @@ _CHOICES: dict[str, tuple[str, ...]] = {
 }
 #: Longer ones, and deeper ones, are nobody's.
 _MOST = 10_000
-_HELP = "such as \"over_constrained > 0\" or \"margin < 20e-6 and 'guide' in deck\""
+_HELP = 'such as "over_constrained > 0" or "margin < 20e-6 and \'guide\' in deck"'
 
 
 class FilterError(BatchError):
