@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -266,13 +267,21 @@ def _is_bendable(arrays: ModelArrays) -> np.ndarray:
     """(elements,) beams that do not hold every bending."""
     kind = arrays.element_kind
     beam = member_table()[kind] == Member.BEAM
-    bends = np.isin(
-        role_table()[kind],
+    free: np.ndarray = np.any(
+        _bendings()[kind] & (arrays.deformation_class.T != Class.FIXED), axis=1
+    )
+    made: np.ndarray = beam & free
+    return made
+
+
+@cache
+def _bendings() -> np.ndarray:
+    """(kinds, 6) deformations that are bendings."""
+    made: np.ndarray = np.isin(
+        role_table(),
         (
             *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
             *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
         ),
     )
-    free: np.ndarray = np.any(bends & (arrays.deformation_class.T != Class.FIXED), axis=1)
-    made: np.ndarray = beam & free
     return made
