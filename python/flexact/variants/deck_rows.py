@@ -11,6 +11,7 @@ from ..core.arrays import ModelArrays
 from ..core.progress import Progress
 from ..deck.reading import read_bytes
 from ..diagnostics.errors import DeckError, ProblemsError
+from ..files.decks import FolderError
 from ..result.decompose import AnalysisError
 from ..result.outcome import Asked
 from ..result.result import Result, result_of
@@ -95,6 +96,8 @@ def first_error(error: Exception, name: str) -> str:
             place = f"{name}:{first.line}:{first.column}"
     elif isinstance(error, MemoryError):
         message = "not enough memory"
+    elif isinstance(error, FolderError):
+        return harmless(message)  # which names it
     return harmless(f"{place}: {message}")
 
 

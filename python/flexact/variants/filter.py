@@ -36,8 +36,8 @@ _CHOICES: dict[str, tuple[str, ...]] = {
     "verdict": tuple(str(each.value) for each in Verdict),
     "certainty": tuple(str(each.value) for each in Certainty),
 }
-#: Longer ones, and deeper ones, are nobody's.
-_MOST = 10_000
+#: Longer ones are nobody's, and none that is not longer is too deep.
+_MOST = 2000
 _HELP = 'such as "over_constrained > 0" or "margin < 20e-6 and \'guide\' in deck"'
 
 
