@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
@@ -75,11 +76,21 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--report", type=Path, metavar="DIR", help="write a page of each deck and index.html there"
     )
     parser.add_argument(
-        "--dask", metavar="ADDRESS", help="work on a Dask cluster: tcp://host:port of its scheduler"
+        "--dask",
+        type=address,
+        metavar="ADDRESS",
+        help="work on a Dask cluster: tcp://host:port of its scheduler",
     )
     add_decision(parser)
     add_accuracy(parser)
     parser.set_defaults(run=make_table)
+
+
+def address(text: str) -> str:
+    """Where a scheduler is, as an option's type."""
+    if not re.fullmatch(r"[a-z]+://\S+:\d+", text):
+        raise argparse.ArgumentTypeError(f"tcp://host:port of a scheduler is wanted, not {text!r}")
+    return text
 
 
 def make_table(chosen: argparse.Namespace) -> ExitCode:

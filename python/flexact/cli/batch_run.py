@@ -83,7 +83,7 @@ class BatchRun:
             with unwinding(), BatchBar(len(self._decks), self.done) as self._bar:
                 self._do(executor, workers)
         except BatchError as error:
-            raise BatchError(f"{error}\n{self.where_to_go_on}") from error
+            raise BatchError(f"{error}; {self.where_to_go_on}") from error
         except KeyboardInterrupt:
             complain(f"stopped; {self.where_to_go_on}")
             raise
@@ -154,7 +154,7 @@ class BatchRun:
                 write_table(table, self._work.columns, self._rows(counts))
                 self._journal.remove()
         except BatchError as error:
-            raise BatchError(f"{error}\n{self.where_to_go_on}") from error
+            raise BatchError(f"{error}; {self.where_to_go_on}") from error
         return _summary(counts, self._rows_written, self._work.where, table, index)
 
     def _rows(self, counts: Counter[str]) -> Iterator[tuple[Cell, ...]]:
