@@ -97,7 +97,7 @@ def report_problems(model: ModelData) -> None:
 
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
-    _announce_wait(deck, model, chosen.method)
+    announce_wait(deck, model, chosen.method)
     return result_of(
         model,
         asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy),
@@ -113,7 +113,7 @@ def read_and_analysed(deck: DeckFile, chosen: argparse.Namespace, bar: Bar) -> R
     return analysed(deck, model, chosen, bar)
 
 
-def _announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:
+def announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:
     """Say that a dense decomposition will take long."""
     if method not in DENSE:
         return

@@ -4,20 +4,29 @@
 from __future__ import annotations
 
 import argparse
+import os
+import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
+from flexact.base.loading import load
 from flexact.base.plain_text import harmless
-from flexact.cli.analysed import add_method, analysed, opened, tolerance
+from flexact.cli import failures
+from flexact.cli.analysed import add_method, announce_wait, tolerance
 from flexact.cli.bar import Bar
-from flexact.cli.decks import add_decks, take
-from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.terminal import say
+from flexact.cli.decks import add_decks
+from flexact.cli.outcome import ExitCode, Outcome, exit_code
+from flexact.cli.regress_summary import summary
+from flexact.cli.terminal import end_progress, say, show_progress
+from flexact.cli.workers import add_workers, in_order
+from flexact.core.progress import Progress
 from flexact.files.decks import DeckFile, find_decks
-from flexact.files.outputs import plan_files, write_together
-from flexact.regress.comparison import STRICT, Tolerances, differences
-from flexact.regress.stored_answer import answer_of, read_answer, text_of
+from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
+from flexact.model.data import ModelData
+from flexact.regress.one_deck import Finding, Question, State, answer_place, case_of
+from flexact.result.decompose import AnalysisError
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -27,7 +36,9 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--against", type=Path, metavar="DIR", required=True, help="folder of the stored answers"
     )
-    parser.add_argument("--store", action="store_true", help="store the answers instead")
+    parser.add_argument(
+        "--store", action="store_true", help="store the answers that are new or differ instead"
+    )
     parser.add_argument(
         "--tolerance",
         type=tolerance,
@@ -35,45 +46,103 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="largest difference of singular values, as a fraction of the largest "
         "(default 1e-9), and of entries of projectors (default 1e-8)",
     )
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="write what came of each deck as JUnit XML"
+    )
+    add_workers(parser)
     add_method(parser)
-    parser.set_defaults(run=regress_decks, zero_tolerance=None, prove=None, accuracy=None)
+    parser.set_defaults(run=regress_decks)
 
 
 def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     """Compare the decks that were asked for with their stored answers, or store them."""
     if chosen.store and chosen.tolerance is not None:
         raise BatchError("--tolerance is for comparing; it has no meaning with --store")
+    start = time.time()
     decks = find_decks(chosen.decks)
-    plan = plan_files(decks, chosen.against, (".json",)) if chosen.store else {}
+    if chosen.store:
+        plan_files(decks, chosen.against, (".json",))
+    if chosen.junit is not None:
+        _require_place(chosen.junit, decks, chosen.against)
+    found, codes = [], []
+    for number, (deck, finding) in enumerate(_findings(decks, chosen), start=1):
+        finding, code = _said(deck, finding, chosen.against)
+        found.append((deck, finding))
+        codes.append(Outcome(deck.name, code, finding.state.value))
+        show_progress(number, len(decks), deck.name)
+    end_progress()
+    if len(decks) > 1:
+        say(summary(found, chosen))
+    if chosen.junit is not None:
+        text = load("flexact.regress.junit").junit_xml(found, time.time() - start, start)
+        with unwinding():
+            write_together({chosen.junit: text})
+    return exit_code(codes)
 
-    def step(deck: DeckFile) -> Outcome:
-        if chosen.store:
-            return _store(deck, chosen, plan[deck.path][0])
-        return _compare(deck, chosen)
 
-    return take(decks, step)
+def _require_place(junit: Path, decks: Sequence[DeckFile], answers: Path) -> None:
+    """Raise where the JUnit file has no place, or one that is taken.
+
+    Raises:
+        OutputError: It has none.
+    """
+    plan_file(DeckFile("the JUnit file", Path()), junit)
+    place = os.path.realpath(junit)
+    for deck in decks:
+        for taken in (deck.path, answer_place(deck, answers)):
+            if os.path.realpath(taken) == place:
+                raise OutputError(f"{junit} would overwrite {taken}")
 
 
-def _store(deck: DeckFile, chosen: argparse.Namespace, target: Path) -> Outcome:
+def _findings(
+    decks: Sequence[DeckFile], chosen: argparse.Namespace
+) -> Iterator[tuple[DeckFile, Finding]]:
+    """What comes of each deck, in their order; a folder that gives none fails."""
+    question = Question(chosen.method, chosen.tolerance, chosen.store)
+    good = [deck for deck in decks if deck.error is None]
+    results: Iterator[tuple[Finding, str]]
+    if chosen.dask is None and (len(good) == 1 or chosen.workers == 1):
+        results = ((_watched(deck, chosen, question), "") for deck in good)
+    else:
+        results = in_order(question, (case_of(deck, chosen.against) for deck in good), chosen)
+    for deck in decks:
+        if deck.error is not None:
+            yield deck, Finding(State.FAILED, error=deck.error)
+            continue
+        finding, failure = next(results)
+        yield deck, Finding(State.FAILED, error=AnalysisError(failure)) if failure else finding
+
+
+def _watched(deck: DeckFile, chosen: argparse.Namespace, question: Question) -> Finding:
+    """What comes of a deck, while a bar says how far it is."""
+
+    def watch(model: ModelData) -> Progress | None:
+        bar.clear()
+        announce_wait(deck, model, chosen.method)
+        return bar.of_analysis(model)
+
     with Bar(deck.name, deck.path) as bar:
-        text = text_of(answer_of(analysed(deck, opened(deck, bar), chosen, bar)))
-    with unwinding():
-        write_together({target: text.encode()})
-    say(f"{harmless(deck.name)}: stored in {harmless(str(target))}")
-    return Outcome(deck.name, ExitCode.ANALYSED, "stored")
+        bar.show("reading")
+        return question(case_of(deck, chosen.against), watch)
 
 
-def _compare(deck: DeckFile, chosen: argparse.Namespace) -> Outcome:
-    stem, t = chosen.against / deck.relative, chosen.tolerance
-    stored = stem.with_name(f"{stem.name}.json")
-    with Bar(deck.name, deck.path) as bar:
-        model = opened(deck, bar)
-        answer, now = read_answer(stored), answer_of(analysed(deck, model, chosen, bar))
-    found = differences(answer, now, STRICT if t is None else Tolerances(t, t))
-    name = harmless(deck.name)
-    if not found:
+def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, ExitCode]:
+    """Say what came of a deck, and store it if it is to be."""
+    name, place = harmless(deck.name), answer_place(deck, answers)
+    if finding.state is State.STORED:
+        try:
+            with unwinding():
+                write_together({place: finding.text.encode()})
+        except OutputError as error:
+            finding = Finding(State.FAILED, error=error, seconds=finding.seconds)
+        else:
+            say(f"{name}: stored in {harmless(str(place))}")
+    if finding.error is not None:
+        return finding, failures.report(deck, finding.error, as_json=False).code
+    if finding.state is State.DIFFERENT:
+        head = f"{name}: differs from {harmless(str(place))}"
+        say("\n".join((head, *(f"  {harmless(line)}" for line in finding.differences))))
+        return finding, ExitCode.DIFFERENT
+    if finding.state is State.AS_STORED:
         say(f"{name}: as stored")
-        return Outcome(deck.name, ExitCode.ANALYSED, "as stored")
-    head = f"{name}: differs from {harmless(str(stored))}"
-    say("\n".join((head, *(f"  {harmless(line)}" for line in found))))
-    return Outcome(deck.name, ExitCode.DIFFERENT, "different")
+    return finding, ExitCode.ANALYSED

@@ -21,7 +21,7 @@ MOST_ITEMS = 1000
 
 
 class Chunk(NamedTuple):
-    """Some items with their places; `deaths`: workers that died over them so far."""
+    """Some items with their places; `deaths`: workers that died over one that was alone."""
 
     indices: Sequence[int]
     items: Sequence[Any]
@@ -63,6 +63,8 @@ class Answer(NamedTuple):
     """What the item behind them raised."""
     death: str = ""
     """How a worker died over what is to be done again; empty where it had not begun."""
+    deaths: int = 1
+    """How many did."""
 
 
 @dataclass
@@ -120,24 +122,26 @@ class Source:
         """Have a chunk done that was not begun."""
         self._again.append(chunk)
 
-    def repeat(self, chunk: Chunk) -> None:
-        """Have the items of a chunk over which a worker died done again, one by one."""
+    def repeat(self, chunk: Chunk, deaths: int) -> None:
+        """Have the items of a chunk over which workers died done again, one by one."""
+        # Which of several it was is not known.
+        deaths = chunk.deaths + deaths if len(chunk.items) == 1 else 0
         for index, item in zip(chunk.indices, chunk.items, strict=True):
-            self._again.append(Chunk((index,), (item,), chunk.deaths + 1))
+            self._again.append(Chunk((index,), (item,), deaths))
 
 
 def timed(
     function: Callable[[Any], Any], items: Sequence[Any]
-) -> tuple[list[Any], Raised | None, float]:
-    """Results of items up to the first that raises, what it raises, and their time [s]."""
+) -> tuple[list[Any], float, Raised | None]:
+    """Results of items up to the first that raises, their time [s], and what it raises."""
     results: list[Any] = []
     start = time.perf_counter()
     try:
         for item in items:
             results.append(function(item))
     except BaseException as error:
-        return results, raised(error), time.perf_counter() - start
-    return results, None, time.perf_counter() - start
+        return results, time.perf_counter() - start, raised(error)
+    return results, time.perf_counter() - start, None
 
 
 def raised(error: BaseException) -> Raised:

@@ -19,7 +19,7 @@ from .chunks import Answer, Chunk, Source, timed
 from .errors import EngineError
 from .processors import processors
 
-_MEND = "what is done stays done; go on with another one"
+_MEND = "go on with another one"
 
 
 class ExecutorCrew:
@@ -61,7 +61,7 @@ class ExecutorCrew:
 
 def _answer(chunk: Chunk, future: Future[Any]) -> Answer:
     try:
-        results, error, seconds = future.result()
+        results, seconds, error = future.result()
     except (BrokenExecutor, CancelledError) as reason:
         words = str(reason) or "cancelled"
         raise EngineError(f"the executor is broken ({words}); {_MEND}") from reason

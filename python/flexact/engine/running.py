@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from typing import Any, NamedTuple, Protocol
 
 from ..base.loading import load
@@ -12,7 +12,7 @@ from .chunks import Answer, Source
 from .errors import EngineError as EngineError
 from .processors import processors
 
-#: So many workers may die over an item.
+#: Over an item that was alone so many workers die before it is given up.
 _MOST_DEATHS = 2
 
 
@@ -49,7 +49,7 @@ def results_of(
     *,
     executor: Any = None,
     workers: int | None = None,
-) -> Iterator[Done]:
+) -> Generator[Done, None, None]:
     """Apply a function to items by several workers; results as they come, in any order.
 
     Items are sent in chunks of some 40 ms of work, found as it runs, and taken as they are needed,
@@ -96,7 +96,7 @@ def _crew(function: Callable[[Any], Any], executor: Any, workers: int | None) ->
     return pool
 
 
-def _run(crew: Crew, source: Source) -> Iterator[Done]:
+def _run(crew: Crew, source: Source) -> Generator[Done, None, None]:
     try:
         while True:
             crew.feed(source)
@@ -129,7 +129,7 @@ def _learnt(answer: Answer, source: Source) -> Iterator[Done]:
         source.learn(len(answer.results), answer.seconds)
     elif not answer.death:
         source.put_back(chunk)
-    elif chunk.deaths + 1 >= _MOST_DEATHS:
-        yield from (Done(index, None, answer.death) for index in chunk.indices)
+    elif len(chunk.items) == 1 and chunk.deaths + answer.deaths >= _MOST_DEATHS:
+        yield Done(chunk.indices[0], None, answer.death)
     else:
-        source.repeat(chunk)
+        source.repeat(chunk, answer.deaths)

@@ -39,6 +39,10 @@ class StoredAnswerError(BatchError):
     """A stored answer is missing or cannot be understood."""
 
 
+class MissingAnswerError(StoredAnswerError):
+    """There is no stored answer."""
+
+
 @dataclass(frozen=True)
 class Projector:
     """An orthogonal projector onto a subspace.
@@ -154,12 +158,32 @@ def read_answer(path: Path) -> StoredAnswer:
     Raises:
         StoredAnswerError: The file is missing, is not of this format, or lacks something.
     """
+    return answer_in(answer_bytes(path), path)
+
+
+def answer_bytes(path: Path) -> bytes:
+    """The text of a stored answer as it stands in a file.
+
+    Raises:
+        MissingAnswerError: There is no such file.
+        StoredAnswerError: It cannot be read.
+    """
     try:
-        return _understood(json.loads(path.read_text(encoding="utf-8")))
+        return path.read_bytes()
     except FileNotFoundError:
-        raise StoredAnswerError(f"{path}: no stored answer; --store makes one") from None
+        raise MissingAnswerError(f"{path}: no stored answer; --store makes one") from None
     except OSError as error:
         raise StoredAnswerError(f"{path}: cannot be read: {reason_of(error)}") from error
+
+
+def answer_in(raw: bytes, path: Path) -> StoredAnswer:
+    """Read a stored answer from its text, which stands at a path.
+
+    Raises:
+        StoredAnswerError: It is not of this format, or lacks something.
+    """
+    try:
+        return _understood(json.loads(raw.decode("utf-8")))
     except StoredAnswerError as error:
         raise StoredAnswerError(f"{path}: not a stored answer of flexact: {error}") from error
     except (ValueError, TypeError, AttributeError, OverflowError, RecursionError) as error:
