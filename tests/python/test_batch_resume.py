@@ -5,17 +5,21 @@ import json
 import os
 import random
 import signal
+import socket
 import subprocess
 import sys
 import time
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from dask_cluster import running_cluster
 from small_decks import BROKEN, DECKS, files_in, write
 from test_batch import rows_of
 from test_cli_process import process_environment
+from test_cli_signals import bars_in_a_row
 
 from flexact.cli.main import main
 from flexact.files.outputs import OutputError
@@ -68,11 +72,16 @@ def but_for_times(path: Path) -> list[str]:
     return [line.rpartition(",")[0] for line in path.read_text("utf-8").splitlines()]
 
 
-def kill_after(process: subprocess.Popen[bytes], number: int, has_come: Callable[[], bool]) -> int:
-    """Exit code of a process that gets a signal as soon as something has come."""
+def wait_until(process: subprocess.Popen[bytes], has_come: Callable[[], bool]) -> None:
+    """Wait as long as a process lives."""
     until = time.monotonic() + 60.0
     while process.poll() is None and not has_come() and time.monotonic() < until:
         time.sleep(0.001)
+
+
+def kill_after(process: subprocess.Popen[bytes], number: int, has_come: Callable[[], bool]) -> int:
+    """Exit code of a process that gets a signal as soon as something has come."""
+    wait_until(process, has_come)
     process.send_signal(number)
     process.communicate(timeout=60.0)
     return process.returncode
@@ -246,3 +255,54 @@ def test_where_nothing_is_done_nothing_is_left(
     monkeypatch.setattr("flexact.cli.batch_work.deck_row", interrupt)
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]) == 130
     assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []
+
+
+def test_a_cluster_that_is_lost_leaves_what_is_done(tmp_path: Path) -> None:
+    """A worker dies, then the scheduler; processes of this machine go on. The table is the same."""
+    pytest.importorskip("distributed")
+    folder = tmp_path / "decks"
+    for k in range(80):
+        write(folder / f"{k:03d}.dat", f"% deck {k}\n{bars_in_a_row(16 + k % 5)}")
+    whole, table = tmp_path / "whole.csv", tmp_path / "table.csv"
+    journal = tmp_path / "table.csv.journal"
+    slow = ("--method", "jacobi")
+    assert main(["batch", str(folder), "-o", str(whole), "-j2", *slow]) == 0
+    with running_cluster(tmp_path / "cluster", workers=2) as cluster:
+        run = batch(folder, "-o", table, "--dask", cluster.address, *slow)
+        wait_until(run, lambda: lines_in(journal) > 5)
+        cluster.kill_worker()
+        wait_until(run, lambda: lines_in(journal) > 20)
+        cluster.kill_scheduler()
+        _, said = run.communicate(timeout=60.0)
+    assert run.returncode == 1 and b"Traceback" not in said
+    assert b"scheduler" in said and b"go on with --resume" in said
+    done = journaled(journal)
+    assert 20 <= len(done) < 80
+    assert main(["batch", str(folder), "-o", str(table), "-j2", "--resume", *slow]) == 0
+    assert but_for_times(table) == but_for_times(whole)
+    times = [float(row["seconds"]) for row in rows_of(table)]
+    assert all(times[deck] == seconds for deck, seconds in done.items())
+
+
+def test_a_scheduler_that_is_not_there_leaves_nothing(
+    decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("distributed")
+    with socket.socket() as taken:
+        # A port that nobody listens at.
+        taken.bind(("127.0.0.1", 0))
+        address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
+        arguments = ["batch", str(decks), "-o", str(tmp_path / "t.csv"), "--dask", address]
+        with dask_patience("1s"):
+            assert main(arguments) == 1
+    said = capsys.readouterr().err
+    assert address in said and "Traceback" not in said
+    assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []
+
+
+@contextmanager
+def dask_patience(seconds: str) -> Iterator[None]:
+    import dask
+
+    with dask.config.set({"distributed.comm.timeouts.connect": seconds}):
+        yield

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
@@ -20,8 +19,8 @@ from flexact.cli.batch_run import BatchRun
 from flexact.cli.batch_work import Work
 from flexact.cli.decks import add_decks
 from flexact.cli.outcome import ExitCode
-from flexact.cli.showing import number
 from flexact.cli.terminal import complain, say
+from flexact.cli.workers import add_workers
 from flexact.engine.processors import processors
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file
@@ -48,9 +47,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="the table, .csv, .jsonl or .parquet",
     )
-    parser.add_argument(
-        "-j", "--workers", type=number, metavar="N", help="processes (default: one a processor)"
-    )
+    add_workers(parser)
     parser.add_argument(
         "--resume", action="store_true", help="go on where an interrupted run has stopped"
     )
@@ -75,22 +72,9 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--report", type=Path, metavar="DIR", help="write a page of each deck and index.html there"
     )
-    parser.add_argument(
-        "--dask",
-        type=address,
-        metavar="ADDRESS",
-        help="work on a Dask cluster: tcp://host:port of its scheduler",
-    )
     add_decision(parser)
     add_accuracy(parser)
     parser.set_defaults(run=make_table)
-
-
-def address(text: str) -> str:
-    """Where a scheduler is, as an option's type."""
-    if not re.fullmatch(r"[a-z]+://\S+:\d+", text):
-        raise argparse.ArgumentTypeError(f"tcp://host:port of a scheduler is wanted, not {text!r}")
-    return text
 
 
 def make_table(chosen: argparse.Namespace) -> ExitCode:

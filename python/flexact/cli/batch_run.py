@@ -6,10 +6,10 @@ from __future__ import annotations
 import hashlib
 from array import array
 from collections import Counter
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 from flexact.base.errors import BatchError
 from flexact.base.interruption import undisturbed, unwinding
@@ -20,7 +20,7 @@ from flexact.cli.batch_work import Answer, Item, Work
 from flexact.cli.terminal import complain
 from flexact.deck.reading import file_bytes
 from flexact.diagnostics.errors import DeckError
-from flexact.engine.running import Done, results_of
+from flexact.engine.running import results_of
 from flexact.files.decks import DeckFile, FolderError
 from flexact.files.outputs import OutputError
 from flexact.result.decompose import AnalysisError
@@ -95,7 +95,7 @@ class BatchRun:
 
     def _do(self, executor: str | None, workers: int | None) -> None:
         results = results_of(self._work, self._items(), executor=executor, workers=workers)
-        with closing(cast("Generator[Done]", results)):
+        with closing(results):
             for index, answer, failure in results:
                 deck, digest = self._sent.pop(index)
                 if failure:
