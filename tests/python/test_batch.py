@@ -212,6 +212,7 @@ def test_pages_are_those_of_report(decks: Path, tmp_path: Path) -> None:
         (["-o", "table.txt"], ".csv, .jsonl or .parquet"),
         (["-o", "decks/exact.csv"], "would overwrite the deck decks/exact.csv"),
         (["-o", "decks/exact.dat/t.csv"], "is not a folder"),
+        (["-o", "folder.csv"], "it is a folder"),
         (["-o", "t.csv", "--where", "over_constraind > 0"], "did you mean over_constrained"),
         (["-o", "t.csv", "--want", "verdict", "--where", "margin > 0"], "--want values"),
         (["-o", "t.csv", "--format", "vtk"], "--files DIR"),
@@ -230,6 +231,7 @@ def test_wrong_use_is_refused_before_anything_is_done(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     write(decks / "exact.csv", DECKS["exact"])
+    (tmp_path / "folder.csv").mkdir()
     before = files_in(tmp_path)
     assert main(["batch", "decks/exact.csv", "decks", *arguments]) == 1
     assert said in capsys.readouterr().err

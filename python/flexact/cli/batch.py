@@ -23,7 +23,7 @@ from flexact.cli.terminal import complain, say
 from flexact.cli.workers import add_workers
 from flexact.engine.processors import processors
 from flexact.files.decks import DeckFile, find_decks
-from flexact.files.outputs import OutputError, plan_file
+from flexact.files.outputs import OutputError, plan_file, require_replaceable
 from flexact.result.decompose import asked_for
 from flexact.variants.journal import Journal, JournalError
 from flexact.variants.writing import require_table
@@ -102,6 +102,7 @@ def _require_place(table: Path, decks: Sequence[DeckFile]) -> None:
         OutputError: It does.
     """
     plan_file(DeckFile("the table", Path()), table)
+    require_replaceable(table)
     for deck in decks:
         if deck.path.endswith(table.suffix) and os.path.realpath(deck.path) == os.path.realpath(
             table

@@ -10,17 +10,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from flexact.base.errors import reason_of
 from flexact.base.loading import load
 from flexact.cli.batch_work import Answer
+from flexact.cli.terminal import complain
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import (
-    OutputError,
-    keep_names,
-    plan_files,
-    write_together,
-    written_whole,
-)
+from flexact.files.outputs import plan_files, write_together, written_whole
 
 if TYPE_CHECKING:
     from flexact.page import Entry
@@ -49,15 +43,16 @@ class Outputs:
         self._files: dict[str, tuple[Path, ...]] = {}
         self._pages: dict[str, tuple[Path, ...]] = {}
         self._index: Path | None = None
-        self._not_kept: list[Path] = []
         if files is not None:
             made = load("flexact.cli.result_files").ResultFiles(decks, files, mesh_format)
             self.mesh_format, self._files = made.format, made.plan
         if report is not None:
-            # Processes that are forked have them then.
-            index = load("flexact.cli.pages").INDEX
-            self._pages = plan_files((*decks, index), report, (".html",))
-            self._index = self._pages[index.path][0]
+            # Processes that are forked have it then.
+            pages = load("flexact.cli.pages")
+            self._pages = plan_files((*decks, pages.INDEX), report, (".html",))
+            self._index = self._pages[pages.INDEX.path][0]
+            if not load("flexact.picture").has_packages():
+                complain(pages.WITHOUT_PICTURES)
 
     @property
     def has_pages(self) -> bool:
@@ -77,7 +72,6 @@ class Outputs:
         targets = self._targets(deck, bool(answer.files), bool(answer.page))
         if contents:
             write_together(dict(zip(targets, contents, strict=True)))
-            self._not_kept += targets
         record: dict[str, Any] = {}
         if answer.files:
             record["files"] = [len(content) for content in answer.files]
@@ -102,21 +96,10 @@ class Outputs:
             return False
 
     def keep(self) -> None:
-        """Have the disk keep what was written.
-
-        Raises:
-            OutputError: It cannot.
-        """
-        place = Path()
-        try:
-            for place in self._not_kept:
-                with open(place, "rb+") as file:
-                    os.fsync(file.fileno())
-        except OSError as error:
-            raise OutputError(f"cannot write {place}: {reason_of(error)}") from error
-        for folder in {place.parent for place in self._not_kept}:
-            keep_names(folder)
-        self._not_kept.clear()
+        """Have the disk keep what was written, of this run and of those before."""
+        if (self._files or self._pages) and hasattr(os, "sync"):
+            # File by file it would take longer than the analyses.
+            os.sync()
 
     def write_index(self, records: Callable[[], Iterator[tuple[DeckFile, dict[str, Any]]]]) -> str:
         """Write the index of the pages, if there is to be one.

@@ -89,7 +89,7 @@ class BatchRun:
             raise
         finally:
             with undisturbed(), suppress(OutputError):
-                self._keep(at_once=True)
+                self._journal.keep(at_once=True)
                 if not self.done:
                     self._journal.remove()
 
@@ -124,11 +124,8 @@ class BatchRun:
         written = self._outputs.put(self._decks[index], answer)
         record = {"deck": index, "of": digest, "row": answer.values, "wanted": answer.is_wanted}
         self._place[index] = self._journal.add({**record, **written})
-        self._keep()
+        self._journal.keep()
         self._bar.count(bool(answer.values[self._error]))
-
-    def _keep(self, *, at_once: bool = False) -> None:
-        self._journal.keep(self._outputs.keep, at_once=at_once)
 
     @property
     def where_to_go_on(self) -> str:
@@ -152,6 +149,7 @@ class BatchRun:
             with unwinding():
                 index = self._outputs.write_index(self._wanted)
                 write_table(table, self._work.columns, self._rows(counts))
+                self._outputs.keep()
                 self._journal.remove()
         except BatchError as error:
             raise BatchError(f"{error}; {self.where_to_go_on}") from error

@@ -15,7 +15,7 @@ import os
 import sys
 import time
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -155,11 +155,10 @@ class Journal:
             raise JournalError(f"{self.path} was changed by others while it was in use")
         return found
 
-    def keep(self, before: Callable[[], object] | None = None, *, at_once: bool = False) -> None:
+    def keep(self, *, at_once: bool = False) -> None:
         """Have the disk keep what was added, from time to time, so that a power cut cannot take it.
 
         Args:
-            before: Called first where it is time: keeps what the records speak of.
             at_once: Whether it is time, however short ago it was done.
 
         Raises:
@@ -167,8 +166,6 @@ class Journal:
         """
         if not at_once and time.monotonic() - self._kept < PAUSE:
             return
-        if before is not None:
-            before()
         try:
             os.fsync(self._handle)
         except OSError as error:
