@@ -6,13 +6,17 @@ import json
 import math
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 from small_decks import BROKEN, DECKS, VERDICTS, files_in, write
+from test_cli_process import process_environment
 
 import flexact
+from flexact.cli.batch_bar import BatchBar
 from flexact.cli.main import main
 from flexact.variants.deck_rows import deck_row
 from flexact.variants.row import row_of
@@ -251,3 +255,38 @@ def test_a_table_that_is_there_is_replaced(decks: Path, tmp_path: Path) -> None:
     (tmp_path / "t.csv").symlink_to(table)
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv")]) == 0
     assert (tmp_path / "t.csv").is_symlink() and len(rows_of(table)) == 4
+
+
+@pytest.mark.skipif(os.name != "posix", reason="terminals of POSIX")
+def test_a_terminal_shows_how_far_it_is(decks: Path, tmp_path: Path) -> None:
+    try:
+        reader, terminal = os.openpty()
+    except OSError:
+        pytest.skip("this system hands out no pseudo-terminals")
+    write(decks / "broken.dat", BROKEN)
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "flexact", "batch", decks, "-o", tmp_path / "t.csv", "-j1"],
+            stdout=subprocess.PIPE,
+            stderr=terminal,
+            env=process_environment(),
+            check=True,
+        )
+        seen = os.read(reader, 65536).decode()
+    finally:
+        os.close(terminal)
+        os.close(reader)
+    assert "0 of 5 decks" in seen and "left" in seen
+    assert done.stdout.startswith(b"5 decks: ")
+
+
+def test_a_log_has_a_line_now_and_then(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("flexact.cli.batch_bar._LINE", 0.0)
+    with BatchBar(total=50, before=40) as bar:
+        bar.count(has_error=False)
+        bar.count(has_error=True)
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.split(",")[0] for line in lines] == ["41 of 50 decks", "42 of 50 decks"]
+    assert all("decks/s" in line and line.endswith("left") for line in lines)

@@ -306,3 +306,18 @@ def dask_patience(seconds: str) -> Iterator[None]:
 
     with dask.config.set({"distributed.comm.timeouts.connect": seconds}):
         yield
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+@pytest.mark.parametrize("workers", ["-j1", "-j2"])
+def test_control_c_does_not_wait_for_a_large_deck(workers: str, tmp_path: Path) -> None:
+    """One of 3600 x 3600 takes longer than anybody waits; the one before it is kept."""
+    small = write(tmp_path / "small.dat", bars_in_a_row(10))
+    large = write(tmp_path / "large.dat", bars_in_a_row(900))
+    journal = tmp_path / "t.csv.journal"
+    run = batch(small, large, "-o", tmp_path / "t.csv", "--method", "svd", workers)
+    wait_until(run, lambda: lines_in(journal) > 1)
+    run.send_signal(signal.SIGINT)
+    _, said = run.communicate(timeout=20.0)
+    assert run.returncode == -signal.SIGINT
+    assert said.startswith(b"stopped; 1 of 2 decks are done") and said.count(b"\n") == 1
