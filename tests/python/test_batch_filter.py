@@ -109,7 +109,7 @@ def test_nothing_compares_with_what_is_missing(expression: str) -> None:
         ("xyzzy > 0", "there are deck, verdict"),
         ("verdict > 0", "a text and 0 is a number"),
         ("rank == 'three'", "a number and 'three' is a text"),
-        ("verdict == 'exact'", "no verdict 'exact': 'exactly constrained'"),
+        ("verdict == 'exact'", "no verdict 'exact'; there are 'exactly constrained'"),
         ("verdict in ('exact',)", "no verdict 'exact'"),
         ("rank is 3", "in place of is"),
         ("rank in 3", "behind in stands"),

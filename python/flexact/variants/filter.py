@@ -174,7 +174,9 @@ def _require_alike(one: _Operand, other: _Operand) -> None:
         known = _CHOICES.get(column.column)
         if known and not constant.column and constant.constant not in (*known, ""):
             there = ", ".join(map(repr, known))
-            raise FilterError(f"--where: there is no {column.column} {constant.words}: {there}")
+            raise FilterError(
+                f"--where: there is no {column.column} {constant.words}; there are {there}"
+            )
 
 
 def _kind(operand: _Operand) -> str:
