@@ -90,8 +90,8 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     work = Work(asked, chosen.want, chosen.where, outputs.mesh_format, outputs.has_pages)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
     with _threads(chosen):
-        run.go(chosen.dask, chosen.workers)
-    say(run.write(table))
+        words = run.make(table, chosen.dask, chosen.workers)
+    say(words)
     return _code(decks)
 
 

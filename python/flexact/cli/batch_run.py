@@ -69,23 +69,29 @@ class BatchRun:
         """How many decks are done."""
         return len(self._place) - self._place.count(_NOT_DONE)
 
-    def go(self, executor: str | None, workers: int | None) -> None:
-        """Do what is left.
+    def make(self, table: Path, executor: str | None, workers: int | None) -> str:
+        """Do what is left, and write the table; then the journal is not needed any more.
 
         Args:
+            table: The table.
             executor: Address of a Dask scheduler, or None.
             workers: So many processes on this machine; None: one a processor.
+
+        Returns:
+            In words what came of the decks, and where it stands.
 
         Raises:
             BatchError: It cannot be gone on with; what is done is in the journal.
         """
         try:
-            with unwinding(), BatchBar(len(self._decks), self.done) as self._bar:
-                self._do(executor, workers)
+            with unwinding():
+                if self._left:
+                    self._do(executor, workers)
+                return self._write(table)
         except BatchError as error:
-            raise BatchError(f"{error}; {self.where_to_go_on}") from error
+            raise BatchError(f"{error}; {self._where_to_go_on}") from error
         except KeyboardInterrupt:
-            complain(f"stopped; {self.where_to_go_on}")
+            complain(f"stopped; {self._where_to_go_on}")
             raise
         finally:
             with undisturbed(), suppress(OutputError):
@@ -95,7 +101,7 @@ class BatchRun:
 
     def _do(self, executor: str | None, workers: int | None) -> None:
         results = results_of(self._work, self._items(), executor=executor, workers=workers)
-        with closing(results):
+        with closing(results), BatchBar(len(self._decks), self.done) as self._bar:
             for index, answer, failure in results:
                 deck, digest = self._sent.pop(index)
                 if failure:
@@ -128,31 +134,19 @@ class BatchRun:
         self._bar.count(bool(answer.values[self._error]))
 
     @property
-    def where_to_go_on(self) -> str:
-        """What is to be done after an interruption."""
+    def _where_to_go_on(self) -> str:
         if not self.done:
             return "no deck is done yet"
         some = f"{self.done} of {len(self._decks)} decks are done"
         return f"{some} and kept in {self._journal.path}: go on with --resume"
 
-    def write(self, table: Path) -> str:
-        """Write the table, and the index of the pages; then the journal is not needed any more.
-
-        Returns:
-            In words what came of the decks, and where it stands.
-
-        Raises:
-            BatchError: They cannot be written; the journal stays.
-        """
+    def _write(self, table: Path) -> str:
+        """Write the index of the pages and the table; what came of the decks, in words."""
         counts: Counter[str] = Counter()
-        try:
-            with unwinding():
-                index = self._outputs.write_index(self._wanted)
-                write_table(table, self._work.columns, self._rows(counts))
-                self._outputs.keep()
-                self._journal.remove()
-        except BatchError as error:
-            raise BatchError(f"{error}; {self.where_to_go_on}") from error
+        index = self._outputs.write_index(self._wanted)
+        write_table(table, self._work.columns, self._rows(counts))
+        self._outputs.keep()
+        self._journal.remove()
         return _summary(counts, self._rows_written, self._work.where, table, index)
 
     def _rows(self, counts: Counter[str]) -> Iterator[tuple[Cell, ...]]:

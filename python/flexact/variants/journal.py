@@ -29,6 +29,7 @@ if sys.platform != "win32":
 PAUSE = 1.0
 _BUFFER = 2**20
 _DIGITS = 8
+_CLOSED = -1
 
 
 class JournalError(BatchError):
@@ -164,7 +165,7 @@ class Journal:
         Raises:
             OutputError: The disk cannot.
         """
-        if not at_once and time.monotonic() - self._kept < PAUSE:
+        if self._handle == _CLOSED or (not at_once and time.monotonic() - self._kept < PAUSE):
             return
         try:
             os.fsync(self._handle)
@@ -187,8 +188,10 @@ class Journal:
 
     def close(self) -> None:
         """Leave the journal as it is."""
-        with contextlib.suppress(OSError):
-            os.close(self._handle)
+        handle, self._handle = self._handle, _CLOSED
+        if handle != _CLOSED:
+            with contextlib.suppress(OSError):
+                os.close(handle)
 
     def remove(self) -> None:
         """Take the journal away: what it was for is done.
