@@ -5,6 +5,7 @@ module flexact_lapack
    implicit none
    private
    public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
+   public :: dsyrk, dpotrf
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -99,5 +100,23 @@ module flexact_lapack
          real(wp), intent(inout) :: b(ldb, *)
          integer, intent(out) :: info
       end subroutine dtrtrs
+
+      !> c := alpha a'a + beta c (trans 'T') or alpha a a' + beta c (trans 'N'), one triangle.
+      pure subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
+         import :: wp
+         character, intent(in) :: uplo, trans
+         integer, intent(in) :: n, k, lda, ldc
+         real(wp), intent(in) :: alpha, beta, a(lda, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dsyrk
+
+      !> Cholesky factorisation, in place.
+      pure subroutine dpotrf(uplo, n, a, lda, info)
+         import :: wp
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpotrf
    end interface
 end module flexact_lapack

@@ -110,6 +110,12 @@ def test_what_kills_its_workers_is_a_failure_and_a_lost_scheduler_an_error(
         list(results_of(slow_square, range(3), executor=cluster.address))
 
 
+def test_without_dask_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(EngineError, match="pip install"):
+        results_of(slow_square, range(3), executor="dask")
+
+
 def test_workers_are_not_waited_for_in_vain(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -77,3 +77,14 @@ def find_echelon(
     place: _Ints,
     /,
 ) -> _Ints: ...
+def analyse_variants(
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    wishes: _Floats,
+    positions: _Floats,
+    classes: _Ints,
+    facts: _Floats,
+    /,
+) -> None: ...

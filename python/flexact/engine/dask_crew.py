@@ -18,7 +18,7 @@ from .processors import processors
 
 #: What a chunk should take at least [s]: master, scheduler and worker take some 5 ms for it.
 LEAST_SECONDS = 0.25
-#: What a scheduler is given to do at most [chunks/s]: it can do some five times as much.
+#: What a scheduler is given to do at most [chunks/s]: it can do some four times as much.
 CHUNKS_PER_SECOND = 100.0
 #: How long a scheduler may take to answer, and how long there may be no worker [s].
 _ANSWER, _NO_WORKER = 10.0, 60.0
@@ -143,6 +143,8 @@ class DaskCrew:
         """Find or open a client."""
         if not isinstance(self._executor, str):
             self._client = self._executor
+            if self._client.asynchronous:
+                raise EngineError("an asynchronous Dask client cannot be used: give its address")
             return
         if self._executor == "dask":
             with suppress(ValueError):
