@@ -29,6 +29,7 @@ if sys.platform != "win32":
 PAUSE = 1.0
 _BUFFER = 2**20
 _DIGITS = 8
+_encoded = json.JSONEncoder(separators=(",", ":")).encode
 _CLOSED = -1
 
 
@@ -208,7 +209,7 @@ class Journal:
 
 
 def _line(record: Any) -> bytes:
-    text = json.dumps(record, separators=(",", ":")).encode("ascii")
+    text = _encoded(record).encode("ascii")
     return b"%08x %s\n" % (zlib.crc32(text), text)
 
 
