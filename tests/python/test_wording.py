@@ -329,6 +329,13 @@ COMMANDS = (
     "analyse exact.dat -o exact.dat",
     "analyse exact.dat other/exact.dat -o out",
     "regress exact.dat",
+    "batch exact.dat over.dat broken.dat missing.dat -o table.csv",
+    "batch exact.dat over.dat -o table.jsonl --where over_constrained>0",
+    "batch exact.dat empty -o table.csv",
+    "batch exact.dat -o table.txt",
+    "batch exact.dat -o table.csv --where verdikt=='exact'",
+    "batch exact.dat -o table.csv --where verdict=='exact'",
+    "batch exact.dat -o table.csv --dask here",
 )
 
 

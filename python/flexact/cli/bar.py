@@ -48,11 +48,11 @@ class Bar:
     def of_analysis(self, model: ModelData) -> Progress | None:
         """What shows the progress of an analysis; None where it would show nothing."""
         self._wanted = model.arrays.element_number.size >= LARGE_MODEL
-        return self.show if self._wanted and _is_watched() else None
+        return self.show if self._wanted and is_watched() else None
 
     def show(self, stage: str, done: float = 0.0) -> None:
         """Draw the bar at a stage, of which a part from 0 to 1 is done."""
-        if not self._wanted or not _is_watched():
+        if not self._wanted or not is_watched():
             return
         text = f"{self._deck}: {stage}"
         with contextlib.suppress(ImportError, OSError):
@@ -64,7 +64,7 @@ class Bar:
     def show_frames(self, done: float) -> None:
         """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
         self._wanted = True
-        if not _is_watched():
+        if not is_watched():
             return
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None or done <= self._bar.n:
@@ -85,11 +85,17 @@ def _drawn(text: str) -> Any:
     tqdm = import_module("tqdm").tqdm
     tqdm.monitor_interval = 0  # no thread of its own: the core's calls say when to draw
     form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
-    # Some terminals say that they have no columns and no rows.
-    width = os.get_terminal_size(sys.stderr.fileno()).columns or _WIDTH
-    size = {"ncols": width - 1, "nrows": _ROWS}
+    size = size_of_terminal()
     return tqdm(total=1.0, file=sys.stderr, leave=False, desc=text, bar_format=form, **size)
 
 
-def _is_watched() -> bool:
+def size_of_terminal() -> dict[str, int]:
+    """Columns and rows that a bar may take."""
+    # Some terminals say that they have no columns and no rows.
+    width = os.get_terminal_size(sys.stderr.fileno()).columns or _WIDTH
+    return {"ncols": width - 1, "nrows": _ROWS}
+
+
+def is_watched() -> bool:
+    """Whether stderr is a terminal."""
     return sys.stderr is not None and sys.stderr.isatty()

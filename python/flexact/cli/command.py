@@ -32,6 +32,7 @@ DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
 VERBS = {
     "analyse": "verdict, counts, motions and self-stresses of decks",
     "check": "the diagnostics of decks, without analysing them",
+    "batch": "a table of many decks, by all processors",
     "declare": "a deck in which every divided sheet or wire counts as one beam",
     "regress": "compare decks with stored answers, or store them",
     "picture": "a deck's mechanism as a picture: its motion, its self-stress",

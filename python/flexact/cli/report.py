@@ -14,26 +14,17 @@ from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
+from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
 from flexact.cli.terminal import complain, say
-from flexact.diagnostics.errors import DeckError, ProblemsError
+from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
-from flexact.page import BROKEN, Entry, broken_page, index_page, kind_of, reason_in_words
+from flexact.page import Entry, index_page
 from flexact.picture import has_packages
 from flexact.result.decompose import AnalysisError
 from flexact.result.result import Result
-from flexact.saving import PAGES, as_bytes, page_bytes, small_picture
-from flexact.text.describe import verdict_in_words
-from flexact.text.margin import margin_in_short, verdict_word
-
-#: What the index takes the place of among the decks.
-_INDEX = DeckFile("the index", Path("index"))
-#: What is counted of decks without a verdict.
-_BROKEN = "cannot be analysed"
-_WITHOUT_PICTURES = (
-    "without the packages matplotlib and pillow there are no still pictures, for browsers without "
-    "WebGL and in the index: pip install 'flexact[pictures]'"
-)
+from flexact.saving import PAGES, as_bytes
+from flexact.text.margin import verdict_word
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -78,11 +69,11 @@ class _Work:
                 raise BatchError(f"-o {output} is one page; of {len(decks)} decks name a folder")
             self.plan = plan_file(decks[0], output)
         else:
-            self.plan = plan_files((*decks, _INDEX), output, (".html",))
-            self.index = self.plan[_INDEX.path][0]
+            self.plan = plan_files((*decks, INDEX), output, (".html",))
+            self.index = self.plan[INDEX.path][0]
         self.entries: dict[str, Entry] = {}
         if not has_packages():
-            complain(_WITHOUT_PICTURES)
+            complain(WITHOUT_PICTURES)
 
     def step(self, deck: DeckFile) -> Outcome:
         """Analyse one deck and write its page."""
@@ -99,46 +90,30 @@ class _Work:
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))
 
     def _write(self, deck: DeckFile, analysis: Result) -> None:
+        page = page_of(analysis, deck.relative.as_posix(), indexed=self.index is not None)
         with unwinding():
-            content = page_bytes(analysis)
-        with unwinding():
-            self._put(deck, content)
-            if self.index is None:
-                return
-            thumb = small_picture(analysis)
-        place = deck.relative.as_posix()
-        self.entries[deck.path] = Entry(
-            *(place, f"{place}.html", kind_of(analysis), verdict_word(analysis)),
-            *(verdict_in_words(analysis).start, margin_in_short(analysis), thumb),
-        )
+            self._put(deck, page)
 
     def _write_broken(self, deck: DeckFile, error: Exception) -> None:
-        if isinstance(error, ProblemsError):
-            codes = {item.code for item in error.diagnostics}
-            if codes & failures.NOT_READ:
-                return
+        page = broken_page_of(error, deck.name, deck.relative.as_posix())
+        if page is None:
+            return
         try:
-            self._put(deck, as_bytes(broken_page(error, deck.name)))
+            self._put(deck, page)
         except OutputError:
             failures.report_failure(deck, error)
             raise
-        words = f"Cannot be analysed: {reason_in_words(error)}"
-        place = deck.relative.as_posix()
-        self.entries[deck.path] = Entry(place, f"{place}.html", BROKEN, _BROKEN, words)
 
-    def _put(self, deck: DeckFile, content: bytes) -> None:
-        write_together({self.plan[deck.path][0]: content})
+    def _put(self, deck: DeckFile, page: DeckPage) -> None:
+        write_together({self.plan[deck.path][0]: page.content})
+        self.entries[deck.path] = page.entry
 
     def finish(self) -> None:
         """Write the index, if there is to be one."""
         if self.index is None:
             return
-        nothing = "Cannot be read"
         entries = [
-            self.entries.get(
-                deck.path, Entry(deck.relative.as_posix(), "", BROKEN, _BROKEN, nothing)
-            )
-            for deck in self.decks
+            self.entries.get(deck.path, unread(deck.relative.as_posix())) for deck in self.decks
         ]
         with unwinding():
             write_together({self.index: as_bytes(index_page(entries))})

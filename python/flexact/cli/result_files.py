@@ -31,24 +31,32 @@ class ResultFiles:
         """Plan the files of all decks; `log` is the form of the logs, None that of Flexact."""
         self._log = log
         with unwinding():
-            self._format = find_format(mesh_format)
-        self._plan = plan_files(decks, folder, (".json", ".log", f".{self._format}"))
+            self.format = find_format(mesh_format)
+        self.plan = plan_files(decks, folder, (".json", ".log", f".{self.format}"))
 
     def write(self, deck: DeckFile, result: Result) -> Exception | None:
         """Write the results, or say why not: that is no reason to keep the verdict back."""
         try:
-            contents = [f"{text_of(result)}\n".encode()]
-            meshes = Meshes(result)
-            log = (
-                spacar_log(result)
-                if self._log
-                else log_text(result, most_in_mesh=meshes.most_modes)
-            )
-            contents.append(log.encode("utf-8", "backslashreplace"))
-            mesh = meshes.still()
+            contents = contents_of(result, self.format, self._log)
             with unwinding():
-                contents.append(mesh_bytes(mesh, self._format))
-                write_together(dict(zip(self._plan[deck.path], contents, strict=True)))
+                write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
         except (OutputError, MemoryError) as error:
             return error
         return None
+
+
+def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tuple[bytes, ...]:
+    """What stands in the files of a result, in the order of the plan.
+
+    `log` is the form of the log, None that of Flexact.
+
+    Raises:
+        OutputError: The mesh cannot be written.
+        MemoryError: There is not enough memory.
+    """
+    json = f"{text_of(result)}\n".encode()
+    meshes = Meshes(result)
+    words = spacar_log(result) if log else log_text(result, most_in_mesh=meshes.most_modes)
+    mesh = meshes.still()
+    with unwinding():
+        return json, words.encode("utf-8", "backslashreplace"), mesh_bytes(mesh, mesh_format)

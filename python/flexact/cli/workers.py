@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
@@ -18,8 +19,18 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
         "-j", "--workers", type=number, metavar="N", help="processes (default: one a processor)"
     )
     who.add_argument(
-        "--dask", metavar="ADDRESS", help="work on a Dask cluster: tcp://host:port of its scheduler"
+        "--dask",
+        type=address,
+        metavar="ADDRESS",
+        help="work on a Dask cluster: tcp://host:port of its scheduler",
     )
+
+
+def address(text: str) -> str:
+    """Where a scheduler is, as an option's type."""
+    if not re.fullmatch(r"[a-z]+://\S+:\d+", text):
+        raise argparse.ArgumentTypeError(f"tcp://host:port of a scheduler is wanted, not {text!r}")
+    return text
 
 
 def in_order(

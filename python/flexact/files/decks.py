@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from ..base.errors import FlexactError, reason_of
@@ -58,19 +59,20 @@ def find_decks(arguments: Iterable[str]) -> tuple[DeckFile, ...]:
     it gives the error with its reason.
     """
     decks: dict[str, DeckFile] = {}
+    place_of = cache(_place)
     for argument in arguments:
         for deck in _expand(argument):
-            decks.setdefault(_place(deck.path), deck)
+            folder, name = os.path.split(deck.path)
+            decks.setdefault(os.path.join(place_of(folder), name), deck)
     return tuple(decks.values())
 
 
-def _place(path: str) -> str:
-    """What is the same for different spellings of a path; a link to a deck is another deck."""
-    folder, name = os.path.split(path)
+def _place(folder: str) -> str:
+    """What is the same for different spellings of a folder; a link to a deck is another deck."""
     try:
-        return os.path.join(os.path.realpath(folder), name)
+        return os.path.realpath(folder)
     except (OSError, ValueError):
-        return path
+        return folder
 
 
 def _expand(argument: str) -> Iterator[DeckFile]:
@@ -79,20 +81,26 @@ def _expand(argument: str) -> Iterator[DeckFile]:
         yield DeckFile(argument, whole)
         return
     errors: list[OSError] = []
-    decks = [
-        DeckFile(str(path), path.relative_to(argument).with_suffix(""))
-        for path in _walk(argument, errors)
-    ]
+    found = list(_walk(argument, errors))
+    decks = [deck for _, deck in sorted(found, key=lambda each: each[0])]
     decks += [DeckFile(str(error.filename), whole, _not_searched(error)) for error in errors]
-    yield from sorted(decks, key=lambda deck: Path(deck.path))
+    if errors:
+        decks.sort(key=lambda deck: Path(deck.path))
+    yield from decks
     if not decks:
         message = f"{argument}: no deck (*{SUFFIX}) in this folder or below it"
         yield DeckFile(argument, whole, FolderError(message, "no-decks", "no decks"))
 
 
-def _walk(folder: str, errors: list[OSError]) -> Iterator[Path]:
+def _walk(folder: str, errors: list[OSError]) -> Iterator[tuple[tuple[str, ...], DeckFile]]:
+    """The decks in a folder and below it, each with the parts of its path."""
     for place, _, names in os.walk(folder, onerror=errors.append):
-        yield from (Path(place, name) for name in names if name.lower().endswith(SUFFIX))
+        here = Path(place)
+        below, parts = here.relative_to(folder), here.parts
+        for name in names:
+            if name.lower().endswith(SUFFIX):
+                stem = name[: -len(SUFFIX)] or name
+                yield (*parts, name), DeckFile(str(here / name), below / stem)
 
 
 def _not_searched(error: OSError) -> FolderError:

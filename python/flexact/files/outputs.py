@@ -67,6 +67,15 @@ def plan_file(deck: DeckFile, target: Path) -> dict[str, tuple[Path, ...]]:
     return plan_files([named], target.parent, (target.suffix,))
 
 
+def require_replaceable(target: Path) -> None:
+    """Raise where something stands in a file's place that is no file, or is read-only.
+
+    Raises:
+        OutputError: It does.
+    """
+    _place(target)
+
+
 def _shared(target: Path, first: str, second: str) -> str:
     if first == second:
         return f"{target} is a link to another file of the results of {first}"

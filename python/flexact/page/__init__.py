@@ -1,8 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
 
-from .index_page import Entry, index_page
+from .index_page import Entry, index_page, index_pieces
 from .page import broken_page, page, reason_in_words
 from .verdict_part import BROKEN, kind_of
 
-__all__ = ["BROKEN", "Entry", "broken_page", "index_page", "kind_of", "page", "reason_in_words"]
+__all__ = [
+    "BROKEN",
+    "Entry",
+    "broken_page",
+    "index_page",
+    "index_pieces",
+    "kind_of",
+    "page",
+    "reason_in_words",
+]

@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from html import escape
 from urllib.parse import quote
 
 from .assets import PLAIN_SCRIPTS, filled
 from .markup import image, text
+
+#: Where the cards go; no text of a page holds a NUL.
+_CARDS = "\0"
 
 
 @dataclass(frozen=True)
@@ -36,8 +39,17 @@ class Entry:
     picture: bytes | None = None
 
 
-def index_page(entries: Sequence[Entry]) -> str:
+def index_page(entries: Collection[Entry]) -> str:
     """The index as a page of its own, in the order of the entries."""
+    return "".join(index_pieces(entries))
+
+
+def index_pieces(entries: Collection[Entry]) -> Iterator[str]:
+    """The index in pieces, so that its pictures need not be in memory together.
+
+    Args:
+        entries: They are gone through twice.
+    """
     total = len(entries)
     title = f"{total} deck{'s' * (total != 1)}"
     counts = Counter(entry.verdict for entry in entries)
@@ -48,9 +60,12 @@ def index_page(entries: Sequence[Entry]) -> str:
         f'<header class="verdict index"><h1><span><b>{title}</b></span></h1>'
         f'<p class="about">{summary}</p>'
         '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
-        f'<main class="plain"><ul class="cards">{"".join(map(_card, entries))}</ul></main>'
+        f'<main class="plain"><ul class="cards">{_CARDS}</ul></main>'
     )
-    return filled(title, body, PLAIN_SCRIPTS)
+    before, behind = filled(title, body, PLAIN_SCRIPTS).split(_CARDS)
+    yield before
+    yield from map(_card, entries)
+    yield behind
 
 
 def _card(entry: Entry) -> str:

@@ -130,8 +130,9 @@ class Outcome(Frozen):
         All min(m, n) of them, after the method sparse the smallest, computed when they are
         first asked for; see `singular_values_given`.
         """
+        room = memory.allowance(memory.dense_needed(self.rows, self.columns))
         values = calls.analyse_model(
-            self.data.packed, self.method, memory=memory.allowance(), only_plain_values=True
+            self.data.packed, self.method, memory=room, only_plain_values=True
         ).scaled_values
         values.flags.writeable = False
         return values

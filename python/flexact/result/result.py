@@ -144,7 +144,7 @@ class Result(Spaces):
         """Of each zero, and of the smallest other singular values (`flexact.result.margin`)."""
         return margins(self, self.evidence)
 
-    @property
+    @cached_property
     def margin(self) -> Margin:
         """The smallest misalignment that would change the verdict: a length and an angle."""
         return least(self.margins)

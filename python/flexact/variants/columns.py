@@ -62,4 +62,9 @@ def columns_of(want: str) -> tuple[Column, ...]:
         raise TypeError(f"want must be a word, not {type(want).__name__}")
     if want not in WANTS:
         raise ValueError(f"want must be one of {', '.join(WANTS)}, not {want!r}")
-    return tuple(c for c in COLUMNS if WANTS.index(c.least) <= WANTS.index(want))
+    return _COLUMNS_OF[want]
+
+
+_COLUMNS_OF = {
+    want: tuple(c for c in COLUMNS if WANTS.index(c.least) <= k) for k, want in enumerate(WANTS)
+}

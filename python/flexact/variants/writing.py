@@ -23,7 +23,7 @@ from .columns import COLUMNS, Column
 #: What stands in a cell. None: nothing is known.
 Cell = str | int | float | bool | None
 #: Rows of a group of Parquet, which is what is held in memory.
-_GROUP = 2**16
+_GROUP = 2**15
 _WITHOUT_PARQUET = "Parquet needs the package pyarrow: pip install 'flexact[parquet]'"
 
 
