@@ -38,3 +38,14 @@ def test_numbers_may_begin_with_thousands_of_zeros() -> None:
     zeros = "0" * 5000
     model = flexact.read_text(f"{BAR}DYNX {zeros}2 1 % moves\n")
     assert "DYNX 2 1 % moves\n" in model.to_deck()
+
+
+def test_a_row_that_begins_and_ends_at_one_orientation_is_no_sheet() -> None:
+    """One beam between its ends would have one node at both; the rows of a ring are as well."""
+    beams = ("1 1 2 3 4", "2 3 4 5 6", "3 5 6 7 2")
+    lines = [f"BEAM {beam} 0 1 0 % sheet, part {beam[0]} of 3" for beam in beams]
+    lines += ["X 3 0.1 0 0", "X 5 0.2 0 0", "X 7 0.3 0 0", "FIX 1", "FIX 2", "RLSE 1 5"]
+    lines += ["DYNE 2 5", "DYNE 3 5"]
+    analysis = flexact.analyse(flexact.read_text("\n".join(lines)))
+    assert analysis.rows == analysis.model.deformation_classes.astype(bool).sum() - 1
+    assert analysis.to_json() and analysis.describe()
