@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From tables to a model, as SPACAR Light makes a deck of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from ..core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
+from ..core.raw import ElementKind
+from ..model.data import ModelData
+from ..model.draft import NO_VECTOR, Draft
+from ..model.handles import Owner
+from ..model.lookup import one_line
+from .fields import AXES as LETTERS
+from .fields import NODES_A_POINT, PRESCRIBED
+from .problems import Found
+from .remarks import Remarks
+from .table_input import Entry, Tables
+from .table_sections import mass_of, shape_of, stiffness_of
+
+#: What the local y axis of a beam points to where nothing is said.
+_ORIEN = (0.0, 1.0, 0.0)
+
+
+def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
+    """The model of checked tables; what cannot be made is noted in `found`.
+
+    Args:
+        tables: The tables.
+        flexible: What flexible deformations are that are not released.
+        found: Where problems are noted.
+    """
+    making = _Making(tables, flexible, found)
+    making.add_nodes()
+    for element in range(1, len(tables.ends) + 1):
+        making.add_element(element)
+    making.add_classes()
+    making.add_masses()
+    found.require_none()
+    data = making.draft.freeze(tables.name)
+    return making.with_remarks(data)
+
+
+class _Making:
+    """A draft that grows from tables."""
+
+    def __init__(self, tables: Tables, flexible: Class, found: Found) -> None:
+        self.tables = tables
+        self.flexible = flexible
+        self.found = found
+        self.draft = Draft(tables.planar, Owner())
+        self.position = self._shared("same_pos", 1)
+        self.orientation = self._shared("same_orien", 2)
+        self.remarks = Remarks()
+        self.remarks.left_out.update(tables.left_out)
+        self.used: set[int] = set()
+        self.next_node = NODES_A_POINT * len(tables.places) + 1
+
+    def _shared(self, name: str, offset: int) -> dict[int, int]:
+        """Node number in a deck of each point's position or orientation."""
+        made: dict[int, int] = {}
+        joined = self._hinged() if name == "same_pos" else {}
+        for point, place in enumerate(self.tables.places, start=1):
+            other = self.tables.nodes.get(point, {}).get(name, joined.get(point, point))
+            if other > point:
+                self.found.error(
+                    f"nprops[{point}].{name}", f"an earlier node is wanted, not {other}"
+                )
+                other = point
+            if name == "same_pos" and self.tables.places[other - 1] != place:
+                self.found.error(f"nprops[{point}].{name}", f"node {other} stands elsewhere")
+            made[point] = made.get(other, NODES_A_POINT * (point - 1) + offset)
+        return made
+
+    def _hinged(self) -> dict[int, int]:
+        """Of nodes at one place that a hinge joins the later one, with the earlier one."""
+        made = {}
+        for element, (p, q) in enumerate(self.tables.ends, start=1):
+            places = self.tables.places[p - 1], self.tables.places[q - 1]
+            if self._entry(element).get("type") == "hinge" and places[0] == places[1]:
+                made[max(p, q)] = min(p, q)
+        return made
+
+    def _entry(self, element: int) -> Entry:
+        return self.tables.sets.get(self.tables.set_of.get(element, 0), {})
+
+    def add_nodes(self) -> None:
+        """Positions; orientations come with the elements that need them."""
+        kind = NodeKind.PLANAR_POSITION if self.tables.planar else NodeKind.POSITION
+        for point, place in enumerate(self.tables.places, start=1):
+            number = self.position[point]
+            self.draft.node_kind[number] = kind
+            self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
+            if name := one_line(self.tables.nodes.get(point, {}).get("name", "")):
+                self.draft.node_names.setdefault(number, name)
+
+    def _orientation(self, number: int, kind: int) -> int:
+        upright = 1.0 if kind == NodeKind.ORIENTATION else 0.0
+        self.draft.node_kind.setdefault(number, kind)
+        self.draft.node_value.setdefault(number, (upright, 0.0, 0.0, 0.0))
+        return number
+
+    def add_element(self, element: int) -> None:
+        """The beams of an element, or the one element that it is."""
+        entry, (p, q) = self._entry(element), self.tables.ends[element - 1]
+        where = f"eprops[{self.tables.set_of.get(element, 0)}]"
+        kind = kind_of(entry.get("type", "plbeam" if self.tables.planar else "beam").upper())
+        if self.tables.planar and NodeKind.POSITION in kind.slots:
+            self.found.error(f"{where}.type", "nodes with x and y have planar elements alone")
+        count = entry.get("nbeams", 1)
+        if count > 1 and kind.member != Member.BEAM:
+            self.found.error(f"{where}.nbeams", "a beam alone is divided")
+            count = 1
+        vector = self._vector(kind, entry, where)
+        for i, slots in enumerate(self._slots(kind, p, q, count)):
+            released = self.tables.released.get(element, ()) if i == count - 1 else ()
+            classes = self._classes(kind, entry.get("flex", ()), released, element)
+            number = self.draft.append_element(kind.number, slots, vector, classes)
+            self._give(number - 1, kind, entry, element, (i, count))
+
+    def _vector(self, kind: ElementKind, entry: Entry, where: str) -> tuple[float, float, float]:
+        x, y, z = entry.get("orien", _ORIEN if kind.member == Member.BEAM else NO_VECTOR)
+        if kind.vector == Vector.NONE:
+            return NO_VECTOR
+        if kind.vector == Vector.REQUIRED and not any((x, y, z)):
+            self.found.error(where, f"a {entry['type']} needs its axis: give orien")
+        return x, y, z
+
+    def _slots(
+        self, kind: ElementKind, p: int, q: int, count: int
+    ) -> Iterator[tuple[int, int, int, int]]:
+        """Nodes of each beam; those between the ends come behind all points."""
+        ends = [(self.position[p], self.orientation[p])]
+        start, end = (np.array(self.tables.places[point - 1]) for point in (p, q))
+        for i in range(1, count):
+            value = (start + (end - start) / count * i).tolist()
+            number = self.next_node
+            self.next_node += NODES_A_POINT
+            self.draft.node_kind[number] = self.draft.node_kind[ends[0][0]]
+            self.draft.node_value[number] = (*value, *(0.0,) * (4 - len(value)))
+            ends.append((number, number + 1))
+        ends.append((self.position[q], self.orientation[q]))
+        for (one, turned), (other, other_turned) in pairwise(ends):
+            slots = [one, turned, other, other_turned]
+            for k, slot in enumerate(kind.slots):
+                if not slot:
+                    slots[k] = 0
+                elif k in (1, 3):
+                    self._orientation(slots[k], slot)
+            self.used.update(slots)
+            yield slots[0], slots[1], slots[2], slots[3]
+
+    def _classes(
+        self, kind: ElementKind, flex: Iterable[int], released: Iterable[int], element: int
+    ) -> tuple[int, ...]:
+        made = [int(Class.FIXED) if role else int(Class.NONE) for role in kind.role]
+        for mode, value in (
+            *((mode, self.flexible) for mode in flex),
+            *((mode, Class.DEPENDENT) for mode in released),
+        ):
+            if made[mode - 1] == Class.NONE:
+                self.found.error(
+                    f"elements[{element}]",
+                    f"a {kind.keyword.lower()} has no deformation {mode}, only 1 to "
+                    f"{kind.deformations}: correct flex or def",
+                )
+            else:
+                made[mode - 1] = int(value)
+        return tuple(made)
+
+    def _give(
+        self, index: int, kind: ElementKind, entry: Entry, element: int, beam: tuple[int, int]
+    ) -> None:
+        """Name, look, stiffness and mass of one of the beams of an element."""
+        if name := one_line(entry.get("name", "")):
+            if len(entry["elems"]) > 1:
+                name = f"{name} {entry['elems'].index(element) + 1}"
+            if beam[1] > 1:
+                name = f"{name}, part {beam[0] + 1} of {beam[1]}"
+            self.draft.name_element(index, name)
+        shape = shape_of(entry)
+        said = {
+            "shape": shape,
+            "colour": entry.get("color"),
+            "opacity": entry.get("opacity"),
+            "drawn": False if entry.get("hide") else None,
+        }
+        self.draft.appearance.give(
+            [index], {key: value for key, value in said.items() if value is not None}
+        )
+        if shape is not None and kind.member in (Member.BAR, Member.BEAM):
+            self.draft.give_properties(
+                index, stiffness_of(kind, shape, entry), mass_of(kind, shape, entry)
+            )
+        elif shape is not None and "dens" in entry:
+            self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
+
+    def add_classes(self) -> None:
+        """What is fixed, and what is prescribed and so independent."""
+        for point, entry in self.tables.nodes.items():
+            if point > len(self.tables.places):
+                continue
+            stated: dict[tuple[int, int], Class] = {}
+            self._fix(point, entry, stated)
+            if self._prescribe(point, entry, stated):
+                self.remarks.leave_out(PRESCRIBED)
+            self.draft.coordinate_class.update(stated)
+
+    def _axes(self, number: int) -> tuple[int, ...]:
+        """Of a node that an element uses."""
+        return AXES[self.draft.node_kind[number]] if number in self.used else ()
+
+    def _fix(self, point: int, entry: Entry, stated: dict[tuple[int, int], Class]) -> None:
+        position, orientation = self.position[point], self.orientation[point]
+        for axis in self._axes(position):
+            if any(entry.get(name) for name in ("fix", "fix_pos", f"fix_{LETTERS[axis]}")):
+                stated[position, axis] = Class.FIXED
+        for axis in self._axes(orientation):
+            if any(entry.get(name) for name in ("fix", "fix_orien", f"fix_r{LETTERS[axis]}")):
+                stated[orientation, axis] = Class.FIXED
+
+    def _prescribe(self, point: int, entry: Entry, stated: dict[tuple[int, int], Class]) -> bool:
+        """Make independent what moves as it is told; whether a value was told."""
+        told = False
+        for number, stem in ((self.position[point], "displ"), (self.orientation[point], "rot")):
+            axes = self._axes(number)
+            for start in (stem, f"{stem}_initial"):
+                names = {f"{start}_{letter}": (axis,) for axis, letter in enumerate(LETTERS)}
+                for name, wanted in {**names, start: axes}.items():
+                    if name not in entry:
+                        continue
+                    value = entry[name]
+                    told = told or bool(any(value) if isinstance(value, tuple) else value)
+                    for axis in wanted:
+                        self._state(point, name, (number, axis), stated)
+        return told
+
+    def _state(
+        self, point: int, name: str, place: tuple[int, int], stated: dict[tuple[int, int], Class]
+    ) -> None:
+        where = f"nprops[{point}].{name}"
+        if place[1] not in self._axes(place[0]):
+            self.found.error(where, "no element gives the node this coordinate")
+        elif stated.get(place) == Class.FIXED:
+            self.found.error(where, "the coordinate is fixed, too: it cannot move as it is told")
+        else:
+            stated[place] = Class.INDEPENDENT
+
+    def add_masses(self) -> None:
+        """Masses of nodes."""
+        for point, entry in self.tables.nodes.items():
+            if point > len(self.tables.places):
+                continue
+            for name, number in (
+                ("mass", self.position[point]),
+                ("mominertia", self.orientation[point]),
+            ):
+                if name not in entry:
+                    continue
+                value = entry[name] if isinstance(entry[name], tuple) else (entry[name],)
+                if number not in self.used:
+                    self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
+                else:
+                    planar = self.draft.node_kind[number] == NodeKind.ANGLE
+                    self.draft.give_node_mass(number, value[-1:] if planar else value)
+
+    def with_remarks(self, data: ModelData) -> ModelData:
+        """The model with what was left out among its notes."""
+        return replace(data, besides=(*data.besides, *self.remarks.notes()))
