@@ -9,11 +9,11 @@ module flexact_scaling
    use flexact_slots, only: axes, slots, is_position
    use flexact_jacobian, only: jacobian_t
    use flexact_rank, only: rank_rule_t
-   use flexact_rounding, only: decimal, difference, last_bits, last_digit, coarsest_digit
+   use flexact_rounding, only: decimal, decimal_t, difference, last_bits, last_digit, coarsest_digit
    use flexact_scaled_norm, only: length_of
    implicit none
    private
-   public :: scaling_t, make_scaling, rank_rule_of, extent_of
+   public :: scaling_t, make_scaling, make_single_scaling, rank_rule_of, extent_of
 
    !> A component this many times larger or smaller than the whole has its own length:
    !> lengths within one mechanism differ less, and keep one scale.
@@ -71,6 +71,32 @@ contains
       call scale_rows(model, partition, jacobian, row_length, scaling)
       call bound_errors(model, partition, jacobian, scaling)
    end subroutine make_scaling
+
+   !> The same where all lengths are of one size, so that components do not count; else
+   !> is_single is false, and nothing else is to be used.
+   pure subroutine make_single_scaling(model, partition, jacobian, scaling, is_single)
+      type(model_t), intent(in) :: model
+      type(partition_t), intent(in) :: partition
+      type(jacobian_t), intent(in) :: jacobian
+      type(scaling_t), intent(out) :: scaling
+      logical, intent(out) :: is_single
+      real(wp) :: row_length(partition%count%rows)
+      integer :: j
+
+      associate (length => jacobian%length)
+         is_single = .not. any(length > 0)
+         if (.not. is_single) is_single = maxval(length) < another_size*minval(length, length > 0)
+      end associate
+      if (.not. is_single) return
+      scaling%characteristic_length = geometric_mean(jacobian%length)
+      allocate (scaling%column(partition%count%columns), source=1.0_wp)
+      do j = 1, partition%count%columns
+         if (is_rotation(model, partition%column_label(1, j))) scaling%column(j) = 1/scaling%characteristic_length
+      end do
+      row_length = scaling%characteristic_length
+      call scale_rows(model, partition, jacobian, row_length, scaling)
+      call bound_errors(model, partition, jacobian, scaling)
+   end subroutine make_single_scaling
 
    !> By which the rank of the scaled matrix is decided.
    pure function rank_rule_of(scaling, tolerance) result(rule)
@@ -154,15 +180,19 @@ contains
       type(jacobian_t), intent(in) :: jacobian
       type(scaling_t), intent(inout) :: scaling
       real(wp), allocatable :: squares(:, :)
+      type(decimal_t) :: number(axes, model%nodes)
       real(wp) :: extent, error(3)
       integer :: k, slot, axis
 
       extent = extent_of(model)
+      do k = 1, model%nodes
+         if (is_position(model%node_kind(k))) number(:, k) = decimal(model%node_value(1:axes, k))
+      end do
       allocate (squares(3, partition%count%columns), source=0.0_wp)
       do k = 1, model%elements
          associate (rows => count(partition%row_of(:, k) > 0), node => model%element_node(:, k))
             if (rows == 0) cycle
-            error = errors_of_direction(model, k, jacobian%length(k), scaling%characteristic_length, extent)
+            error = errors_of_direction(model, k, number, jacobian%length(k), scaling%characteristic_length, extent)
             do slot = 1, slots
                if (node(slot) == 0 .or. any(node(:slot - 1) == node(slot))) cycle
                do axis = 1, axes
@@ -181,30 +211,33 @@ contains
 
    !> How far the directions of element k may be turned, by rounding in the last
    !> bits, by many digits typed, and by any; no more than makes them unknown.
-   pure function errors_of_direction(model, k, length, characteristic_length, extent) result(error)
+   pure function errors_of_direction(model, k, number, length, characteristic_length, extent) result(error)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
+      type(decimal_t), intent(in) :: number(:, :)
       real(wp), intent(in) :: length, characteristic_length, extent
       real(wp) :: error(3)
 
       error = 0.0_wp
       associate (p => model%element_node(1, k), q => model%element_node(3, k), vector => model%element_vector(:, k))
          if (p > 0 .and. q > 0) &
-            error = errors_of_offset(model%node_value(1:axes, p), model%node_value(1:axes, q), extent)
+            error = errors_of_offset(model%node_value(1:axes, [p, q]), number(:, p), number(:, q), extent)
          error = min(1.0_wp, error/merge(length, characteristic_length, length > 0))
          if (any(abs(vector) > 0)) &
-            error = max(error, errors_of_offset(0*vector, vector, maxval(abs(vector)))/length_of(vector))
+            error = max(error, errors_of_offset(spread(vector, 2, 1), decimal(0*vector), decimal(vector), &
+                                                maxval(abs(vector)))/length_of(vector))
       end associate
    end function errors_of_direction
 
-   !> By how much the vector from p to q may be wrong. Bits are lost where the
-   !> points stand; digits count from the one to the other.
-   pure function errors_of_offset(p, q, extent) result(error)
-      real(wp), intent(in) :: p(:), q(:), extent
+   !> By how much the vector between two points may be wrong, by the points and by their
+   !> digits. Bits are lost where the points stand; digits count from the one to the other.
+   pure function errors_of_offset(points, p, q, extent) result(error)
+      real(wp), intent(in) :: points(:, :), extent
+      type(decimal_t), intent(in) :: p(:), q(:)
       real(wp) :: error(3)
+      type(decimal_t) :: offset(size(p))
 
-      associate (offset => difference(decimal(p), decimal(q)))
-         error = [maxval(last_bits([p, q], extent)), maxval(last_digit(offset)), maxval(coarsest_digit(offset))]
-      end associate
+      offset = difference(p, q)
+      error = [maxval(last_bits(points, extent)), maxval(last_digit(offset)), maxval(coarsest_digit(offset))]
    end function errors_of_offset
 end module flexact_scaling

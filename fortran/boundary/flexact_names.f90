@@ -13,6 +13,7 @@ module flexact_names
    use flexact_result, only: method_names
    use flexact_roles, only: role_names, dual_names
    use flexact_slots, only: node_kind_names
+   use flexact_variant_exchange, only: variant_fact_names
    implicit none
    private
    public :: names_t, names_of
@@ -43,6 +44,7 @@ contains
       case ('errors'); names%name = [error_names]
       case ('stages'); names%name = [stage_names]
       case ('facts'); names = names_t(1, [fact_names])
+      case ('variant facts'); names = names_t(1, [variant_fact_names])
       case ('severities'); names = names_t(1, [severity_names])
       case ('cross-sections'); names = names_t(1, [character(len=24) :: section_names])
       case default; allocate (names%name(0))

@@ -25,7 +25,11 @@ contains
 
       call linear_deformation(reference, p, q, linear, linear_derivative)
       e = coupled_deformation(reference, linear)
-      derivative = matmul(coupling(reference, linear), linear_derivative)
+      if (any(abs(linear(2:)) > 0)) then
+         derivative = matmul(coupling(reference, linear), linear_derivative)
+      else
+         derivative = linear_derivative
+      end if
    end subroutine beam_deformation
 
    !> Eq. (4), each in units of l0 but for the first, and the derivatives of

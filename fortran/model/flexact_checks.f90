@@ -3,21 +3,16 @@
 module flexact_checks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use flexact_diagnostics, only: span_t, diagnostics_t
-   use flexact_element_table, only: element_kinds, vector_optional, vector_required
+   use flexact_element_table, only: element_kinds, vector_required
+   use flexact_geometry, only: fault_of, fault_not_finite, fault_zero_length, fault_out_of_range, fault_vector_not_finite, &
+                               fault_parallel
    use flexact_kinds, only: wp
    use flexact_labels, only: names_t, element_label, node_label
    use flexact_model, only: model_t
-   use flexact_slots, only: slots, is_position, node_planar_position
-   use flexact_vectors, only: coincide, length_of, unit
+   use flexact_slots, only: slots, is_position
    implicit none
    private
    public :: check_model, is_consistent
-
-   !> Sine of the angle below which a vector counts as parallel to its beam.
-   real(wp), parameter :: parallel_sine = 1.0e-6_wp
-   !> Lengths whose cubes and quotients stay within the range of numbers.
-   real(wp), parameter :: shortest = 1.0e-90_wp
-   real(wp), parameter :: longest = 1.0e90_wp
 
 contains
 
@@ -68,38 +63,33 @@ contains
       integer, intent(in) :: k
       type(span_t), intent(in) :: place
       type(diagnostics_t), intent(inout) :: diagnostics
-      real(wp) :: half(3), length
-      integer :: axes
+      integer :: words(2)
 
-      associate (kind => element_kinds(model%element_kind(k)), p => model%element_node(1, k), &
-                 q => model%element_node(3, k))
-         ! A planar element sees x and y alone.
-         axes = merge(2, 3, kind%slot_kind(1) == node_planar_position)
-         if (.not. all(ieee_is_finite(model%node_value(:axes, [p, q])))) then
-            ! A deck's own numbers were reported where they stand.
-            if (place%first == 0) then
-               call diagnostics%error('not-finite', place, element_label(model, names, k)//' has a node at no finite place', &
-                                      'its coordinates are not finite', 'give its nodes finite coordinates')
-            end if
-            return
-         end if
-         ! Halved, because a difference may overflow.
-         half = 0.0_wp
-         half(:axes) = model%node_value(:axes, q)/2 - model%node_value(:axes, p)/2
-         length = 2*min(length_of(half), huge(length)/2)
-         if (coincide(model%node_value(:axes, p), model%node_value(:axes, q))) then
-            if (.not. kind%needs_length) return
-            call diagnostics%error('zero-length', place, element_label(model, names, k)//' has zero length: '// &
-                                   node_label(model, names, p)//' and '//node_label(model, names, q)//' are at one place', &
-                                   'zero length', 'give the two nodes different positions')
-         else if (length > longest .or. length < shortest) then
-            call diagnostics%error('length-out-of-range', place, element_label(model, names, k)// &
-                                   ' is too long or too short to compute with', 'length out of range', &
-                                   'lengths from 1e-90 to 1e90 can be analysed: choose another unit')
-         else if (kind%vector == vector_optional) then
-            call check_vector(model, names, k, unit(half), place, diagnostics)
-         end if
-      end associate
+      select case (fault_of(model, k))
+      case (fault_not_finite)
+         ! A deck's own numbers were reported where they stand.
+         if (place%first == 0) &
+            call diagnostics%error('not-finite', place, element_label(model, names, k)//' has a node at no finite place', &
+                                   'its coordinates are not finite', 'give its nodes finite coordinates')
+      case (fault_zero_length)
+         call diagnostics%error('zero-length', place, element_label(model, names, k)//' has zero length: '// &
+                                node_label(model, names, model%element_node(1, k))//' and '// &
+                                node_label(model, names, model%element_node(3, k))//' are at one place', &
+                                'zero length', 'give the two nodes different positions')
+      case (fault_out_of_range)
+         call diagnostics%error('length-out-of-range', place, element_label(model, names, k)// &
+                                ' is too long or too short to compute with', 'length out of range', &
+                                'lengths from 1e-90 to 1e90 can be analysed: choose another unit')
+      case (fault_vector_not_finite)
+         call diagnostics%error('not-finite', place, 'the y vector of '//element_label(model, names, k)//' is not finite', &
+                                'not finite', 'give a finite vector')
+      case (fault_parallel)
+         words(1) = 3 + count(element_kinds(model%element_kind(k))%slot_kind /= 0)
+         words(2) = words(1) + 2
+         call diagnostics%error('parallel-vector', place, 'the y vector of '//element_label(model, names, k)// &
+                                ' is parallel to it', 'parallel to the line from p to q', &
+                                'give a vector across the element, or none', words=words)
+      end select
    end subroutine check_positions
 
    pure logical function has_twice(node)
@@ -123,34 +113,6 @@ contains
                                 'has no direction', 'give a vector that is not zero')
       end if
    end subroutine check_axis
-
-   subroutine check_vector(model, names, k, ex, place, diagnostics)
-      type(model_t), intent(in) :: model
-      type(names_t), intent(in) :: names
-      integer, intent(in) :: k
-      real(wp), intent(in) :: ex(3)
-      type(span_t), intent(in) :: place
-      type(diagnostics_t), intent(inout) :: diagnostics
-      real(wp) :: direction(3)
-      integer :: words(2)
-
-      associate (vector => model%element_vector(:, k), kind => element_kinds(model%element_kind(k)))
-         if (all(abs(vector) <= 0.0_wp)) return
-         words(1) = 3 + count(kind%slot_kind /= 0)
-         words(2) = words(1) + 2
-         if (.not. all(ieee_is_finite(vector))) then
-            call diagnostics%error('not-finite', place, 'the y vector of '//element_label(model, names, k)//' is not finite', &
-                                   'not finite', 'give a finite vector')
-            return
-         end if
-         direction = unit(vector)
-         if (norm2(direction - dot_product(direction, ex)*ex) < parallel_sine) then
-            call diagnostics%error('parallel-vector', place, 'the y vector of '//element_label(model, names, k)// &
-                                   ' is parallel to it', 'parallel to the line from p to q', &
-                                   'give a vector across the element, or none', words=words)
-         end if
-      end associate
-   end subroutine check_vector
 
    !> Whether the arrays fit together: kinds that exist, nodes that exist and
    !> are of the kind that their slots ask for.

@@ -7,21 +7,18 @@
 !> of the elements, in the reference configuration, with lengths and frames; theory.md
 !> (20), (21) and (29).
 module flexact_sensitivity
+   use flexact_effects, only: geometry_t, make_geometry, find_effects, parameters
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
    use flexact_slots, only: axes, is_position
    use flexact_rounding, only: decimal, decimal_t, difference, half_bit, half_units, last_bits, looks_printed, looks_rounded
-   use flexact_variation, only: variation_t, make_variation, parameters
    use flexact_scaling, only: extent_of
    use flexact_vectors, only: cross
    implicit none
    private
    public :: sensitivity_t, find_sensitivities
 
-   !> Effects are differences: below this part of what is added up in them nothing is
-   !> left, as central differences with `relative_step` err by 1e-10.
-   real(wp), parameter :: negligible = 1.0e-8_wp
    !> Of several that change as much as can be told, the first is named.
    real(wp), parameter :: more = 1 + 1.0e-6_wp
 
@@ -48,19 +45,22 @@ module flexact_sensitivity
 contains
 
    !> Columns of u (rows, :) and of v (columns, :) are vectors of D(c) without
-   !> its scales; pair (2, :) names the columns of each pair.
-   subroutine find_sensitivities(model, u, v, pair, found)
+   !> its scales; pair (2, :) names the columns of each pair. only_margins: lifts are not wanted.
+   subroutine find_sensitivities(model, u, v, pair, found, only_margins)
       type(model_t), intent(in) :: model
       real(wp), intent(in) :: u(:, :), v(:, :)
       integer, intent(in) :: pair(:, :)
       type(sensitivity_t), intent(out) :: found(:)
+      logical, intent(in), optional :: only_margins
       type(partition_t) :: partition
-      type(variation_t) :: variation
-      type(model_t) :: alone
+      type(geometry_t) :: geometry
       real(wp), allocatable :: by_node(:, :, :)
       real(wp) :: ue(6, size(u, 2)), ve(12, size(v, 2)), effect(parameters), nothing(2)
+      logical :: with_lifts
       integer :: k, i
 
+      with_lifts = .true.
+      if (present(only_margins)) with_lifts = .not. only_margins
       call make_partition(model, partition)
       ! Behind the effects of each node stands what is nothing beside them.
       allocate (by_node(axes + 1, size(pair, 2), model%nodes), source=0.0_wp)
@@ -68,13 +68,15 @@ contains
          call gather(u, partition%row_of(:, k), ue)
          if (.not. any(abs(ue) > 0)) cycle
          call gather_ends(model, partition, k, v, ve)
-         call make_variation(model, k, alone, variation)
+         call make_geometry(model, k, geometry)
          do i = 1, size(pair, 2)
-            call find_effects(variation, ue(:, pair(1, i)), ve(:, pair(2, i)), effect, nothing)
-            call add_element(model, k, variation, effect, nothing, by_node(:, i, :), found(i))
+            call find_effects(geometry, ue(:, pair(1, i)), ve(:, pair(2, i)), effect, nothing)
+            call add_element(model, k, geometry, effect, nothing, by_node(:, i, :), found(i))
+            if (with_lifts) call add_lifts_of_vector(model%element_vector(:, k), effect(4:6), found(i))
          end do
       end do
-      call add_nodes(model, by_node, found)
+      call find_moves(model, by_node, found)
+      if (with_lifts) call add_lifts_of_nodes(model, by_node, found)
    end subroutine find_sensitivities
 
    !> Rows of a matrix by their numbers; zeros for number 0.
@@ -108,42 +110,16 @@ contains
       end do
    end subroutine gather_ends
 
-   !> u' (dD/dx) v for each number x of an element's geometry, zero where
-   !> nothing is left of it; and what is nothing beside the offset's and the vector's.
-   pure subroutine find_effects(variation, u, v, effect, nothing)
-      type(variation_t), intent(in) :: variation
-      real(wp), intent(in) :: u(:), v(:)
-      real(wp), intent(out) :: effect(parameters), nothing(2)
-      real(wp) :: added(parameters), part
-      integer :: i, j
-
-      effect = 0.0_wp
-      added = 0.0_wp
-      do i = 1, parameters
-         if (.not. variation%varies(i)) cycle
-         do j = 1, size(v)
-            if (.not. abs(v(j)) > 0) cycle
-            associate (change => variation%derivative(:variation%deformations, j, i))
-               part = dot_product(u(:variation%deformations), change)*v(j)
-               effect(i) = effect(i) + part
-               added(i) = added(i) + maxval(abs(change))*abs(v(j))
-            end associate
-         end do
-      end do
-      nothing = negligible*norm2(u)*[maxval(added(1:3)), maxval(added(4:6))]
-      where (abs(effect) <= [spread(nothing(1), 1, 3), spread(nothing(2), 1, 3)]) effect = 0.0_wp
-   end subroutine find_effects
-
    !> Effects at the ends of element k, of its vector, and of turning it. The
    !> element alone is turned; others at its nodes stay where they are.
-   pure subroutine add_element(model, k, variation, effect, nothing, by_node, found)
+   pure subroutine add_element(model, k, geometry, effect, nothing, by_node, found)
       type(model_t), intent(in) :: model
       integer, intent(in) :: k
-      type(variation_t), intent(in) :: variation
+      type(geometry_t), intent(in) :: geometry
       real(wp), intent(in) :: effect(parameters), nothing(2)
       real(wp), intent(inout) :: by_node(:, :)
       type(sensitivity_t), intent(inout) :: found
-      real(wp) :: by_turn, units(axes)
+      real(wp) :: by_turn
 
       associate (p => model%element_node(1, k), q => model%element_node(3, k), &
                  vector => model%element_vector(:, k), of_offset => effect(1:3), of_vector => effect(4:6))
@@ -151,18 +127,27 @@ contains
             by_node(:, p) = by_node(:, p) + [-of_offset, nothing(1)]
             by_node(:, q) = by_node(:, q) + [of_offset, nothing(1)]
          end if
-         found%lift_of_bits = found%lift_of_bits + dot_product(abs(of_vector), last_bits(vector, maxval(abs(vector))))
-         found%lift_of_digits = found%lift_of_digits + dot_product(abs(of_vector), half_units_of(vector))
-         units = stored_or_printed(vector, decimal(vector), .true., maxval(abs(vector)))
-         found%lift_of_storing = found%lift_of_storing + dot_product(abs(of_vector), units)
-         by_turn = norm2(cross(variation%offset, of_offset) + cross(vector, of_vector))
-         if (by_turn <= nothing(1)*norm2(variation%offset) + nothing(2)*norm2(vector)) return
+         by_turn = norm2(cross(geometry%offset, of_offset) + cross(vector, of_vector))
+         if (by_turn <= nothing(1)*norm2(geometry%offset) + nothing(2)*norm2(vector)) return
          if (by_turn > more*found%by_turn) then
             found%by_turn = by_turn
             found%element = k
          end if
       end associate
    end subroutine add_element
+
+   !> What the numbers of an element's vector may make.
+   pure subroutine add_lifts_of_vector(vector, effect, found)
+      real(wp), intent(in) :: vector(:), effect(:)
+      type(sensitivity_t), intent(inout) :: found
+      real(wp) :: units(axes)
+
+      if (.not. any(abs(effect) > 0)) return
+      found%lift_of_bits = found%lift_of_bits + dot_product(abs(effect), last_bits(vector, maxval(abs(vector))))
+      found%lift_of_digits = found%lift_of_digits + dot_product(abs(effect), half_units_of(vector))
+      units = stored_or_printed(vector, decimal(vector), .true., maxval(abs(vector)))
+      found%lift_of_storing = found%lift_of_storing + dot_product(abs(effect), units)
+   end subroutine add_lifts_of_vector
 
    !> By how much a number may be wrong that was stored or printed, in a geometry of this
    !> size: half a unit of its last bit, or of its last digit. What is no more than some
@@ -183,15 +168,35 @@ contains
       half = half_units(decimal(vector), looks_rounded(decimal(vector)))
    end function half_units_of
 
-   !> Effects of the nodes' positions.
-   subroutine add_nodes(model, by_node, found)
+   !> The node that changes each value most where it is moved.
+   pure subroutine find_moves(model, by_node, found)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: by_node(:, :, :)
+      type(sensitivity_t), intent(inout) :: found(:)
+      real(wp) :: by_move
+      integer :: node, i
+
+      do node = 1, model%nodes
+         if (.not. is_position(model%node_kind(node))) cycle
+         do i = 1, size(found)
+            by_move = norm2(by_node(1:axes, i, node))
+            if (by_move > max(by_node(axes + 1, i, node), more*found(i)%by_move)) then
+               found(i)%by_move = by_move
+               found(i)%node = node
+            end if
+         end do
+      end do
+   end subroutine find_moves
+
+   !> What the numbers of the nodes' positions may make.
+   pure subroutine add_lifts_of_nodes(model, by_node, found)
       type(model_t), intent(in) :: model
       real(wp), intent(in) :: by_node(:, :, :)
       type(sensitivity_t), intent(inout) :: found(:)
       type(decimal_t), allocatable :: number(:, :)
       logical, allocatable :: rounded(:, :)
       logical :: printed(axes)
-      real(wp) :: half(axes), bits(axes), units(axes), by_move, extent
+      real(wp) :: half(axes), bits(axes), units(axes), extent
       integer :: node, i
 
       allocate (number(axes, model%nodes), rounded(axes, model%nodes))
@@ -204,24 +209,19 @@ contains
          bits = last_bits(model%node_value(1:axes, node), extent)
          units = stored_or_printed(model%node_value(1:axes, node), number(:, node), printed, extent)
          do i = 1, size(found)
-            associate (change => by_node(1:axes, i, node), nothing => by_node(axes + 1, i, node), item => found(i))
-               item%lift_of_bits = item%lift_of_bits + dot_product(abs(change), bits)
-               item%lift_of_digits = item%lift_of_digits + dot_product(abs(change), half)
-               item%lift_of_storing = item%lift_of_storing + dot_product(abs(change), units)
-               by_move = norm2(change)
-               if (by_move > max(nothing, more*item%by_move)) then
-                  item%by_move = by_move
-                  item%node = node
-               end if
+            associate (change => abs(by_node(1:axes, i, node)), item => found(i))
+               item%lift_of_bits = item%lift_of_bits + dot_product(change, bits)
+               item%lift_of_digits = item%lift_of_digits + dot_product(change, half)
+               item%lift_of_storing = item%lift_of_storing + dot_product(change, units)
             end associate
          end do
       end do
-   end subroutine add_nodes
+   end subroutine add_lifts_of_nodes
 
    !> Which coordinates look rounded, both by themselves and, along their axis, as
    !> seen along some element: the joints 100, 101, ... of a lattice do not. Along
    !> which axes numbers were printed is told by what elements see, too.
-   subroutine find_rounded(model, number, rounded, printed)
+   pure subroutine find_rounded(model, number, rounded, printed)
       type(model_t), intent(in) :: model
       type(decimal_t), intent(in) :: number(:, :)
       logical, intent(out) :: rounded(:, :), printed(axes)

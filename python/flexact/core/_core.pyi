@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Types of the extension module made by f2py from fortran/boundary/bindings.f90."""
+"""Types of the extension module made by f2py from fortran/boundary/*bindings.f90."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,3 +77,14 @@ def find_echelon(
     place: _Ints,
     /,
 ) -> _Ints: ...
+def analyse_variants(
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    wishes: _Floats,
+    position: _Floats,
+    class_: _Ints,
+    facts: _Floats,
+    /,
+) -> None: ...

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import sys
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from .raw import (
     RawFrames,
     RawProperties,
     RawSensitivities,
+    RawVariants,
 )
 
 #: Entries of the bases of motions and self-stresses beyond which vectors are left out.
@@ -70,6 +72,9 @@ STAGES = tuple(names_of("stages"))
 #: How the core can fail, by number.
 ERRORS = tuple(names_of("errors"))
 _FACTS = tuple(names_of("facts"))
+_VARIANT_FACTS = tuple(names_of("variant facts"))
+#: Values with what changes them, at most, of each variant.
+_MOST_PAIRS = 6
 _PROOFS = dict(zip((None, True, False), names_of("proofs").values(), strict=True))
 
 
@@ -365,3 +370,67 @@ def find_sensitivities(
     if used != rows + columns or beyond:
         raise ValueError("the vectors are not of the model's size, or a pair names none of them")
     return RawSensitivities(*effect, *(place - 1))
+
+
+class VariantWishes(NamedTuple):
+    """What is asked of variants."""
+
+    near: float
+    """Values up to this multiple of the noise are looked at closely."""
+    cut_off: float
+    """Values up to this multiple of what half a unit of the last digits makes are in doubt."""
+    most_reach: float
+    """No more than that can missing digits make."""
+    with_values: bool
+    """Whether values and what changes them are wanted beside the rank."""
+    memory: float = math.inf
+    """Bytes that may be used."""
+    prove: bool | None = None
+    as_stored: bool = False
+    """Whether numbers are no decimals as typed, whatever they look like."""
+
+
+def analyse_variants(
+    model: PackedModel, wishes: VariantWishes, positions: FloatArray, classes: IntArray
+) -> RawVariants:
+    """Analyse some variants of a model, the interpreter lock dropped.
+
+    Args:
+        model: the model.
+        wishes: what is asked.
+        positions: (variants, nodes, 3), or (1, nodes, 3) for all.
+        classes: (variants, elements, 6), or (1, elements, 6) for all.
+
+    Raises:
+        ValueError: a shape does not fit.
+    """
+    many = max(len(positions), len(classes))
+    nodes, elements = model.nodes.shape[1], model.elements.shape[1]
+    if positions.shape[1:] != (nodes, 3) or len(positions) not in (1, many):
+        raise ValueError(f"positions have the shape {positions.shape}")
+    if classes.shape[1:] != (elements, 6) or len(classes) not in (1, many):
+        raise ValueError(f"classes have the shape {classes.shape}")
+    first = len(_VARIANT_FACTS)
+    facts = np.empty((first + 3 * _MOST_PAIRS, many), order="F")
+    memory = min(wishes.memory, sys.float_info.max)
+    _require_room_for(model)
+    _core.analyse_variants(
+        *model,
+        np.array((*wishes[:4], memory, _PROOFS[wishes.prove], wishes.as_stored), float),
+        np.ascontiguousarray(positions, float).T,
+        np.ascontiguousarray(classes, np.int32).T,
+        facts,
+    )
+    named = dict(zip(_VARIANT_FACTS, facts, strict=False))
+    pairs = facts[first:].reshape(3, _MOST_PAIRS, many).swapaxes(1, 2)
+    pairs = np.where(np.arange(_MOST_PAIRS) < named["pairs"][:, None], pairs, math.nan)
+    return RawVariants(
+        named["decided"] == 1,
+        named["rows"].astype(np.int32),
+        named["columns"].astype(np.int32),
+        named["rank"].astype(np.int32),
+        named["smallest"],
+        named["largest"],
+        named["characteristic length"],
+        *pairs,
+    )

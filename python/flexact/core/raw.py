@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .arrays import ByteArray, FloatArray, IntArray, ModelArrays
+from .arrays import BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
 from .basis import Basis
 
 
@@ -189,6 +189,31 @@ class RawAnalysis(NamedTuple):
     def is_read_only(self) -> bool:
         """The arrays come from `calls.analyse_model`, which has made them so."""
         return True
+
+
+class RawVariants(NamedTuple):
+    """What is known of each of some variants; k pairs at most."""
+
+    decided: BoolArray
+    """(variants,) whether the rank is known and in no doubt; else the rest is not to be used."""
+    rows: IntArray
+    """(variants,) of D(c)."""
+    columns: IntArray
+    """(variants,) likewise."""
+    rank: IntArray
+    """(variants,)"""
+    smallest: FloatArray
+    """(variants,) smallest singular value of D(c) itself."""
+    largest: FloatArray
+    """(variants,) largest of them."""
+    characteristic_length: FloatArray
+    """(variants,) [m]."""
+    pair_value: FloatArray
+    """(variants, k) smallest singular values of the scaled D(c), ascending; NaN beyond the last."""
+    by_move: FloatArray
+    """(variants, k) the largest change of each by the move of one node [1/m]."""
+    by_turn: FloatArray
+    """(variants, k) the largest change of each by the turn of one element [1/rad]."""
 
 
 class RawEchelon(NamedTuple):

@@ -16,7 +16,7 @@ from .rank_evidence import STORED, Evidence
 from .verdict import Alternative, Certainty
 
 #: Values up to this multiple of the noise are looked at.
-_NEAR = 100.0
+NEAR = 100.0
 #: Of those, the ones up to this multiple of what storing the geometry makes of them are in doubt:
 #: a geometry that was itself computed has lost some bits more, and does not say so.
 CLEARLY = 30.0
@@ -26,9 +26,9 @@ _EPSILON = float(np.finfo(np.float64).eps)
 _FADED = 7.0
 #: Values up to this multiple of what half a unit of the last digits makes are in doubt: digits
 #: may have been cut off, zeros at the end leave no trace, and the change is of first order.
-_CUT_OFF = 2.0
+CUT_OFF = 2.0
 #: A unit of a third digit moves a singular value by less than this; see `sensitivity`.
-_REACH_OF_DIGITS = 0.1
+REACH_OF_DIGITS = 0.1
 
 
 class DoubtKind(str, Enum):
@@ -125,7 +125,7 @@ def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
 
 
 def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
-    near = _nonzeros_up_to(outcome, _NEAR * outcome.raw.noise)
+    near = _nonzeros_up_to(outcome, NEAR * outcome.raw.noise)
     if not near:
         return
     looked_at = evidence.pairs[:near]
@@ -139,15 +139,15 @@ def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
 
 
 def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
-    reach = min(_REACH_OF_DIGITS, _CUT_OFF * outcome.raw.reach_of_digits)
+    reach = min(REACH_OF_DIGITS, CUT_OFF * outcome.raw.reach_of_digits)
     if not any(outcome.raw.pair_value <= reach):
         return
     every = evidence.pairs
-    lifted = [pair for pair in every if pair.value <= _CUT_OFF * pair.lift_of_digits]
+    lifted = [pair for pair in every if pair.value <= CUT_OFF * pair.lift_of_digits]
     if not lifted:
         return
     # Of more values than have vectors, those within the same reach are in doubt as well.
-    reach = _CUT_OFF * max(pair.lift_of_digits for pair in lifted)
+    reach = CUT_OFF * max(pair.lift_of_digits for pair in lifted)
     count = max(every.index(lifted[-1]) + 1, len(lifted))
     if len(lifted) == len(every):
         count = max(count, _nonzeros_up_to(outcome, reach))

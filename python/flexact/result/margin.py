@@ -6,6 +6,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+import numpy as np
+
+from ..core.arrays import FloatArray
 from .outcome import Outcome
 from .rank_evidence import Evidence
 from .sensitivity import Pair
@@ -59,6 +62,28 @@ def margin_of(outcome: Outcome, pair: Pair, distance: float) -> Margin:
         element=pair.element if math.isfinite(angle) else None,
         singular_value=pair.value,
     )
+
+
+def least_misalignments(
+    values: FloatArray, by_move: FloatArray, by_turn: FloatArray, characteristic_length: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The least of `margin_of` over the pairs of each of many variants.
+
+    Args:
+        values: (variants, pairs) singular values that are not zero; NaN where there is none.
+        by_move: (variants, pairs) what each changes by the move of one node [1/m].
+        by_turn: (variants, pairs) by the turn of one element [1/rad].
+        characteristic_length: (variants,) [m].
+
+    Returns:
+        Lengths [m] and angles [rad], (variants,) each; infinite where none changes a value.
+    """
+    moves = by_move * characteristic_length[:, None] > _NOTHING
+    turns = by_turn > _NOTHING
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        lengths = np.where(moves, values / by_move, np.inf)
+        angles = np.where(turns, values / by_turn, np.inf)
+    return lengths.min(axis=1, initial=np.inf), angles.min(axis=1, initial=np.inf)
 
 
 def least(of: Iterable[Margin]) -> Margin:

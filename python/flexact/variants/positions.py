@@ -1,22 +1,81 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Variants of one topology, by their positions or by what they hold."""
+"""Variants of one topology, by their positions or by what they hold.
+
+The core runs through them in threads, without a Python object for each. What it cannot decide
+without a doubt (a value near rounding, digits that may explain one, a wrong geometry) is
+analysed here as a single model would be, so that each row says what `flexact.analyse` says.
+"""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from typing import NamedTuple
+
 import numpy as np
 
+from ..base import memory
+from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.progress import Progress
+from ..core.raw import RawVariants
 from ..diagnostics.errors import DeckError, ModelError
 from ..model.data import ModelData
-from ..model.variation import with_held, with_positions
+from ..model.parts.chains import perhaps_condensed
+from ..model.variation import classes_held, with_held, with_positions
+from ..result.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
 from ..result.decompose import AnalysisError
+from ..result.margin import least_misalignments
 from ..result.outcome import Asked
 from ..result.result import result_of
+from ..result.verdict import Certainty, Verdict
 from .columns import columns_of
-from .row import Value, error_row, row_of
+from .row import MISSING, Value, error_row, row_of
 
-Array = np.ndarray
+Columns = dict[str, np.ndarray]
+#: So many variants at once: some milliseconds of work, and few numbers.
+_MOST_AT_ONCE = 256
+_VERDICTS = np.array([v.value for v in (Verdict.EXACT, Verdict.UNDER, Verdict.OVER, Verdict.BOTH)])
+#: How texts of each column are held; errors, which are few and long, as objects.
+_TEXTS = {
+    "verdict": _VERDICTS.dtype,
+    "certainty": np.array([c.value for c in Certainty]).dtype,
+}
+
+
+class _Variants(NamedTuple):
+    """Variants of a model; one of positions and held may be the model's own."""
+
+    data: ModelData
+    positions: FloatArray | None
+    held: BoolArray | None
+
+    @property
+    def number(self) -> int:
+        """How many there are."""
+        given = self.positions if self.positions is not None else self.held
+        return 1 if given is None else len(given)
+
+    def some(self, first: int, last: int) -> _Variants:
+        """Those from first up to, but not including, last."""
+        return self._replace(
+            positions=None if self.positions is None else self.positions[first:last],
+            held=None if self.held is None else self.held[first:last],
+        )
+
+    def one(self, i: int) -> ModelData:
+        """One of them as a model."""
+        made = self.data
+        if self.positions is not None:
+            made = with_positions(made, self.positions[i])
+        return made if self.held is None else with_held(made, self.held[i])
+
+    def classes(self) -> np.ndarray:
+        """(variants or 1, elements, 6) of deformations."""
+        if self.held is None:
+            return np.ascontiguousarray(self.data.arrays.deformation_class.T[None])
+        return np.ascontiguousarray(np.swapaxes(classes_held(self.data, self.held), 1, 2))
 
 
 def swept(
@@ -27,7 +86,7 @@ def swept(
     want: str = "values",
     workers: int | None = None,
     progress: Progress | None = None,
-) -> dict[str, Array]:
+) -> Columns:
     """The columns of a table for variants of a model, by name, each of (variants,).
 
     Args:
@@ -38,16 +97,96 @@ def swept(
         workers: So many threads at most; by default one a processor.
         progress: Called with what is being done and how much of that is done, from 0 to 1.
     """
-    count = len(positions) if positions is not None else len(held if held is not None else ())
-    rows = []
-    for i in range(count):
-        one = data if positions is None else with_positions(data, positions[i])
-        one = one if held is None else with_held(one, held[i])
-        rows.append(_row(one, want))
-    return {
-        column.name: np.array([row[column.name] for row in rows], column.kind)
-        for column in (*columns_of(want),)
-    } | {"error": np.array([row["error"] for row in rows], str)}
+    every = _Variants(data, positions, held)
+    made: Columns = {
+        c.name: np.full(every.number, MISSING[c.kind], _TEXTS.get(c.name, c.kind))
+        for c in columns_of(want)
+    }
+    made["error"] = np.full(every.number, "", object)
+    # Where only positions differ, what is held does not.
+    common = _perhaps_condensed(every.some(0, 1)) if held is None else None
+    threads = workers or len(os.sched_getaffinity(0))
+    step = max(1, min(_MOST_AT_ONCE, -(-every.number // (4 * threads))))
+    starts = range(0, every.number, step)
+    room = memory.allowance() / threads
+    done = 0
+
+    def run(first: int) -> int:
+        last = min(first + step, every.number)
+        _fill(
+            every.some(first, last), want, room, common, {k: v[first:last] for k, v in made.items()}
+        )
+        return last - first
+
+    for number in _in_threads(run, starts, threads):
+        done += number
+        if progress is not None:
+            progress("analysing variants", done / every.number)
+    return made
+
+
+def _in_threads(run: Callable[[int], int], items: Sequence[int], threads: int) -> Iterator[int]:
+    if threads == 1 or len(items) < 2:
+        yield from map(run, items)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        futures: list[Future[int]] = [pool.submit(run, item) for item in items]
+        try:
+            for future in as_completed(futures):
+                yield future.result()
+        finally:
+            for future in futures:
+                future.cancel()
+
+
+def _perhaps_condensed(some: _Variants) -> BoolArray:
+    """(variants or 1,) whether a row of beams may count as one beam in some geometry."""
+    return perhaps_condensed(some.data.arrays, some.data.element_names, some.classes())
+
+
+def _fill(some: _Variants, want: str, room: float, common: BoolArray | None, part: Columns) -> None:
+    """Put what is known of some variants into their part of the columns; room: bytes."""
+    with_values = want != "verdict"
+    own = some.data.arrays.node_value[:3].T[None]
+    wishes = calls.VariantWishes(
+        *(NEAR, CUT_OFF, REACH_OF_DIGITS, with_values, room, None),
+        some.data.has_long_numbers,
+    )
+    positions = own if some.positions is None else some.positions
+    raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())
+    decided = raw.decided & ~(_perhaps_condensed(some) if common is None else common)
+    found = _known(raw, with_values)
+    for name, array in found.items():
+        part[name][decided] = array[decided]
+    for i in np.flatnonzero(~decided).tolist():
+        for name, value in _row(some.one(i), want).items():
+            part[name][i] = value
+
+
+def _known(raw: RawVariants, with_values: bool) -> Columns:
+    """The columns of variants that are decided."""
+    under, over = raw.columns - raw.rank, raw.rows - raw.rank
+    made: Columns = {
+        "verdict": _VERDICTS[(under > 0) + 2 * (over > 0)],
+        "under_constrained": under,
+        "over_constrained": over,
+        "rank": raw.rank,
+        "certainty": np.full(raw.rank.size, Certainty.CERTAIN.value),
+    }
+    if with_values:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            condition = raw.largest / raw.smallest
+        margin, angle = least_misalignments(
+            raw.pair_value, raw.by_move, raw.by_turn, raw.characteristic_length
+        )
+        made |= {
+            "gap": raw.pair_value[:, 0],
+            "smallest_singular_value": raw.smallest,
+            "condition_number": condition,
+            "margin": margin,
+            "margin_angle": angle,
+        }
+    return made
 
 
 def _row(data: ModelData, want: str) -> dict[str, Value]:

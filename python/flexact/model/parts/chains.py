@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.arrays import FloatArray, IntArray, ModelArrays
+from ...core.arrays import BoolArray, FloatArray, IntArray, ModelArrays
 from ...core.elements import Class, Member, Role, member_table, role_table
 from ..names import part_name
 
@@ -126,6 +126,67 @@ def _is_stretched(arrays: ModelArrays, row: Chain) -> bool:
     return float(np.linalg.norm(place[-1] - place[0])) > _STRAIGHTNESS * arc
 
 
+def perhaps_condensed(arrays: ModelArrays, names: Sequence[str], classes: IntArray) -> BoolArray:
+    """Whether with these classes there may be a row that counts as one beam in some geometry.
+
+    Two neighbours in such a row release no deformation both.
+
+    Args:
+        arrays: The model.
+        names: Of its elements.
+        classes: (variants, elements, 6) of deformations in place of the model's.
+
+    Returns:
+        (variants,)
+    """
+    found = np.zeros(len(classes), np.bool_)
+    for (i, at_i), (j, at_j) in _joined(arrays, _is_beam(arrays)):
+        if arrays.element_kind[i] != arrays.element_kind[j] or not _may_be_one_part(names, i, j):
+            continue
+        swap = _OTHER_END if arrays.deformation_class[3, i] else _OTHER_END_IN_PLANE
+        turned = [swap.get(d, d) for d in range(6)]
+        first = classes[:, i, turned] if at_i == 0 else classes[:, i]
+        second = classes[:, j, turned] if at_j == 1 else classes[:, j]
+        both = (first == Class.DEPENDENT) & (second == Class.DEPENDENT)
+        found |= ~both.any(axis=1)
+    return found
+
+
+def _may_be_one_part(names: Sequence[str], i: int, j: int) -> bool:
+    """Whether the names of two elements allow that they are one part."""
+    mine, other = part_name(names[i]), part_name(names[j])
+    return not mine or not other or mine == other
+
+
+def _joined(
+    arrays: ModelArrays, beams: BoolArray
+) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+    """Beam and end (0 at p, 1 at q) of both of two that are alone at a free node."""
+    a = arrays
+    if np.count_nonzero(beams) < 2:
+        return
+    nodes = a.node_number.size
+    uses = np.bincount(a.element_node[a.element_node > 0] - 1, minlength=nodes)
+    free = np.all(
+        (a.coordinate_class == Class.NONE) | (a.coordinate_class == Class.DEPENDENT), axis=0
+    )
+    inner = free & (uses == 2)
+    beam = np.flatnonzero(beams)
+    ends = a.element_node[:, beam] - 1
+    alone = np.stack([inner[ends[k]] & inner[ends[k + 1]] for k in (0, 2)])
+    end, at = np.nonzero(alone)
+    position, orientation = ends[2 * end, at], ends[2 * end + 1, at]
+    order = np.lexsort((beam[at], position))
+    position, orientation = position[order], orientation[order]
+    end, at = end[order], at[order]
+    same = np.flatnonzero((position[1:] == position[:-1]) & (orientation[1:] == orientation[:-1]))
+    for k in same.tolist():
+        one = int(beam[at[k]]), int(end[k])
+        other = int(beam[at[k + 1]]), int(end[k + 1])
+        if one[0] != other[0]:
+            yield one, other
+
+
 class _Neighbours:
     """Pairs of beams that continue each other."""
 
@@ -139,33 +200,7 @@ class _Neighbours:
                 self.next_of[one], self.next_of[other] = other, one
 
     def _joined(self) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-        """Beam and end (0 at p, 1 at q) of both of two that are alone at a free node."""
-        a = self.arrays
-        bendable = _is_bendable(a)
-        if np.count_nonzero(bendable) < 2:
-            return
-        nodes = a.node_number.size
-        uses = np.bincount(a.element_node[a.element_node > 0] - 1, minlength=nodes)
-        free = np.all(
-            (a.coordinate_class == Class.NONE) | (a.coordinate_class == Class.DEPENDENT), axis=0
-        )
-        inner = free & (uses == 2)
-        beam = np.flatnonzero(bendable)
-        ends = a.element_node[:, beam] - 1
-        alone = np.stack([inner[ends[k]] & inner[ends[k + 1]] for k in (0, 2)])
-        end, at = np.nonzero(alone)
-        position, orientation = ends[2 * end, at], ends[2 * end + 1, at]
-        order = np.lexsort((beam[at], position))
-        position, orientation = position[order], orientation[order]
-        end, at = end[order], at[order]
-        same = np.flatnonzero(
-            (position[1:] == position[:-1]) & (orientation[1:] == orientation[:-1])
-        )
-        for k in same.tolist():
-            one = int(beam[at[k]]), int(end[k])
-            other = int(beam[at[k + 1]]), int(end[k + 1])
-            if one[0] != other[0]:
-                yield one, other
+        yield from _joined(self.arrays, _is_bendable(self.arrays))
 
     def _continue(self, one: tuple[int, int], other: tuple[int, int]) -> bool:
         a, (i, at_i), (j, at_j) = self.arrays, one, other
@@ -176,10 +211,10 @@ class _Neighbours:
         inner = ((3, 2), (5, 4)) if a.deformation_class[3, i] else ((2, 1),)
         if any((first[d] == Class.FIXED) != (second[e] == Class.FIXED) for d, e in inner):
             return False
-        mine, other_name = part_name(self.names[i]), part_name(self.names[j])
-        if mine and other_name and mine != other_name:
+        if not _may_be_one_part(self.names, i, j):
             return False
-        limit = _OF_ONE_NAME if mine and mine == other_name else _IN_ROW
+        mine = part_name(self.names[i])
+        limit = _OF_ONE_NAME if mine and mine == part_name(self.names[j]) else _IN_ROW
         along = self._direction(i) * (1.0 if at_i == 1 else -1.0)
         if not along @ self._direction(j) * (1.0 if at_j == 0 else -1.0) > limit:
             return False
@@ -267,10 +302,15 @@ class _Neighbours:
         )
 
 
+def _is_beam(arrays: ModelArrays) -> BoolArray:
+    """Which elements are beams, (elements,)."""
+    made: BoolArray = member_table()[arrays.element_kind] == Member.BEAM
+    return made
+
+
 def _is_bendable(arrays: ModelArrays) -> np.ndarray:
     """(elements,) beams that do not hold every bending."""
     kind = arrays.element_kind
-    beam = member_table()[kind] == Member.BEAM
     bends = np.isin(
         role_table()[kind],
         (
@@ -279,5 +319,5 @@ def _is_bendable(arrays: ModelArrays) -> np.ndarray:
         ),
     )
     free: np.ndarray = np.any(bends & (arrays.deformation_class.T != Class.FIXED), axis=1)
-    made: np.ndarray = beam & free
+    made: np.ndarray = _is_beam(arrays) & free
     return made

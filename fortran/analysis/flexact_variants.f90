@@ -1,0 +1,177 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> One of many variants of a model: its rank, whether there is a doubt in it, and the
+!> values that tell how near another rank is, each by the cheapest route that can confirm it.
+module flexact_variants
+   use flexact_determinacy, only: analyse
+   use flexact_error, only: error_t
+   use flexact_full_rank, only: make_gram, is_above
+   use flexact_geometry, only: is_sound
+   use flexact_kinds, only: wp
+   use flexact_lowest_pairs, only: lowest_pairs, find_ends
+   use flexact_model, only: model_t
+   use flexact_partition, only: partition_t
+   use flexact_problem, only: problem_t
+   use flexact_result, only: options_t, result_t, most_pairs
+   use flexact_sensitivity, only: sensitivity_t, find_sensitivities
+   use flexact_small_problem, only: small_problem_t, make_small_problem, plain_matrix
+   implicit none
+   private
+   public :: analyse_variant, variant_t, question_t
+
+   !> Up to these sides a matrix is looked at as a whole.
+   integer, parameter :: small_side = 200, small_longer_side = 600
+
+   !> What is asked of each variant.
+   type :: question_t
+      !> Values up to this multiple of the noise are near.
+      real(wp) :: near = 0.0_wp
+      !> Values up to this multiple of what digits may make are in doubt; and no more than
+      !> this can a digit make.
+      real(wp) :: cut_off = 0.0_wp, most_reach = 0.0_wp
+      !> Whether values and margins are wanted beside the rank.
+      logical :: with_values = .false.
+      type(options_t) :: options
+   end type question_t
+
+   !> What is known of a variant.
+   type :: variant_t
+      !> Whether the rank is known and nothing is in doubt; else a complete analysis is needed.
+      logical :: is_decided = .false.
+      integer :: rank = 0
+      !> The largest value of the scaled matrix that counts as zero, negative without one.
+      real(wp) :: largest_zero = -1.0_wp
+      !> Of D(c) itself.
+      real(wp) :: smallest = 0.0_wp, largest = 0.0_wp
+      real(wp) :: characteristic_length = 1.0_wp
+      !> The smallest values of the scaled matrix that are not zero, ascending, and what each
+      !> changes by a move of one node and by a turn of one element.
+      integer :: pairs = 0
+      real(wp) :: value(most_pairs) = 0.0_wp, by_move(most_pairs) = 0.0_wp, by_turn(most_pairs) = 0.0_wp
+   end type variant_t
+
+contains
+
+   subroutine analyse_variant(model, partition, question, variant)
+      type(model_t), intent(in) :: model
+      type(partition_t), intent(in) :: partition
+      type(question_t), intent(in) :: question
+      type(variant_t), intent(out) :: variant
+      type(small_problem_t) :: problem
+      logical :: is_small, is_full
+
+      if (.not. is_sound(model)) return
+      associate (m => partition%count%rows, n => partition%count%columns)
+         is_small = min(m, n) > 0 .and. min(m, n) <= small_side .and. max(m, n) <= small_longer_side
+      end associate
+      is_full = .false.
+      if (is_small) call make_small_problem(model, partition, problem, is_small)
+      if (is_small) call look_for_full_rank(model, problem, question, is_full, variant)
+      if (.not. is_full) call analyse_completely(model, question, variant)
+   end subroutine analyse_variant
+
+   !> is_full: whether all singular values are clearly not zero, which decides the rank.
+   subroutine look_for_full_rank(model, problem, question, is_full, variant)
+      type(model_t), intent(in) :: model
+      type(small_problem_t), intent(in) :: problem
+      type(question_t), intent(in) :: question
+      logical, intent(out) :: is_full
+      type(variant_t), intent(inout) :: variant
+      real(wp) :: gram(minval(shape(problem%matrix)), minval(shape(problem%matrix))), told, reach
+      logical :: is_clear
+
+      associate (scaling => problem%scaling, side => maxval(shape(problem%matrix)))
+         ! The norm by the sum of squares is no less than the largest value.
+         told = max(question%near*(scaling%error_of_bits + epsilon(1.0_wp)*side*norm2(problem%matrix)), &
+                    scaling%error_of_digits)
+         reach = min(question%most_reach, question%cut_off*scaling%reach_of_digits)
+      end associate
+      call make_gram(problem%matrix, gram)
+      call is_above(gram, sum(shape(problem%matrix)), max(told, reach), is_clear)
+      is_full = is_clear
+      if (.not. is_full .and. reach > told) call is_above(gram, sum(shape(problem%matrix)), told, is_full)
+      if (.not. is_full) return
+      variant%rank = size(gram, 1)
+      variant%is_decided = is_clear
+      variant%characteristic_length = problem%scaling%characteristic_length
+      if (question%with_values .or. .not. is_clear) call find_values(model, problem, gram, question, reach, variant)
+   end subroutine look_for_full_rank
+
+   !> The smallest values with what changes them, and whether digits may make one zero.
+   subroutine find_values(model, problem, gram, question, reach, variant)
+      type(model_t), intent(in) :: model
+      type(small_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: gram(:, :), reach
+      type(question_t), intent(in) :: question
+      type(variant_t), intent(inout) :: variant
+      real(wp) :: left(size(problem%matrix, 1), most_pairs), right(size(problem%matrix, 2), most_pairs)
+      type(error_t), allocatable :: error
+      integer :: k
+
+      call lowest_pairs(problem%matrix, gram, variant%value, left, right, variant%pairs, error)
+      if (.not. allocated(error) .and. question%with_values) &
+         call find_ends(plain_matrix(problem), variant%smallest, variant%largest, error)
+      if (allocated(error)) then
+         variant%is_decided = .false.
+         return
+      end if
+      do k = 1, variant%pairs
+         left(:, k) = problem%scaling%row*left(:, k)
+         right(:, k) = problem%scaling%column*right(:, k)
+      end do
+      call judge(model, left(:, :variant%pairs), right(:, :variant%pairs), question, reach, variant)
+   end subroutine find_values
+
+   !> What changes the values of pairs of vectors of D(c) itself, and whether digits explain one.
+   subroutine judge(model, left, right, question, reach, variant)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: left(:, :), right(:, :)
+      type(question_t), intent(in) :: question
+      real(wp), intent(in) :: reach
+      type(variant_t), intent(inout) :: variant
+      type(sensitivity_t) :: found(size(left, 2))
+      logical :: is_near
+      integer :: k
+
+      is_near = any(variant%value(:variant%pairs) <= reach)
+      if (question%with_values .or. is_near) &
+         call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found, .not. is_near)
+      variant%by_move(:size(found)) = found%by_move
+      variant%by_turn(:size(found)) = found%by_turn
+      variant%is_decided = .not. any(variant%value(:size(found)) <= question%cut_off*found%lift_of_digits)
+   end subroutine judge
+
+   !> The rank by a complete analysis, as it is done for a single model: decided if nothing is
+   !> in doubt. Values and margins of zeros are left to those who asked.
+   subroutine analyse_completely(model, question, variant)
+      type(model_t), intent(in) :: model
+      type(question_t), intent(in) :: question
+      type(variant_t), intent(inout) :: variant
+      type(problem_t) :: problem
+      type(result_t) :: result
+      real(wp), allocatable :: left(:, :), right(:, :)
+      logical :: is_proven, is_clear
+      integer :: k
+
+      variant%is_decided = .false.
+      if (question%with_values) return
+      call analyse(model, question%options, problem, result)
+      if (allocated(result%error)) return
+      variant%rank = result%decision%rank
+      variant%characteristic_length = problem%scaling%characteristic_length
+      is_proven = result%proof%total() == variant%rank
+      is_clear = is_proven .or. (result%confirmed .and. variant%rank == minval([size(problem%scaling%row), &
+                                                                                 size(problem%scaling%column)]))
+      is_clear = is_clear .and. result%undecided == 0 .and. result%unseen == 0
+      variant%pairs = size(result%pair_value)
+      variant%value(:variant%pairs) = result%pair_value
+      if (any(result%pair_value <= question%near*result%decision%noise)) is_clear = .false.
+      if (.not. is_clear) return
+      allocate (left, source=result%pair_stress)
+      allocate (right, source=result%pair_motion)
+      do k = 1, variant%pairs
+         left(:, k) = problem%scaling%row*left(:, k)
+         right(:, k) = problem%scaling%column*right(:, k)
+      end do
+      call judge(model, left, right, question, min(question%most_reach, question%cut_off*problem%scaling%reach_of_digits), variant)
+   end subroutine analyse_completely
+end module flexact_variants
