@@ -12,6 +12,8 @@ from typing import Any, NoReturn
 import numpy as np
 
 import flexact
+from flexact.convert.tables import model_of, tables_of
+from flexact.convert.text import text_of
 from flexact.diagnostics.diagnostic import Diagnostic, Place, Severity
 from flexact.diagnostics.rendering import render_problems
 
@@ -142,7 +144,17 @@ def _analyse(model: flexact.Model, again: flexact.Model) -> bool:
     for name in ("verdict", "rows", "columns", "rank", "under_constrained", "over_constrained"):
         one, other = getattr(result, name), getattr(second, name)
         _require(one == other, f"{name}: {one}, and read back {other}")
+    _check_tables(model)
     return True
+
+
+def _check_tables(model: flexact.Model) -> None:
+    """The model through tables has a D(c) of the same size and elements of the same kinds."""
+    again = model_of(json.loads(text_of(tables_of(model), ".json"), parse_constant=_no_number))
+    _require(again.planar == model.planar, "another dimension in tables")
+    one, other = model.data.count, again.data.count
+    _require((one.rows, one.columns) == (other.rows, other.columns), "other sizes in tables")
+    _require(model.element_keywords == again.element_keywords, "other elements in tables")
 
 
 def _no_number(word: str) -> NoReturn:

@@ -93,6 +93,7 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     with unwinding():
         write_together({target: content})
     a = model.data.arrays
-    size = f"{a.element_number.size} elements, {a.node_number.size} nodes"
+    elements, nodes = a.element_number.size, a.node_number.size
+    size = f"{elements} element{'s' * (elements != 1)}, {nodes} node{'s' * (nodes != 1)}"
     say(f"{harmless(str(source))}: written to {name}, {size}")
     return ExitCode.ANALYSED

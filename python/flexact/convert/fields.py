@@ -14,6 +14,8 @@ from typing import Any, NamedTuple
 from ..base.plain_text import in_short
 from ..core.elements import element_kinds
 
+#: Fourth powers of sizes, times moduli, are numbers.
+LARGEST = 1e30
 AXES = ("x", "y", "z")
 #: Nodes of a deck by point: a position, an orientation, and a warping node, which is not used.
 NODES_A_POINT = 3
@@ -48,22 +50,20 @@ def whole(value: Any) -> int:
 
 
 def positive(value: Any) -> float:
-    """A number above zero."""
-    if (made := number(value)) <= 0.0:
-        raise ValueError("a number above zero is wanted")
+    """A number above zero, neither tiny nor huge."""
+    if not 1.0 / LARGEST < (made := number(value)) < LARGEST:
+        raise ValueError(f"a number between 0 and {LARGEST:g} is wanted")
     return made
 
 
 def not_negative(value: Any) -> float:
     """A number from zero on."""
-    if (made := number(value)) < 0.0:
-        raise ValueError("a number that is not negative is wanted")
-    return made
+    return 0.0 if number(value) == 0.0 else positive(value)
 
 
 def count(value: Any) -> int:
     """A whole number from 1 on."""
-    if (made := whole(value)) < 1:
+    if not 1 <= (made := whole(value)) < 10**6:
         raise ValueError("a whole number from 1 on is wanted")
     return made
 
@@ -183,6 +183,16 @@ class Field(NamedTuple):
 
 
 _three, _rotation = _vector(3), _vector(4)
+
+
+def moments(value: Any) -> tuple[float, ...]:
+    """Six moments of inertia, none of them huge."""
+    made = _vector(6)(value)
+    if max(map(abs, made)) >= LARGEST:
+        raise ValueError(f"numbers below {LARGEST:g} are wanted")
+    return made
+
+
 LOADS, PRESCRIBED = "loads", "values of prescribed motions"
 _WARPING, _SIMULATION = "warping", "what is for a simulation"
 
@@ -196,7 +206,7 @@ NODE_FIELDS: dict[str, Field] = {
     **{f"rot{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
     **{f"rot{start}": Field(_rotation) for start in ("", "_initial")},
     "mass": Field(not_negative),
-    "mominertia": Field(_vector(6)),
+    "mominertia": Field(moments),
     **{
         f"{load}{start}": Field(_three, LOADS)
         for load in ("force", "moment")

@@ -105,5 +105,5 @@ def bytes_of(model: Model, path: Path) -> tuple[bytes, tuple[Diagnostic, ...]]:
     mesh, noted = mesh_of(model)
     content, lost = mesh_bytes(mesh, path.suffix.lower())
     for name in lost:
-        noted.leave_out(f"data that a {path.suffix} does not keep: {name}")
-    return content, noted.notes()
+        noted.lost[f"{name}, which a {path.suffix} does not keep"] += 1
+    return content, noted.diagnostics()

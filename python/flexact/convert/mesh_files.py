@@ -6,10 +6,13 @@ from __future__ import annotations
 import contextlib
 import io
 import tempfile
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+
+import numpy as np
 
 from ..base.errors import BatchError
 
@@ -34,8 +37,7 @@ def read_mesh(path: Path) -> Any:
         raise MeshError(f"{path}: there is no such file")
     said = io.StringIO()
     try:
-        # It prints why it fails, and ends the process.
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        with _in_silence() as said:
             return meshio.read(path)
     except MemoryError:
         raise
@@ -47,7 +49,9 @@ def read_mesh(path: Path) -> Any:
 
 
 def mesh_bytes(mesh: Any, suffix: str) -> tuple[bytes, tuple[str, ...]]:
-    """The file that holds a mesh, and names of the data that it lost.
+    """The file that holds a mesh of lines, and names of the data that it lost.
+
+    Of the formats that a suffix may mean, it is the first that holds lines.
 
     Raises:
         MeshError: meshio has no such format or cannot write this one, or is missing.
@@ -55,28 +59,43 @@ def mesh_bytes(mesh: Any, suffix: str) -> tuple[bytes, tuple[str, ...]]:
     meshio = _meshio()
     if suffix not in suffixes():
         raise MeshError(f"meshio writes no {suffix or 'file without a suffix'}: try .vtu or .vtk")
-    said = io.StringIO()
-    with tempfile.TemporaryDirectory(prefix="flexact-") as folder:
-        path = Path(folder) / f"mesh{suffix}"
-        try:
-            with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-                meshio.write(path, mesh)
-        except MemoryError:
-            raise
-        except (Exception, SystemExit) as error:
-            reason = " ".join(str(error).split())[:200] or type(error).__name__
-            words = f"meshio cannot write a {suffix} of lines with data: {reason}; try .vtu or .vtk"
-            raise MeshError(words) from error
-        if len(list(path.parent.iterdir())) > 1:
-            raise MeshError(f"a {suffix} is several files: try .vtu or .vtk")
-        content = path.read_bytes()
-        try:
-            again = read_mesh(path)
-        except MeshError:
-            return content, (*mesh.point_data, *mesh.cell_data)
+    reason = ""
+    for form in meshio.extension_to_filetypes[suffix]:
+        with tempfile.TemporaryDirectory(prefix="flexact-") as folder:
+            path = Path(folder) / f"mesh{suffix}"
+            try:
+                with _in_silence():
+                    meshio.write(path, mesh, file_format=form)
+                return path.read_bytes(), _lost(mesh, path, form)
+            except MemoryError:
+                raise
+            except (Exception, SystemExit) as error:
+                reason = " ".join(str(error).split())[:200] or type(error).__name__
+    raise MeshError(f"meshio writes no {suffix} of lines: {reason}; try .vtu or .vtk")
+
+
+def _lost(mesh: Any, path: Path, form: str) -> tuple[str, ...]:
+    """Names of the data that a file has lost, with what of the points it has."""
+    if len(list(path.parent.iterdir())) > 1:
+        raise MeshError("the mesh is several files")
+    with _in_silence():
+        again = _meshio().read(path, file_format=form)
+    lines = sum(len(cells.data) for cells in again.cells if cells.type == "line")
+    if lines != sum(len(cells.data) for cells in mesh.cells):
+        raise MeshError("it holds no lines")
     lost = [name for name in mesh.point_data if name not in again.point_data]
     lost += [name for name in mesh.cell_data if name not in again.cell_data]
-    return content, tuple(lost)
+    if not np.array_equal(np.asarray(again.points, float), mesh.points):
+        lost.append("the last digits of coordinates")
+    return tuple(lost)
+
+
+@contextlib.contextmanager
+def _in_silence() -> Iterator[io.StringIO]:
+    """Keep what meshio prints from who reads results; it prints why it fails."""
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        yield said
 
 
 def _meshio() -> ModuleType:

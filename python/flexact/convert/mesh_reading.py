@@ -64,7 +64,7 @@ def model_of_mesh(
     }
     _note_data(mesh, remarks)
     model = model_of(tables, name=name)
-    found = model.data.besides + remarks.notes()
+    found = model.data.besides + remarks.diagnostics()
     return Model.from_data(replace(model.data, besides=found)) if remarks.left_out else model
 
 
@@ -74,7 +74,8 @@ def _note_data(mesh: Any, remarks: Remarks) -> None:
         ("lines", _LINE_DATA, mesh.cell_data),
     ):
         for unknown in (each for each in names if each not in known):
-            remarks.leave_out(f"data of {word}: {unknown}")
+            # With a colon it is what a format keeps for itself.
+            remarks.leave_out(f"data of {word}: {unknown}", 0 if ":" in unknown else 1)
 
 
 def _lines(mesh: Any, remarks: Remarks) -> tuple[np.ndarray, dict[str, FloatArray]]:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import require_kind
+from ..core.elements import NodeKind
 from ..model.model import Model
 from .fields import AXES
 from .mesh_data import INDEPENDENT, KINDS, POINT_DATA, RELEASED, TRUSS, VECTOR
@@ -42,6 +43,8 @@ def mesh_of(model: Model) -> tuple[Any, Remarks]:
     remarks.own.clear()
     _require_lines(tables)
     nodes: Sequence[Entry] = tables["nprops"]
+    turning = bool((model.node_kinds > NodeKind.POSITION).any())
+    data = [name for name in POINT_DATA if turning or not name.endswith("rotation")]
     places = np.array(tables["nodes"])
     if model.planar:
         places = np.column_stack([places, np.zeros(len(places))])
@@ -58,7 +61,7 @@ def mesh_of(model: Model) -> tuple[Any, Remarks]:
         meshio.Mesh(
             places,
             [("line", np.array(tables["elements"]) - 1)],
-            point_data=_used({name: _of_nodes(nodes, name) for name in POINT_DATA}),
+            point_data=_used({name: _of_nodes(nodes, name) for name in data}),
             cell_data={
                 name: [values]
                 for name, values in _used(_of_elements(model, tables, remarks)).items()

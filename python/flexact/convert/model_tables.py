@@ -17,7 +17,7 @@ from .fields import AXES as LETTERS
 from .fields import ELEMENT_FIELDS, NODE_FIELDS, NODES_A_POINT
 from .points import Points, points_of
 from .remarks import Remarks
-from .table_sections import density_of, moduli_of
+from .table_sections import density_of, is_ordinary, moduli_of
 
 Entry = dict[str, Any]
 _CROSS_SECTIONS = {CrossSection.RECT: "rect", CrossSection.CIRC: "circ"}
@@ -113,7 +113,8 @@ class _Tables:
                 whole.append(all_of_it)
             else:
                 entry.update({f"fix_{stem}{LETTERS[axis]}": True for axis in axes})
-        if len(whole) == sum(node >= 0 for node in own) and whole:
+        shares = not entry.keys().isdisjoint(("same_pos", "same_orien"))
+        if whole and not shares and len(whole) == sum(node >= 0 for node in own):
             entry["fix"] = True
         else:
             entry.update(dict.fromkeys(whole, True))
@@ -133,14 +134,17 @@ class _Tables:
             if np.isnan(given[0]):
                 continue
             numbers = given[~np.isnan(given)].tolist()
-            if len(numbers) > size or min(numbers[:1]) < 0.0:
+            given_as: Any = numbers[0] if size == 1 else numbers + [0.0] * (6 - len(numbers))
+            try:
+                fits = len(numbers) <= size and NODE_FIELDS[name].check(given_as) is not None
+            except ValueError:
+                fits = False
+            if not fits:
                 self.remarks.leave_out("masses of nodes that are no mass or six moments")
-            elif size == 1:
-                entry[name] = numbers[0]
-            elif self.data.arrays.node_kind[node] == NodeKind.ANGLE:
+            elif size == 6 and self.data.arrays.node_kind[node] == NodeKind.ANGLE:
                 entry[name] = [0.0] * 5 + numbers[:1]
             else:
-                entry[name] = numbers + [0.0] * (size - len(numbers))
+                entry[name] = given_as
 
     def _sets(self) -> tuple[list[Entry], list[list[int]]]:
         """Elements that share all their fields, and what is released of each element."""
@@ -187,7 +191,7 @@ class _Tables:
         section = CrossSection(int(look.cross_section[i]))
         sizes: list[float] = look.dimensions[i].tolist()
         shape = None
-        if section in _CROSS_SECTIONS and min(sizes) > 0.0:
+        if section in _CROSS_SECTIONS and is_ordinary(Shape(section, sizes[0], sizes[1])):
             shape = Shape(section, sizes[0], sizes[1])
             entry["cshape"] = _CROSS_SECTIONS[section]
             entry["dim"] = sizes[:1] if section is CrossSection.CIRC else sizes
@@ -231,7 +235,7 @@ class _Tables:
             for slot, node in enumerate(nodes, start=1)
         )
         if not numbered:
-            what = "numbers of elements and nodes, which are now those of their rows"
+            what = "numbers of elements and nodes are now those of their rows"
             self.remarks.leave_out(what, elements + a.node_number.size)
         turned = a.node_kind == NodeKind.ORIENTATION
         upright = np.array([1.0, 0.0, 0.0, 0.0]) == a.node_value.T

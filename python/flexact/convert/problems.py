@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import cached_property
 
-from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
+from ..diagnostics.diagnostic import Diagnostic, Place, Problems, Severity
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.source import Source
 
@@ -23,21 +23,21 @@ class Text:
     """
 
     def __init__(
-        self, source: Source | None = None, lines: Callable[[], Mapping[str, int]] | None = None
+        self, source: Source | None = None, spans: Callable[[], Mapping[str, Place]] | None = None
     ) -> None:
-        """Keep the text, and how the line of each place is found when it is asked for."""
+        """Keep the text, and how it is found where each value stands when that is asked for."""
         self.source = source
-        self._find_lines = lines
+        self._find_spans = spans
 
     @cached_property
-    def _lines(self) -> Mapping[str, int]:
-        return {} if self._find_lines is None else self._find_lines()
+    def _spans(self) -> Mapping[str, Place]:
+        return {} if self._find_spans is None else self._find_spans()
 
-    def line_of(self, place: str) -> int:
-        """The line of a place, or of what holds it; 0 where it is not known."""
-        while place and place not in self._lines:
+    def span_of(self, place: str) -> Place:
+        """Where a value stands, or what holds it; zeros where that is not known."""
+        while place and place not in self._spans:
             place = place[: max(place.rfind("."), place.rfind("["), 0)]
-        return self._lines.get(place, 0)
+        return self._spans.get(place, Place(0, 0, 0))
 
 
 class Found:
@@ -46,19 +46,14 @@ class Found:
     def __init__(self, text: Text, name: str) -> None:
         """Nothing yet."""
         self._text = text
-        self._name = name
+        self._name = name if text.source is None else text.source.name
         self._items: list[Diagnostic] = []
 
     def error(self, place: str, message: str, hint: str = "") -> None:
         """Note that something is wrong at a place, such as nprops[3].fix."""
-        line = self._text.line_of(place)
         words = f"{place}: {message}" if place else message
-        row = self._text.source.line(line) if self._text.source is not None and line else b""
-        indent = len(row) - len(row.lstrip())
-        columns = (indent + 1, max(indent + 1, len(row.rstrip()))) if line else (0, 0)
-        self._items.append(
-            Diagnostic(Severity.ERROR, "bad-table", words, line, *columns, help=hint)
-        )
+        span = self._text.span_of(place)
+        self._items.append(Diagnostic(Severity.ERROR, "bad-table", words, *span, help=hint))
 
     def require_none(self) -> None:
         """Raise if anything was found.

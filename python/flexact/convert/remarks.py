@@ -4,19 +4,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 
 from ..diagnostics.diagnostic import Diagnostic, Severity
 
-LEFT_OUT, OWN_FIELD = "left-out", "own-field"
+LEFT_OUT, LOST, OWN_FIELD = "left-out", "lost", "own-field"
 
 
 class Remarks:
-    """Counts of what is left out, and of fields that only Flexact knows."""
+    """Counts of what is left out, and of fields that only Flexact knows.
+
+    Attributes:
+        left_out: What the verdict does not depend on.
+        lost: What it depends on.
+        own: Fields of tables.
+    """
 
     def __init__(self) -> None:
         """Nothing yet."""
         self.left_out: Counter[str] = Counter()
+        self.lost: Counter[str] = Counter()
         self.own: Counter[str] = Counter()
 
     def leave_out(self, what: str, times: int = 1) -> None:
@@ -24,19 +30,21 @@ class Remarks:
         if times:
             self.left_out[what] += times
 
-    def notes(self) -> tuple[Diagnostic, ...]:
-        """One note each."""
-        made = [_note(LEFT_OUT, f"left out: {what} ({n})") for what, n in self.left_out.items()]
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """A warning of each thing that is lost, a note of each that is left out."""
+        made = [
+            _remark(Severity.WARNING, LOST, f"lost, though the verdict depends on it: {what} ({n})")
+            for what, n in self.lost.items()
+        ]
+        made += [
+            _remark(Severity.NOTE, LEFT_OUT, f"{what} ({n})") for what, n in self.left_out.items()
+        ]
         if self.own:
             fields = ", ".join(f"{name} ({times})" for name, times in self.own.items())
-            made.append(_note(OWN_FIELD, f"fields that SPACAR Light does not know: {fields}"))
+            words = f"fields that SPACAR Light does not know: {fields}"
+            made.append(_remark(Severity.NOTE, OWN_FIELD, words))
         return tuple(made)
 
 
-def of_conversion(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
-    """Those of diagnostics that are remarks of a conversion."""
-    return tuple(item for item in diagnostics if item.code in (LEFT_OUT, OWN_FIELD))
-
-
-def _note(code: str, message: str) -> Diagnostic:
-    return Diagnostic(Severity.NOTE, code, message)
+def _remark(severity: Severity, code: str, message: str) -> Diagnostic:
+    return Diagnostic(severity, code, message)

@@ -40,6 +40,7 @@ class Tables:
         released: Deformations of elements that are released.
         left_out: What is said that a model does not hold.
         name: What the model is called.
+        faulty: Places of entries with a field that is wrong, of which no more is said.
     """
 
     places: list[tuple[float, ...]] = field(default_factory=list)
@@ -50,6 +51,7 @@ class Tables:
     released: dict[int, tuple[int, ...]] = field(default_factory=dict)
     left_out: Counter[str] = field(default_factory=Counter)
     name: str = ""
+    faulty: set[str] = field(default_factory=set)
 
     @property
     def planar(self) -> bool:
@@ -69,7 +71,7 @@ def tables_given(given: Mapping[str, Any], found: Found) -> Tables:
     nodes = _entries(given.get("nprops"), "nprops", NODE_FIELDS, found)
     _take_fields(made.nodes, nodes, "nprops", NODE_FIELDS, made, found)
     for node in made.nodes:
-        if node > len(made.places):
+        if made.places and node > len(made.places):
             found.error(f"nprops[{node}]", f"there are {len(made.places)} nodes")
     sets = _entries(given.get("eprops"), "eprops", ELEMENT_FIELDS, found)
     _take_fields(made.sets, sets, "eprops", ELEMENT_FIELDS, made, found)
@@ -98,14 +100,17 @@ def _take_places(made: Tables, given: Any, found: Found) -> None:
     rows = _rows(given, "nodes", found)
     width = 2 if rows and all(isinstance(row, Sequence) and len(row) == 2 for row in rows) else 3
     for i, row in enumerate(rows, start=1):
-        place: tuple[float, ...] = (0.0,) * width
-        try:
-            if not isinstance(row, Sequence) or isinstance(row, str) or len(row) != width:
-                raise ValueError(f"a node has x, y and z, or all have x and y, not {in_short(row)}")
-            place = tuple(number(each) for each in row)
-        except ValueError as error:
-            found.error(f"nodes[{i}]", str(error))
-        made.places.append(place)
+        place = [0.0] * width
+        if not isinstance(row, Sequence) or isinstance(row, str) or len(row) != width:
+            words = f"a node has x, y and z, or all have x and y, not {in_short(row)}"
+            found.error(f"nodes[{i}]", words)
+            row = ()
+        for k, value in enumerate(row):
+            try:
+                place[k] = checked(Field(number), value)
+            except ValueError as error:
+                found.error(f"nodes[{i}][{k + 1}]", str(error))
+        made.places.append(tuple(place))
 
 
 def _take_ends(made: Tables, given: Any, found: Found) -> None:
@@ -116,7 +121,7 @@ def _take_ends(made: Tables, given: Any, found: Found) -> None:
                 raise ValueError(f"an element has two nodes, not {in_short(row)}")
             ends = whole(row[0]), whole(row[1])
             for node in ends:
-                if not 1 <= node <= len(made.places):
+                if made.places and not 1 <= node <= len(made.places):
                     raise ValueError(
                         f"there is no node {in_short(node)}: nodes are 1 to {len(made.places)}"
                     )
@@ -173,6 +178,7 @@ def _take_fields(
                     value = checked(fields[key], value)
                 except ValueError as error:
                     found.error(f"{place}.{key}", str(error))
+                    made.faulty.add(place)
                     continue
                 into.setdefault(i, {})[key] = value
                 if fields[key].left_out and value is not False:
@@ -183,9 +189,13 @@ def _take_sets(made: Tables, found: Found) -> None:
     """Which set each element is in."""
     for i, entry in made.sets.items():
         place = f"eprops[{i}]"
+        if place in made.faulty:
+            continue
         if "elems" not in entry:
             found.error(place, "the field elems is missing: to which elements does this belong?")
         for element in entry.get("elems", ()):
+            if not made.ends:
+                continue
             if element > len(made.ends):
                 there = f"there are {len(made.ends)} elements"
                 found.error(f"{place}.elems", f"there is no element {element}: {there}")
@@ -225,6 +235,6 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     entries = _entries(releases, place, RELEASE_FIELDS, found)
     _take_fields(taken, entries, place, RELEASE_FIELDS, made, found)
     for element, entry in taken.items():
-        if element > len(made.ends):
+        if made.ends and element > len(made.ends):
             found.error(f"{place}[{element}]", f"there are {len(made.ends)} elements")
         made.released[element] = entry["def"]

@@ -270,4 +270,4 @@ class _Making:
 
     def with_remarks(self, data: ModelData) -> ModelData:
         """The model with what was left out among its notes."""
-        return replace(data, besides=(*data.besides, *self.remarks.notes()))
+        return replace(data, besides=(*data.besides, *self.remarks.diagnostics()))

@@ -13,6 +13,7 @@ from ..model.appearance import CrossSection
 from ..model.appearance_draft import Shape
 from ..model.material import Material
 from ..model.sections import constants_of, mass, stiffness
+from .fields import LARGEST
 
 #: Between what was given and what follows from moduli and density that were found from it.
 _NEAR = 1.0e-9
@@ -26,6 +27,11 @@ def shape_of(entry: dict[str, Any]) -> Shape | None:
     if entry["cshape"] == "circ":
         return Shape(CrossSection.CIRC, dim[0], dim[0])
     return Shape(CrossSection.RECT, dim[0], dim[-1])
+
+
+def is_ordinary(shape: Shape) -> bool:
+    """Whether its sizes can be computed with."""
+    return all(1.0 / LARGEST < size < LARGEST for size in (shape.y, shape.z))
 
 
 def stiffness_of(
@@ -62,11 +68,13 @@ def moduli_of(
 
     Of a planar beam and of a bar nothing is known of the shear modulus.
     """
-    c = constants_of(shape)
     if kind.member != Member.BEAM or NodeKind.PLANAR_POSITION in kind.slots or len(given) < 4:
         return None
+    if not is_ordinary(shape):
+        return None
+    c = constants_of(shape)
     found = {"emod": given[0] / c.area, "smod": given[1] / c.torsion}
-    if min(found.values()) <= 0.0:
+    if not all(1.0 / LARGEST < each < LARGEST for each in found.values()):
         return None
     again = stiffness_of(kind, shape, found) or ()
     if not np.allclose(again[:4], given[:4], rtol=_NEAR, atol=0.0):
@@ -77,8 +85,10 @@ def moduli_of(
 
 def density_of(kind: ElementKind, shape: Shape, given: tuple[float, ...]) -> float | None:
     """The density that gives this mass; None without one."""
+    if kind.member not in (Member.BAR, Member.BEAM) or not is_ordinary(shape):
+        return None
     found = given[0] / constants_of(shape).area
-    again = mass_of(kind, shape, {"dens": found}) if found > 0.0 else None
+    again = mass_of(kind, shape, {"dens": found}) if 0.0 < found < LARGEST else None
     if again is None:
         return None
     padded = np.zeros(len(again))

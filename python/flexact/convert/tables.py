@@ -103,5 +103,5 @@ def tables_of(model: Model, remarks: list[Diagnostic] | None = None) -> dict[str
     model.check()
     made, noted = tables_with_remarks(model.data)
     if remarks is not None:
-        remarks.extend(noted.notes())
+        remarks.extend(noted.diagnostics())
     return made

@@ -10,11 +10,11 @@ from types import ModuleType
 from typing import Any
 
 from ..base.errors import BatchError
-from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
+from ..diagnostics.diagnostic import Diagnostic, Place, Problems, Severity
 from ..diagnostics.source import Source
-from .json_lines import JsonError, lines_of_json, value_of_json
+from .json_spans import JsonError, spans_of_json, value_of_json
 from .problems import TablesError, Text
-from .yaml_lines import YamlError, lines_of_yaml, value_of_yaml
+from .yaml_spans import YamlError, spans_of_yaml, value_of_yaml
 
 JSON, YAML = (".json",), (".yaml", ".yml")
 #: Beyond these a list of numbers is put on lines of its own.
@@ -44,10 +44,10 @@ def read_tables(raw: bytes, name: str, suffix: str) -> tuple[Mapping[str, Any], 
         line = source.text.count(b"\n", 0, error.start) + 1
         raise _error("this is no UTF-8 text", source, line) from None
     value_of: Callable[[str], Any] = value_of_json
-    lines_of: Callable[[str], dict[str, int]] = lines_of_json
+    spans_of: Callable[[str], dict[str, Place]] = spans_of_json
     if suffix in YAML:
         yaml = _yaml()
-        value_of, lines_of = (lambda t: value_of_yaml(yaml, t)), (lambda t: lines_of_yaml(yaml, t))
+        value_of, spans_of = (lambda t: value_of_yaml(yaml, t)), (lambda t: spans_of_yaml(yaml, t))
     try:
         value = value_of(text)
     except (JsonError, YamlError) as error:
@@ -56,7 +56,7 @@ def read_tables(raw: bytes, name: str, suffix: str) -> tuple[Mapping[str, Any], 
         raise _error("lists or objects stand in each other too deeply", source) from None
     if not isinstance(value, Mapping):
         raise _error("an object with nodes, elements, nprops and eprops is wanted", source)
-    return value, Text(source, lambda: lines_of(text))
+    return value, Text(source, lambda: spans_of(text))
 
 
 def _error(message: str, source: Source, line: int = 0, column: int = 0) -> TablesError:
@@ -76,8 +76,16 @@ def text_of(tables: Mapping[str, Any], suffix: str) -> str:
         PackageError: PyYAML is missing.
     """
     if suffix in YAML:
-        made: str = _yaml().safe_dump(
-            dict(tables), default_flow_style=None, sort_keys=False, allow_unicode=True, width=_ROW
+        yaml = _yaml()
+        # Equal parts are written out, since none that stands for another is read.
+        dumper = type("Dumper", (yaml.SafeDumper,), {"ignore_aliases": lambda *_: True})
+        made: str = yaml.dump(
+            dict(tables),
+            Dumper=dumper,
+            default_flow_style=None,
+            sort_keys=False,
+            allow_unicode=True,
+            width=_ROW,
         )
         return made
     return _json(tables, "") + "\n"

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JSON, and the line on which each value in it begins."""
+"""JSON, and where each value in it stands."""
 
 from __future__ import annotations
 
 import json
-from bisect import bisect_right
+from bisect import bisect_left
 from collections.abc import Iterator
 from json import scanner
 from typing import Any
 
-#: Where a value begins, and its parts in their order.
-_Tree = tuple[int, list[Any]]
+from ..diagnostics.diagnostic import Place
+
+#: Where a value begins and ends, and its parts in their order.
+_Tree = tuple[int, int, list[Any]]
 
 
 class JsonError(ValueError):
@@ -46,26 +48,31 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return made
 
 
-def lines_of_json(text: str) -> dict[str, int]:
-    """The line of each value of a sound text by its place, such as nprops[3].fix."""
+def spans_of_json(text: str) -> dict[str, Place]:
+    """Where each value of a sound text stands, by its place, such as nprops[3].fix."""
     roots: list[_Tree] = []
     around = [roots]
-    decoder = json.JSONDecoder(object_pairs_hook=_once)
-    plain = scanner.py_make_scanner(decoder)  # type: ignore[attr-defined]
+    plain = scanner.py_make_scanner(json.JSONDecoder())  # type: ignore[attr-defined]
 
     def scanned(text: str, start: int) -> tuple[Any, int]:
         parts: list[_Tree] = []
         around.append(parts)
         value, behind = kind(text, start)
         around.pop()
-        around[-1].append((start, parts))
+        around[-1].append((start, behind, parts))
         return value, behind
 
     kind = _with_inner(plain, scanned)
-    first = len(text) - len(text.lstrip())
-    value, _ = scanned(text, first)
-    breaks = [i for i, c in enumerate(text) if c == "\n"]
-    return {place: bisect_right(breaks, start) + 1 for place, start in _places(value, roots[0], "")}
+    value, _ = scanned(text, len(text) - len(text.lstrip()))
+    breaks = [-1, *(i for i, c in enumerate(text) if c == "\n")]
+
+    def span(first: int, behind: int) -> Place:
+        line = bisect_left(breaks, first)
+        before = breaks[line - 1]
+        end = breaks[line] if line < len(breaks) else len(text)
+        return Place(line, first - before, min(behind, end) - before - 1)
+
+    return {place: span(*both) for place, *both in _places(value, roots[0], "")}
 
 
 def _with_inner(plain: Any, scanned: Any) -> Any:
@@ -84,9 +91,9 @@ def _with_inner(plain: Any, scanned: Any) -> Any:
     return scan
 
 
-def _places(value: Any, tree: _Tree, place: str) -> Iterator[tuple[str, int]]:
-    start, parts = tree
-    yield place, start
+def _places(value: Any, tree: _Tree, place: str) -> Iterator[tuple[str, int, int]]:
+    start, behind, parts = tree
+    yield place, start, behind
     if isinstance(value, dict):
         for (key, inner), part in zip(value.items(), parts, strict=True):
             yield from _places(inner, part, joined(place, key))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""YAML, and the line on which each value in it begins; PyYAML is given, as it may be missing."""
+"""YAML, and where each value in it stands; PyYAML is given, as it may be missing."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from types import ModuleType
 from typing import Any
 
-from .json_lines import joined
+from ..diagnostics.diagnostic import Place
+from .json_spans import joined
 
 
 class YamlError(ValueError):
@@ -61,13 +62,15 @@ def _check(yaml: ModuleType, node: Any, seen: set[int]) -> None:
             _check(yaml, each, seen)
 
 
-def lines_of_yaml(yaml: ModuleType, text: str) -> dict[str, int]:
-    """The line of each value of a sound text by its place, such as nprops[3].fix."""
+def spans_of_yaml(yaml: ModuleType, text: str) -> dict[str, Place]:
+    """Where each value of a sound text stands, by its place, such as nprops[3].fix."""
     return dict(_places(yaml, yaml.compose(text, Loader=yaml.SafeLoader), ""))
 
 
-def _places(yaml: ModuleType, node: Any, place: str) -> Iterator[tuple[str, int]]:
-    yield place, node.start_mark.line + 1
+def _places(yaml: ModuleType, node: Any, place: str) -> Iterator[tuple[str, Place]]:
+    start, end = node.start_mark, node.end_mark
+    last = end.column if end.line == start.line else start.column + 1
+    yield place, Place(start.line + 1, start.column + 1, max(last, start.column + 1))
     if isinstance(node, yaml.MappingNode):
         for key, value in node.value:
             yield from _places(yaml, value, joined(place, key.value))
