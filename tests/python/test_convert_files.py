@@ -267,7 +267,7 @@ def test_the_command_converts_there_and_back(
     out, err = capsys.readouterr()
     assert out == f"{deck}: written to {other}, 1 element, 2 nodes\n"
     assert "left-out" in err
-    assert main(["convert", str(other), "-o", str(again), "--as", "truss"]) == 0
+    assert main(["convert", str(other), "-o", str(again)]) == 0
     assert main(["analyse", str(again), "--expect", "exact"]) == 0
 
 
@@ -289,6 +289,8 @@ def test_the_command_says_what_is_wrong(
         ([str(deck), "-o", str(tmp_path / "t.stl")], 1, "no lines"),
         ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "0"], 1, "points from 1"),
         ([str(deck), "-o", str(tmp_path / "t.json"), "--as", "wheel"], 1, "invalid choice"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "1"], 1, "is for a mesh"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--flexible", "released"], 1, "for tables"),
     ):
         assert main(["convert", *words]) == code
         assert said in capsys.readouterr().err

@@ -5,14 +5,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
-from flexact.base.errors import FlexactError
+from flexact.base.errors import BatchError, FlexactError
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
 from flexact.cli.outcome import ExitCode
 from flexact.cli.terminal import complain, say
-from flexact.convert.files import bytes_of, format_of, read_any
+from flexact.convert.files import Format, bytes_of, format_of, read_any
 from flexact.convert.mesh_data import KINDS
 from flexact.convert.tables import FLEXIBLE
 from flexact.diagnostics.errors import ProblemsError
@@ -35,7 +36,6 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--as",
         dest="kind",
         choices=KINDS,
-        default=KINDS[0],
         help="what lines of a mesh are (default: beam)",
     )
     parser.add_argument(
@@ -48,7 +48,6 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--flexible",
         choices=FLEXIBLE,
-        default="independent",
         help="what deformations in flex of tables are that are not released: degrees of freedom, "
         "as in SPACAR Light (default), or released, too",
     )
@@ -72,13 +71,35 @@ def points(text: str) -> tuple[int, ...]:
     return tuple(made)
 
 
+def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
+    """How the file is to be taken.
+
+    Raises:
+        BatchError: an option is for files of another format.
+    """
+    made: dict[str, Any] = {}
+    for option, name, value, wanted in (
+        ("--as", "kind", chosen.kind, Format.MESH),
+        ("--fix", "fixed", chosen.fix or None, Format.MESH),
+        ("--flexible", "flexible", chosen.flexible, Format.TABLES),
+    ):
+        if value is None:
+            continue
+        if form is not wanted:
+            kind = {Format.MESH: "a mesh", Format.TABLES: "tables"}[wanted]
+            raise BatchError(f"{option} is for {kind}, and {chosen.file} is none")
+        made[name] = value
+    return made
+
+
 def convert_file(chosen: argparse.Namespace) -> ExitCode:
     """Convert the file that was asked for, and say what the other format cannot."""
     source, target = chosen.file, chosen.output
     format_of(target)
+    options = _options(chosen, format_of(source))
     plan_file(DeckFile(str(source), Path(source.stem)), target)
     try:
-        model = read_any(source, flexible=chosen.flexible, kind=chosen.kind, fixed=chosen.fix)
+        model = read_any(source, **options)
         content, notes = bytes_of(model, target)
     except ProblemsError as error:
         complain(str(error))

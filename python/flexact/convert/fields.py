@@ -7,165 +7,15 @@ the fields of Flexact's own say what a deck can say and SPACAR Light cannot.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from ..base.plain_text import in_short
-from ..core.elements import element_kinds
+from . import values
 
-#: Fourth powers of sizes, times moduli, are numbers.
-LARGEST = 1e30
 AXES = ("x", "y", "z")
 #: Nodes of a deck by point: a position, an orientation, and a warping node, which is not used.
 NODES_A_POINT = 3
-
-
-def flag(value: Any) -> bool:
-    """True or false; also 1 and 0."""
-    if isinstance(value, bool) or (isinstance(value, (int, float)) and value in (0, 1)):
-        return bool(value)
-    raise ValueError("true or false is wanted")
-
-
-def number(value: Any) -> float:
-    """A finite number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError("a number is wanted")
-    try:
-        made = float(value)
-    except OverflowError:
-        made = math.inf
-    if not math.isfinite(made):
-        raise ValueError("the number is not finite")
-    return made
-
-
-def whole(value: Any) -> int:
-    """A whole number, also one like 2.0."""
-    made = number(value)
-    if made != int(made):
-        raise ValueError("a whole number is wanted")
-    return int(made)
-
-
-def positive(value: Any) -> float:
-    """A number above zero, neither tiny nor huge."""
-    if not 1.0 / LARGEST < (made := number(value)) < LARGEST:
-        raise ValueError(f"a number between 0 and {LARGEST:g} is wanted")
-    return made
-
-
-def not_negative(value: Any) -> float:
-    """A number from zero on."""
-    return 0.0 if number(value) == 0.0 else positive(value)
-
-
-def count(value: Any) -> int:
-    """A whole number from 1 on."""
-    if not 1 <= (made := whole(value)) < 10**6:
-        raise ValueError("a whole number from 1 on is wanted")
-    return made
-
-
-def part(value: Any) -> float:
-    """A number from 0 to 1."""
-    if not 0.0 <= (made := number(value)) <= 1.0:
-        raise ValueError("a number from 0 to 1 is wanted")
-    return made
-
-
-def text(value: Any) -> str:
-    """A text on one line."""
-    if not isinstance(value, str):
-        raise ValueError("a text is wanted")
-    return " ".join(value.split())
-
-
-def texts(value: Any) -> tuple[str, ...]:
-    """A text, or several."""
-    return tuple(text(each) for each in (value if isinstance(value, list) else [value]))
-
-
-def _vector(*sizes: int) -> Callable[[Any], tuple[float, ...]]:
-    def vector(value: Any) -> tuple[float, ...]:
-        given = value if isinstance(value, (list, tuple)) else [value]
-        if len(given) not in sizes:
-            raise ValueError(f"{' or '.join(map(str, sizes))} numbers are wanted")
-        return tuple(number(each) for each in given)
-
-    return vector
-
-
-def direction(value: Any) -> tuple[float, ...]:
-    """A vector that is not zero."""
-    made = _vector(3)(value)
-    if not any(made):
-        raise ValueError("the vector is zero")
-    return made
-
-
-def numbers_from_one(value: Any) -> tuple[int, ...]:
-    """Numbers from 1 on, each once; a single one may stand without brackets."""
-    made = tuple(count(each) for each in (value if isinstance(value, (list, tuple)) else [value]))
-    if len(set(made)) < len(made):
-        raise ValueError("a number stands there twice")
-    return made
-
-
-def deformations(value: Any) -> tuple[int, ...]:
-    """Numbers of deformations from 1 to 6, each once."""
-    made = numbers_from_one(value)
-    if max(made, default=1) > 6:
-        raise ValueError("deformations have numbers from 1 to 6")
-    return made
-
-
-def shape(value: Any) -> str:
-    """The kind of a cross-section."""
-    if value not in ("rect", "circ"):
-        raise ValueError("'rect' or 'circ' is wanted")
-    return str(value)
-
-
-def sizes(value: Any) -> tuple[float, ...]:
-    """Width and thickness, or a diameter."""
-    return tuple(positive(each) for each in _vector(1, 2)(value))
-
-
-#: Colours by name; by number from 1 in this order.
-COLOURS = {
-    "blue": (0.62, 0.76, 0.86),
-    "grey": (0.78, 0.78, 0.78),
-    "darkblue": (0.0, 0.45, 0.7),
-    "darkgrey": (0.44, 0.44, 0.44),
-    "green": (0.5, 0.76, 0.56),
-    "darkgreen": (0.35, 0.54, 0.4),
-}
-
-
-def colour(value: Any) -> tuple[float, ...]:
-    """Red, green and blue from 0 to 1, or to 255 where one exceeds 1; a name, or its number."""
-    if isinstance(value, str):
-        if value not in COLOURS:
-            raise ValueError(f"one of {', '.join(COLOURS)} is wanted, or three numbers")
-        return COLOURS[value]
-    if not isinstance(value, (list, tuple)):
-        if not 1 <= whole(value) <= len(COLOURS):
-            raise ValueError(f"the colours have numbers from 1 to {len(COLOURS)}")
-        return tuple(COLOURS.values())[whole(value) - 1]
-    made = _vector(3)(value)
-    if max(made) > 1.0:
-        made = tuple(each / 255.0 for each in made)
-    return tuple(part(each) for each in made)
-
-
-def kind(value: Any) -> str:
-    """The keyword of an element, in small letters."""
-    known = [each.keyword.lower() for each in element_kinds()]
-    if not isinstance(value, str) or value.lower() not in known:
-        raise ValueError(f"one of {', '.join(known)} is wanted")
-    return value.lower()
 
 
 class Field(NamedTuple):
@@ -182,63 +32,52 @@ class Field(NamedTuple):
     is_own: bool = False
 
 
-_three, _rotation = _vector(3), _vector(4)
-
-
-def moments(value: Any) -> tuple[float, ...]:
-    """Six moments of inertia, none of them huge."""
-    made = _vector(6)(value)
-    if max(map(abs, made)) >= LARGEST:
-        raise ValueError(f"numbers below {LARGEST:g} are wanted")
-    return made
-
-
 LOADS, PRESCRIBED = "loads", "values of prescribed motions"
 _WARPING, _SIMULATION = "warping", "what is for a simulation"
 
 #: Of each node.
 NODE_FIELDS: dict[str, Field] = {
-    **{name: Field(flag) for name in ("fix", "fix_pos", "fix_orien")},
-    **{f"fix_{axis}": Field(flag) for axis in AXES},
-    **{f"fix_r{axis}": Field(flag, is_own=True) for axis in AXES},
-    "fix_warp": Field(flag, _WARPING),
-    **{f"displ{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
-    **{f"rot{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
-    **{f"rot{start}": Field(_rotation) for start in ("", "_initial")},
-    "mass": Field(not_negative),
-    "mominertia": Field(moments),
+    **{name: Field(values.flag) for name in ("fix", "fix_pos", "fix_orien")},
+    **{f"fix_{axis}": Field(values.flag) for axis in AXES},
+    **{f"fix_r{axis}": Field(values.flag, is_own=True) for axis in AXES},
+    "fix_warp": Field(values.flag, _WARPING),
+    **{f"displ{start}_{axis}": Field(values.number) for start in ("", "_initial") for axis in AXES},
+    **{f"rot{start}_{axis}": Field(values.number) for start in ("", "_initial") for axis in AXES},
+    **{f"rot{start}": Field(values.vector(4)) for start in ("", "_initial")},
+    "mass": Field(values.not_negative),
+    "mominertia": Field(values.moments),
     **{
-        f"{load}{start}": Field(_three, LOADS)
+        f"{load}{start}": Field(values.vector(3), LOADS)
         for load in ("force", "moment")
         for start in ("", "_initial")
     },
-    "transfer_in": Field(texts, _SIMULATION),
-    "transfer_out": Field(texts, _SIMULATION),
-    "name": Field(text, is_own=True),
-    "same_pos": Field(count, is_own=True),
-    "same_orien": Field(count, is_own=True),
+    "transfer_in": Field(values.texts, _SIMULATION),
+    "transfer_out": Field(values.texts, _SIMULATION),
+    "name": Field(values.text, is_own=True),
+    "same_pos": Field(values.count, is_own=True),
+    "same_orien": Field(values.count, is_own=True),
 }
 #: Of each set of elements.
 ELEMENT_FIELDS: dict[str, Field] = {
-    "elems": Field(numbers_from_one),
-    "emod": Field(positive),
-    "smod": Field(positive),
-    "dens": Field(not_negative),
-    "cshape": Field(shape),
-    "dim": Field(sizes),
-    "orien": Field(direction),
-    "nbeams": Field(count),
-    "flex": Field(deformations),
-    "color": Field(colour),
-    "opacity": Field(part),
-    "hide": Field(flag),
-    "warping": Field(flag, _WARPING),
-    "cw": Field(flag, _WARPING),
-    "type": Field(kind, is_own=True),
-    "name": Field(text, is_own=True),
+    "elems": Field(values.numbers_from_one),
+    "emod": Field(values.positive),
+    "smod": Field(values.positive),
+    "dens": Field(values.not_negative),
+    "cshape": Field(values.shape),
+    "dim": Field(values.sizes),
+    "orien": Field(values.direction),
+    "nbeams": Field(values.count),
+    "flex": Field(values.deformations),
+    "color": Field(values.colour),
+    "opacity": Field(values.part),
+    "hide": Field(values.flag),
+    "warping": Field(values.flag, _WARPING),
+    "cw": Field(values.flag, _WARPING),
+    "type": Field(values.kind, is_own=True),
+    "name": Field(values.text, is_own=True),
 }
 #: Of the releases, element by element.
-RELEASE_FIELDS = {"def": Field(deformations)}
+RELEASE_FIELDS = {"def": Field(values.deformations)}
 #: Options; of these the releases alone are used, and none of the others is looked at.
 OPTIONS = (
     *("rls", "filename", "gravity", "silent", "calcbuck", "showinputonly", "loadsteps", "mode"),

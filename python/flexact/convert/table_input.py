@@ -18,10 +18,9 @@ from .fields import (
     Field,
     checked,
     is_unset,
-    number,
-    whole,
 )
 from .problems import Found
+from .values import number, whole
 
 _TABLES = ("nodes", "elements", "nprops", "eprops", "rls", "opt", "name")
 Entry = dict[str, Any]

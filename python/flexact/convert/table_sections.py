@@ -13,7 +13,7 @@ from ..model.appearance import CrossSection
 from ..model.appearance_draft import Shape
 from ..model.material import Material
 from ..model.sections import constants_of, mass, stiffness
-from .fields import LARGEST
+from .values import LARGEST
 
 #: Between what was given and what follows from moduli and density that were found from it.
 _NEAR = 1.0e-9
