@@ -26,6 +26,8 @@ VERBS: tuple[tuple[list[str], list[str]], ...] = (
     (["export"], ["-o", "mesh.vtu"]),
     (["report"], ["-o", "page.html"]),
     (["picture"], ["-o", "picture.svg"]),
+    (["convert"], ["-o", "tables.json"]),
+    (["convert"], ["-o", "mesh.vtk"]),
 )
 #: One deck in so many goes through a verb in this process, and one through a process of its own.
 EVERY, EVERY_PROCESS = 25, 250
@@ -45,7 +47,7 @@ def try_command(text: bytes, outcome: Outcome) -> None:
     if number % EVERY:
         return
     before, behind = VERBS[number // EVERY % len(VERBS)]
-    if before[0] not in ("check", "declare") and outcome is Outcome.READ:
+    if before[0] not in ("check", "declare", "convert") and outcome is Outcome.READ:
         # Too large to be analysed.
         return
     with tempfile.TemporaryDirectory() as folder:

@@ -12,6 +12,9 @@ from typing import Any, NoReturn
 import numpy as np
 
 import flexact
+from flexact.convert.mesh_files import MeshError
+from flexact.convert.mesh_reading import model_of_mesh
+from flexact.convert.mesh_writing import mesh_of
 from flexact.convert.tables import model_of, tables_of
 from flexact.convert.text import text_of
 from flexact.diagnostics.diagnostic import Diagnostic, Place, Severity
@@ -144,17 +147,28 @@ def _analyse(model: flexact.Model, again: flexact.Model) -> bool:
     for name in ("verdict", "rows", "columns", "rank", "under_constrained", "over_constrained"):
         one, other = getattr(result, name), getattr(second, name)
         _require(one == other, f"{name}: {one}, and read back {other}")
-    _check_tables(model)
+    _check_conversions(model)
     return True
 
 
-def _check_tables(model: flexact.Model) -> None:
-    """The model through tables has a D(c) of the same size and elements of the same kinds."""
-    again = model_of(json.loads(text_of(tables_of(model), ".json"), parse_constant=_no_number))
-    _require(again.planar == model.planar, "another dimension in tables")
+def _check_conversions(model: flexact.Model) -> None:
+    """Through tables, and through a mesh where lines can say it, D(c) has the same size."""
+    tables = model_of(json.loads(text_of(tables_of(model), ".json"), parse_constant=_no_number))
+    _check_converted(model, tables, "tables")
+    try:
+        mesh, _ = mesh_of(model)
+    except MeshError as error:
+        _check_words(str(error), "the error")
+    else:
+        again = model_of_mesh(mesh, kind="plbeam" if model.planar else "beam")
+        _check_converted(model, again, "a mesh")
+
+
+def _check_converted(model: flexact.Model, again: flexact.Model, form: str) -> None:
+    _require(again.planar == model.planar, f"another dimension in {form}")
     one, other = model.data.count, again.data.count
-    _require((one.rows, one.columns) == (other.rows, other.columns), "other sizes in tables")
-    _require(model.element_keywords == again.element_keywords, "other elements in tables")
+    _require((one.rows, one.columns) == (other.rows, other.columns), f"other sizes in {form}")
+    _require(model.element_keywords == again.element_keywords, f"other elements in {form}")
 
 
 def _no_number(word: str) -> NoReturn:

@@ -105,6 +105,15 @@ def test_what_is_no_table_is_told(raw: bytes, suffix: str, line: int) -> None:
     assert item.line == line
 
 
+@pytest.mark.parametrize("depth", [10, 100, 300, 800, 3000])
+def test_lists_in_lists_are_told(depth: int, tmp_path: Path) -> None:
+    for suffix in (".json", ".yaml"):
+        path = tmp_path / f"deep{suffix}"
+        path.write_text('{"nodes": ' + "[" * depth + "]" * depth + ', "elements": [[1, 2]]}')
+        with pytest.raises(TablesError):
+            read_any(path)
+
+
 @pytest.mark.parametrize("suffix", [".json", ".yaml"])
 @pytest.mark.parametrize("name", ["paper/six_folded_sheets", "linkages/rssr"])
 def test_text_reads_back_to_the_last_bit(name: str, suffix: str) -> None:

@@ -31,7 +31,11 @@ class Text:
 
     @cached_property
     def _spans(self) -> Mapping[str, Place]:
-        return {} if self._find_spans is None else self._find_spans()
+        try:
+            return {} if self._find_spans is None else self._find_spans()
+        except RecursionError:
+            # What stands in each other so deeply has no places.
+            return {}
 
     def span_of(self, place: str) -> Place:
         """Where a value stands, or what holds it; zeros where that is not known."""
