@@ -31,6 +31,8 @@ from .table_model import data_of
 
 __all__ = ["TablesError", "model_of", "tables_of"]
 
+#: No table has values in each other more deeply.
+_DEEPEST = 10
 #: What flexible deformations that are not released can be.
 FLEXIBLE = {"independent": Class.INDEPENDENT, "released": Class.DEPENDENT}
 
@@ -74,14 +76,14 @@ def model_of(
     return Model.from_data(data_of(checked, FLEXIBLE[flexible], found))
 
 
-def _plain(value: Any) -> Any:
-    """Lists and numbers in place of numpy's."""
+def _plain(value: Any, depth: int = 0) -> Any:
+    """Lists and numbers in place of numpy's, as deep as tables go."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
-    if isinstance(value, Mapping):
-        return {key: _plain(each) for key, each in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(each) for each in value]
+    if depth < _DEEPEST and isinstance(value, Mapping):
+        return {key: _plain(each, depth + 1) for key, each in value.items()}
+    if depth < _DEEPEST and isinstance(value, (list, tuple)):
+        return [_plain(each, depth + 1) for each in value]
     return value
 
 
