@@ -344,6 +344,13 @@ def test_all_mistakes_are_told_in_one_run_each_with_its_place() -> None:
         ("elements[1]", {"eprops": [{"elems": 1, "type": "truss", "flex": [2]}]}),
         ("nprops[2].mominertia", {"nprops": [{}, {"mominertia": [1, 2]}]}),
         ("nprops[2].mass", {"nprops": [{}, {"mass": 10**400}]}),
+        (
+            "eprops[1]",
+            {
+                **{"nodes": [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "elements": [[1, 2], [2, 3]]},
+                "eprops": [{"elems": [1, 2], "type": "bearing"}],
+            },
+        ),
     ],
 )
 def test_one_mistake_is_told_with_its_place(place: str, tables: dict[str, Any]) -> None:

@@ -52,10 +52,14 @@ class Found:
         self._text = text
         self._name = name if text.source is None else text.source.name
         self._items: list[Diagnostic] = []
+        self._said: set[str] = set()
 
     def error(self, place: str, message: str, hint: str = "") -> None:
-        """Note that something is wrong at a place, such as nprops[3].fix."""
+        """Note, once, that something is wrong at a place, such as nprops[3].fix."""
         words = f"{place}: {message}" if place else message
+        if words in self._said:
+            return
+        self._said.add(words)
         span = self._text.span_of(place)
         self._items.append(Diagnostic(Severity.ERROR, "bad-table", words, *span, help=hint))
 

@@ -52,6 +52,10 @@ class Tables:
     name: str = ""
     faulty: set[str] = field(default_factory=set)
 
+    def entry_of(self, element: int) -> Entry:
+        """The fields of the set that an element is in; empty where it is in none."""
+        return self.sets.get(self.set_of.get(element, 0), {})
+
     @property
     def planar(self) -> bool:
         """Whether nodes have two coordinates."""

@@ -9,17 +9,18 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
+from ..core.elements import Class, Member, NodeKind, Vector, kind_of
 from ..core.raw import ElementKind
 from ..model.data import ModelData
 from ..model.draft import NO_VECTOR, Draft
 from ..model.handles import Owner
 from ..model.lookup import one_line
-from .fields import AXES as LETTERS
-from .fields import NODES_A_POINT, PRESCRIBED
+from .fields import NODES_A_POINT
 from .problems import Found
 from .remarks import Remarks
+from .table_classes import NodeGiver
 from .table_input import Entry, Tables
+from .table_numbers import orientations_of, positions_of
 from .table_sections import mass_of, shape_of, stiffness_of
 
 #: What the local y axis of a beam points to where nothing is said.
@@ -38,8 +39,7 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     making.add_nodes()
     for element in range(1, len(tables.ends) + 1):
         making.add_element(element)
-    making.add_classes()
-    making.add_masses()
+    making.give_nodes()
     found.require_none()
     data = making.draft.freeze(tables.name)
     return making.with_remarks(data)
@@ -53,40 +53,12 @@ class _Making:
         self.flexible = flexible
         self.found = found
         self.draft = Draft(tables.planar, Owner())
-        self.position = self._shared("same_pos", 1)
-        self.orientation = self._shared("same_orien", 2)
+        self.position = positions_of(tables, found)
+        self.orientation = orientations_of(tables, found)
         self.remarks = Remarks()
         self.remarks.left_out.update(tables.left_out)
         self.used: set[int] = set()
         self.next_node = NODES_A_POINT * len(tables.places) + 1
-
-    def _shared(self, name: str, offset: int) -> dict[int, int]:
-        """Node number in a deck of each point's position or orientation."""
-        made: dict[int, int] = {}
-        joined = self._hinged() if name == "same_pos" else {}
-        for point, place in enumerate(self.tables.places, start=1):
-            other = self.tables.nodes.get(point, {}).get(name, joined.get(point, point))
-            if other > point:
-                self.found.error(
-                    f"nprops[{point}].{name}", f"an earlier node is wanted, not {other}"
-                )
-                other = point
-            if name == "same_pos" and self.tables.places[other - 1] != place:
-                self.found.error(f"nprops[{point}].{name}", f"node {other} stands elsewhere")
-            made[point] = made.get(other, NODES_A_POINT * (point - 1) + offset)
-        return made
-
-    def _hinged(self) -> dict[int, int]:
-        """Of nodes at one place that a hinge joins the later one, with the earlier one."""
-        made = {}
-        for element, (p, q) in enumerate(self.tables.ends, start=1):
-            places = self.tables.places[p - 1], self.tables.places[q - 1]
-            if self._entry(element).get("type") == "hinge" and places[0] == places[1]:
-                made[max(p, q)] = min(p, q)
-        return made
-
-    def _entry(self, element: int) -> Entry:
-        return self.tables.sets.get(self.tables.set_of.get(element, 0), {})
 
     def add_nodes(self) -> None:
         """Positions; orientations come with the elements that need them."""
@@ -106,7 +78,7 @@ class _Making:
 
     def add_element(self, element: int) -> None:
         """The beams of an element, or the one element that it is."""
-        entry, (p, q) = self._entry(element), self.tables.ends[element - 1]
+        entry, (p, q) = self.tables.entry_of(element), self.tables.ends[element - 1]
         where = f"eprops[{self.tables.set_of.get(element, 0)}]"
         kind = kind_of(entry.get("type", "plbeam" if self.tables.planar else "beam").upper())
         if self.tables.planar and NodeKind.POSITION in kind.slots:
@@ -199,74 +171,14 @@ class _Making:
         elif shape is not None and "dens" in entry:
             self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
 
-    def add_classes(self) -> None:
-        """What is fixed, and what is prescribed and so independent."""
-        for point, entry in self.tables.nodes.items():
-            if point > len(self.tables.places):
-                continue
-            stated: dict[tuple[int, int], Class] = {}
-            self._fix(point, entry, stated)
-            if self._prescribe(point, entry, stated):
-                self.remarks.leave_out(PRESCRIBED)
-            self.draft.coordinate_class.update(stated)
-
-    def _axes(self, number: int) -> tuple[int, ...]:
-        """Of a node that an element uses."""
-        return AXES[self.draft.node_kind[number]] if number in self.used else ()
-
-    def _fix(self, point: int, entry: Entry, stated: dict[tuple[int, int], Class]) -> None:
-        position, orientation = self.position[point], self.orientation[point]
-        for axis in self._axes(position):
-            if any(entry.get(name) for name in ("fix", "fix_pos", f"fix_{LETTERS[axis]}")):
-                stated[position, axis] = Class.FIXED
-        for axis in self._axes(orientation):
-            if any(entry.get(name) for name in ("fix", "fix_orien", f"fix_r{LETTERS[axis]}")):
-                stated[orientation, axis] = Class.FIXED
-
-    def _prescribe(self, point: int, entry: Entry, stated: dict[tuple[int, int], Class]) -> bool:
-        """Make independent what moves as it is told; whether a value was told."""
-        told = False
-        for number, stem in ((self.position[point], "displ"), (self.orientation[point], "rot")):
-            axes = self._axes(number)
-            for start in (stem, f"{stem}_initial"):
-                names = {f"{start}_{letter}": (axis,) for axis, letter in enumerate(LETTERS)}
-                for name, wanted in {**names, start: axes}.items():
-                    if name not in entry:
-                        continue
-                    value = entry[name]
-                    told = told or bool(any(value) if isinstance(value, tuple) else value)
-                    for axis in wanted:
-                        self._state(point, name, (number, axis), stated)
-        return told
-
-    def _state(
-        self, point: int, name: str, place: tuple[int, int], stated: dict[tuple[int, int], Class]
-    ) -> None:
-        where = f"nprops[{point}].{name}"
-        if place[1] not in self._axes(place[0]):
-            self.found.error(where, "no element gives the node this coordinate")
-        elif stated.get(place) == Class.FIXED:
-            self.found.error(where, "the coordinate is fixed, too: it cannot move as it is told")
-        else:
-            stated[place] = Class.INDEPENDENT
-
-    def add_masses(self) -> None:
-        """Masses of nodes."""
-        for point, entry in self.tables.nodes.items():
-            if point > len(self.tables.places):
-                continue
-            for name, number in (
-                ("mass", self.position[point]),
-                ("mominertia", self.orientation[point]),
-            ):
-                if name not in entry:
-                    continue
-                value = entry[name] if isinstance(entry[name], tuple) else (entry[name],)
-                if number not in self.used:
-                    self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
-                else:
-                    planar = self.draft.node_kind[number] == NodeKind.ANGLE
-                    self.draft.give_node_mass(number, value[-1:] if planar else value)
+    def give_nodes(self) -> None:
+        """Classes and masses of the nodes that elements use."""
+        giver = NodeGiver(
+            *(self.tables, self.draft, self.position, self.orientation, self.used),
+            *(self.found, self.remarks),
+        )
+        giver.add_classes()
+        giver.add_masses()
 
     def with_remarks(self, data: ModelData) -> ModelData:
         """The model with what was left out among its notes."""
