@@ -4,7 +4,7 @@
 module flexact_variants
    use flexact_determinacy, only: analyse
    use flexact_error, only: error_t
-   use flexact_full_rank, only: make_gram, is_above
+   use flexact_full_rank, only: make_dense_gram, is_above
    use flexact_geometry, only: is_sound
    use flexact_kinds, only: wp
    use flexact_lowest_pairs, only: lowest_pairs, find_ends
@@ -85,7 +85,7 @@ contains
                     scaling%error_of_digits)
          reach = min(question%most_reach, question%cut_off*scaling%reach_of_digits)
       end associate
-      call make_gram(problem%matrix, gram)
+      call make_dense_gram(problem%matrix, gram)
       call is_above(gram, sum(shape(problem%matrix)), max(told, reach), is_clear)
       is_full = is_clear
       if (.not. is_full .and. reach > told) call is_above(gram, sum(shape(problem%matrix)), told, is_full)
@@ -134,7 +134,7 @@ contains
 
       is_near = any(variant%value(:variant%pairs) <= reach)
       if (question%with_values .or. is_near) &
-         call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found, .not. is_near)
+         call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found,.not. is_near)
       variant%by_move(:size(found)) = found%by_move
       variant%by_turn(:size(found)) = found%by_turn
       variant%is_decided = .not. any(variant%value(:size(found)) <= question%cut_off*found%lift_of_digits)
@@ -160,7 +160,7 @@ contains
       variant%characteristic_length = problem%scaling%characteristic_length
       is_proven = result%proof%total() == variant%rank
       is_clear = is_proven .or. (result%confirmed .and. variant%rank == minval([size(problem%scaling%row), &
-                                                                                 size(problem%scaling%column)]))
+                                                                                size(problem%scaling%column)]))
       is_clear = is_clear .and. result%undecided == 0 .and. result%unseen == 0
       variant%pairs = size(result%pair_value)
       variant%value(:variant%pairs) = result%pair_value

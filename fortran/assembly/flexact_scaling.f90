@@ -19,6 +19,9 @@ module flexact_scaling
    !> lengths within one mechanism differ less, and keep one scale.
    real(wp), parameter :: another_size = 100.0_wp
 
+   !> Squares of numbers up to here, and of their inverses, are numbers.
+   real(wp), parameter :: largest_root = 1.0e100_wp
+
    !> The scaled matrix is diag(row) D(c) diag(column).
    type :: scaling_t
       !> Geometric mean of the reference lengths that are not zero [m]; 1
@@ -142,8 +145,12 @@ contains
          if (i == 0) cycle
          value = jacobian%value(entry)
          if (is_rotation(model, jacobian%column(1, entry))) value = value/row_length(i)
-         ! Unlike a sum of squares, this neither overflows nor vanishes.
-         scaling%row(i) = hypot(scaling%row(i), value)
+         if (abs(value) < largest_root .and. abs(value) > 1/largest_root .and. scaling%row(i) < largest_root) then
+            scaling%row(i) = sqrt(scaling%row(i)**2 + value**2)
+         else
+            ! Unlike a sum of squares, this neither overflows nor vanishes.
+            scaling%row(i) = hypot(scaling%row(i), value)
+         end if
       end do
       where (scaling%row > 0)
          scaling%row = 1/scaling%row

@@ -1,10 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! What Python can call: flat procedures, C types, explicit shapes, no state.
 !
-! f2py reads this file alone. Kinds are spelt c_int, c_double, c_signed_char
-! because f2py turns other named kinds into single precision without a word.
-! "threadsafe" lets f2py drop the interpreter lock: a call is a function of its
-! arguments. A model crosses in four arrays, as flexact_exchange packs them.
+! f2py reads this file alone. Kinds are spelt c_int, c_double, c_signed_char because f2py turns
+! other named kinds into single precision without a word. "threadsafe" drops the interpreter
+! lock: a call is a function of its arguments. A model crosses as flexact_exchange packs it.
 
 ! One row of the element table: keyword and synonym; slots, frame, vector, 1 if p
 ! and q must be apart, member, roles and duals of the deformations. count: rows.
@@ -62,15 +61,13 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    use flexact_exchange, only: to_text, give_diagnostics
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n
+   integer(c_int), intent(in) :: n, most_nodes, most_elements
    integer(c_signed_char), intent(in) :: text(n)
-   integer(c_int), intent(in) :: most_nodes, most_elements
    integer(c_int), intent(inout) :: nodes(5, most_nodes), elements(12, most_elements)
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
    integer(c_int), intent(inout) :: name(2, most_elements + most_nodes), choice(2, most_elements)
    real(c_double), intent(inout) :: value(11, 2*most_elements + most_nodes)
-   integer(c_int), intent(out) :: sizes(7)
-   integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
+   integer(c_int), intent(out) :: sizes(7), diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
    type(deck_model_t) :: deck
@@ -94,9 +91,8 @@ subroutine check_model(n, text, nn, ne, nodes, places, elements, vectors, name, 
    use flexact_model_check, only: check => check_made_model
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n
+   integer(c_int), intent(in) :: n, nn, ne, nodes(5, nn), elements(12, ne), name(2, ne + nn)
    integer(c_signed_char), intent(in) :: text(n)
-   integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne), name(2, ne + nn)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
    integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
@@ -144,9 +140,8 @@ subroutine find_frames(nn, ne, nodes, places, elements, vectors, frame, length)
    call element_frames(model, frame, length)
 end subroutine find_frames
 
-! Deformations and the whole Jacobian in a configuration; entry i stands at
-! place(:, i), counted from 0: 6*element + deformation, 3*node + axis. used: its
-! entries.
+! Deformations and the whole Jacobian in a configuration; entry i stands at place(:, i),
+! counted from 0: 6*element + deformation, 3*node + axis. used: its entries.
 subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configuration, c_t, deformation, place, value, used)
    use iso_c_binding
    use flexact_exchange, only: unpack_model
@@ -154,10 +149,8 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
    use flexact_model, only: model_t
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: entries, nn, ne
-   integer(c_int), intent(in) :: nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
-   real(c_double), intent(in) :: configuration(4, nn), c_t(ne)
+   integer(c_int), intent(in) :: entries, nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), configuration(4, nn), c_t(ne)
    real(c_double), intent(out) :: deformation(6, ne)
    integer(c_int), intent(inout) :: place(2, entries)
    real(c_double), intent(inout) :: value(entries)
@@ -175,9 +168,8 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
    value(:used) = jacobian%value(:used)
 end subroutine assemble
 
-! Rank, motions and self-stresses in the reference configuration; all that comes
-! back, and what wishes are, as flexact_result_exchange says. n: at least the rows
-! and columns of D(c). stage: what is at work and per cent, kept up to date.
+! Rank, motions and self-stresses in the reference configuration; what comes back, and what
+! wishes are, as run_with_blas says. n: at least rows and columns. stage: work, per cent.
 subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
    use iso_c_binding
    use flexact_result_exchange, only: run
@@ -185,10 +177,8 @@ subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wish
    use flexact_model, only: model_t
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, room, nn, ne
-   integer(c_int), intent(in) :: nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
-   real(c_double), intent(in) :: wishes(6)
+   integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(6)
    integer(c_int), intent(inout), target :: stage(2)
    integer(c_int), intent(inout) :: index(3, n + 1), place(room)
    real(c_double), intent(inout) :: value(room), by_size(n, 8)
@@ -199,12 +189,11 @@ subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wish
    call run(model, wishes, stage, index, place, value, by_size, facts)
 end subroutine analyse_model
 
-! What small changes of the geometry make of the singular values of pairs of
-! vectors of D(c) (flexact_sensitivity). modes: k times the rows of a left vector,
-! then the columns of a right one; pair: which two belong together, from 1.
-! effect: lifts by the last bits, the digits typed and by storing, largest effects of
-! moving a node and of turning an element; place: that node and that element, 0
-! without one. used: rows and columns of D(c), which n must be.
+! What small changes of the geometry make of the singular values of pairs of vectors of D(c)
+! (flexact_sensitivity). modes: k times the rows of a left vector, then the columns of a right
+! one; pair: which two belong together, from 1. effect: lifts by the last bits, the digits typed
+! and by storing, largest effects of moving a node and of turning an element; place: that node
+! and that element, 0 without one. used: rows and columns of D(c), which n must be.
 subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vectors, modes, pair, effect, place, used)
    use iso_c_binding
    use flexact_exchange, only: unpack_model
@@ -212,11 +201,8 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    use flexact_result_exchange, only: give_sensitivities
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, k, pairs, nn, ne
-   integer(c_int), intent(in) :: nodes(5, nn), elements(12, ne)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
-   real(c_double), intent(in) :: modes(n, k)
-   integer(c_int), intent(in) :: pair(2, pairs)
+   integer(c_int), intent(in) :: n, k, pairs, nn, ne, nodes(5, nn), elements(12, ne), pair(2, pairs)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), modes(n, k)
    real(c_double), intent(out) :: effect(5, pairs)
    integer(c_int), intent(out) :: place(2, pairs), used
    type(model_t) :: model
@@ -243,3 +229,21 @@ subroutine find_echelon(n, room, nn, ne, nodes, places, elements, vectors, wishe
    call unpack_model(nodes, places, elements, vectors, model)
    call give_echelon(model, wishes, pivot, place, facts)
 end subroutine find_echelon
+
+! Each of some variants of a model; wishes, positions and classes (as many as variants, or
+! one for all), and what comes back, as run_variants says.
+subroutine analyse_variants(room, variants, nn, ne, np, nc, nodes, places, elements, vectors, wishes, positions, classes, facts)
+   use iso_c_binding
+   use flexact_exchange, only: unpack_model
+   use flexact_model, only: model_t
+   use flexact_variant_exchange, only: run_variants
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: room, variants, nn, ne, np, nc, nodes(5, nn), elements(12, ne), classes(6, ne, nc)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(7), positions(3, nn, np)
+   real(c_double), intent(inout) :: facts(room, variants)
+   type(model_t) :: model
+
+   call unpack_model(nodes, places, elements, vectors, model)
+   call run_variants(model, wishes, positions, classes, facts)
+end subroutine analyse_variants

@@ -5,7 +5,7 @@ module flexact_lapack
    implicit none
    private
    public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
-   public :: dsyrk, dpotrf, dsytd2, dstein, dormtr
+   public :: dsyrk, dpotrf
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -118,35 +118,5 @@ module flexact_lapack
          real(wp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
-
-      !> A symmetric matrix to tridiagonal form by reflections, in place, without blocks.
-      pure subroutine dsytd2(uplo, n, a, lda, d, e, tau, info)
-         import :: wp
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, lda
-         real(wp), intent(inout) :: a(lda, *)
-         real(wp), intent(out) :: d(*), e(*), tau(*)
-         integer, intent(out) :: info
-      end subroutine dsytd2
-
-      !> Eigenvectors of a tridiagonal matrix by inverse iteration.
-      pure subroutine dstein(n, d, e, m, w, iblock, isplit, z, ldz, work, iwork, ifail, info)
-         import :: wp
-         integer, intent(in) :: n, m, ldz, iblock(*), isplit(*)
-         real(wp), intent(in) :: d(*), e(*), w(*)
-         real(wp), intent(inout) :: z(ldz, *), work(*)
-         integer, intent(inout) :: iwork(*), ifail(*)
-         integer, intent(out) :: info
-      end subroutine dstein
-
-      !> c times Q or Q' from the reflections of dsytd2.
-      pure subroutine dormtr(side, uplo, trans, m, n, a, lda, tau, c, ldc, work, lwork, info)
-         import :: wp
-         character, intent(in) :: side, uplo, trans
-         integer, intent(in) :: m, n, lda, ldc, lwork
-         real(wp), intent(inout) :: a(lda, *), c(ldc, *), work(*)
-         real(wp), intent(in) :: tau(*)
-         integer, intent(out) :: info
-      end subroutine dormtr
    end interface
 end module flexact_lapack

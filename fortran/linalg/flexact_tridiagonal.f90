@@ -1,58 +1,156 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Some eigenvalues of a symmetric tridiagonal matrix by multisection: Sturm sequences at
-!> several places at once (Lo, Philippe and Sameh, SIAM J. Sci. Stat. Comput. 8, 1987). LAPACK
-!> finds all of them, or bisects one after the other.
+!> A few eigenvalues of a small symmetric matrix, with their vectors, by its tridiagonal form.
+!>
+!> LAPACK does the same for one matrix. Of many small ones, in several threads, most of its
+!> time goes into calls of BLAS, which take a lock each. What is found here is checked by its
+!> residuals; where it is not good, is_found says so.
 module flexact_tridiagonal
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: some_eigenvalues
+   public :: tridiagonal_t, tridiagonalise, find_ends, lowest_values, lowest_vectors, lanes
 
-   !> So many places at once take hardly longer than one: each division waits for the last.
-   integer, parameter :: places = 6
+   !> So many eigenvalues and vectors at once take hardly longer than one: each division waits
+   !> for the last.
+   integer, parameter :: lanes = 6
+   !> Steps of inverse iteration, and what is left by good vectors, relative to the matrix.
+   integer, parameter :: most_steps = 6
+   real(wp), parameter :: good = 1.0e-13_wp
+
+   !> Q' A Q = T. Q is the product of reflections I - beta v v', v from below the diagonal on.
+   type :: tridiagonal_t
+      integer :: n = 0
+      !> Diagonal of T (n), and beside it (n - 1).
+      real(wp), allocatable :: d(:), e(:)
+      real(wp), allocatable :: v(:, :), beta(:)
+   end type tridiagonal_t
 
 contains
 
-   !> The eigenvalues with these numbers, six at most, counted upwards from 1, to `relative` of themselves
-   !> and `absolute` of the largest of all. The matrix is positive semidefinite; d: its
-   !> diagonal (n), e: beside it (n - 1).
-   pure subroutine some_eigenvalues(d, e, number, relative, absolute, value)
-      real(wp), intent(in) :: d(:), e(:), relative, absolute
+   !> Of a symmetric matrix, its lower triangle.
+   pure subroutine tridiagonalise(a, t)
+      real(wp), intent(in) :: a(:, :)
+      type(tridiagonal_t), intent(out) :: t
+      real(wp) :: x, rest, norm
+      integer :: k, n
+
+      n = size(a, 1)
+      t%n = n
+      allocate (t%d(n), t%e(max(0, n - 1)))
+      allocate (t%beta(n), source=0.0_wp)
+      allocate (t%v, source=a)
+      do k = 1, n - 1
+         t%d(k) = t%v(k, k)
+         x = t%v(k + 1, k)
+         rest = product_of(t%v(k + 2:n, k), t%v(k + 2:n, k))
+         if (.not. rest > 0) then
+            t%e(k) = x
+            cycle
+         end if
+         norm = -sign(sqrt(x**2 + rest), x)
+         t%e(k) = norm
+         t%beta(k) = 1/(norm*(norm - x))
+         t%v(k + 1, k) = x - norm
+         call reflect(t%v(k + 1:n, k), t%beta(k), t%v(k + 1:n, k + 1:n))
+      end do
+      if (n > 0) t%d(n) = t%v(n, n)
+   end subroutine tridiagonalise
+
+   !> (I - beta v v') A (I - beta v v'), of the lower triangle.
+   pure subroutine reflect(v, beta, a)
+      real(wp), intent(in) :: v(:), beta
+      real(wp), intent(inout) :: a(:, :)
+      real(wp) :: w(size(v))
+      integer :: j, n
+
+      n = size(v)
+      w = 0.0_wp
+      do j = 1, n
+         w(j) = w(j) + a(j, j)*v(j) + product_of(a(j + 1:n, j), v(j + 1:n))
+         w(j + 1:n) = w(j + 1:n) + a(j + 1:n, j)*v(j)
+      end do
+      w = beta*w
+      w = w - (0.5_wp*beta*product_of(w, v))*v
+      do j = 1, n
+         a(j:n, j) = a(j:n, j) - v(j:n)*w(j) - w(j:n)*v(j)
+      end do
+   end subroutine reflect
+
+   !> The inner product, in four sums that do not wait for each other.
+   pure real(wp) function product_of(x, y) result(total)
+      real(wp), intent(in) :: x(:), y(:)
+      real(wp) :: part(4)
+      integer :: i, whole
+
+      part = 0.0_wp
+      whole = size(x) - mod(size(x), 4)
+      do i = 1, whole, 4
+         part = part + x(i:i + 3)*y(i:i + 3)
+      end do
+      total = (part(1) + part(2)) + (part(3) + part(4))
+      do i = whole + 1, size(x)
+         total = total + x(i)*y(i)
+      end do
+   end function product_of
+
+   !> The smallest and the largest eigenvalue, as exact as A is known to working precision. The
+   !> matrix is positive semidefinite.
+   pure subroutine find_ends(t, ends)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(out) :: ends(2)
+      call multisect(t, [1, t%n], 0.25_wp*epsilon(1.0_wp), ends)
+   end subroutine find_ends
+
+   !> The smallest eigenvalues, ascending, at most `lanes`, to this part of the largest.
+   pure subroutine lowest_values(t, absolute, value)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(in) :: absolute
+      real(wp), intent(out) :: value(:)
+      integer :: k
+      call multisect(t, [(k, k=1, size(value))], absolute, value)
+   end subroutine lowest_values
+
+   !> The eigenvalues with these numbers, counted upwards from 1, by multisection: Sturm
+   !> sequences at several places at once (Lo, Philippe and Sameh, SIAM J. Sci. Stat. Comput. 8,
+   !> 1987).
+   pure subroutine multisect(t, number, absolute, value)
+      type(tridiagonal_t), intent(in) :: t
       integer, intent(in) :: number(:)
+      real(wp), intent(in) :: absolute
       real(wp), intent(out) :: value(:)
       real(wp), dimension(size(number)) :: lower, upper
-      real(wp) :: x(places), squares(size(d)), top
-      integer :: below(places), k, i
+      real(wp) :: x(lanes), squares(t%n), top
+      integer :: below(lanes), k, i
       logical :: is_narrower
 
-      squares = [0.0_wp, max(tiny(e), e**2)]
-      top = bound_of(d, e)
+      squares = [0.0_wp, max(tiny(top), t%e**2)]
+      top = bound_of(t)
       lower = -epsilon(1.0_wp)*top
       upper = top
       is_narrower = .true.
-      do while (is_narrower .and. any(upper - lower > max(absolute*top, relative*upper)))
-         do i = 1, places
+      do while (is_narrower .and. any(upper - lower > absolute*top))
+         do i = 1, lanes
             k = mod(i - 1, size(number)) + 1
-            x(i) = lower(k) + (upper(k) - lower(k))*(real((i - 1)/size(number) + 1, wp)/((places - k)/size(number) + 2))
+            x(i) = lower(k) + (upper(k) - lower(k))*(real((i - 1)/size(number) + 1, wp)/((lanes - k)/size(number) + 2))
          end do
-         call count_below(d, squares, x, below)
+         call count_below(t%d, squares, x, below)
          call narrow(number, x, below, lower, upper, is_narrower)
       end do
       value = max(0.0_wp, lower/2 + upper/2)
-   end subroutine some_eigenvalues
+   end subroutine multisect
 
    !> No eigenvalue is above (Gershgorin).
-   pure real(wp) function bound_of(d, e) result(bound)
-      real(wp), intent(in) :: d(:), e(:)
-      bound = (maxval(d + [abs(e), 0.0_wp] + [0.0_wp, abs(e)]))*(1 + 8*epsilon(1.0_wp))
+   pure real(wp) function bound_of(t) result(bound)
+      type(tridiagonal_t), intent(in) :: t
+      bound = maxval(abs(t%d) + [abs(t%e), 0.0_wp] + [0.0_wp, abs(t%e)])*(1 + 8*epsilon(1.0_wp))
    end function bound_of
 
    !> How many eigenvalues are below each place: so many pivots are negative. A pivot of zero
    !> makes the next one minus infinity, and that counts in its place.
    pure subroutine count_below(d, squares, x, below)
-      real(wp), intent(in) :: d(:), squares(:), x(places)
-      integer, intent(out) :: below(places)
-      real(wp) :: pivot(places), counted(places)
+      real(wp), intent(in) :: d(:), squares(:), x(lanes)
+      integer, intent(out) :: below(lanes)
+      real(wp) :: pivot(lanes), counted(lanes)
       integer :: i
 
       pivot = 1.0_wp
@@ -71,19 +169,126 @@ contains
       real(wp), intent(inout) :: lower(:), upper(:)
       logical, intent(out) :: is_narrower
       real(wp) :: before
-      integer :: k, i
+      integer :: k
 
       is_narrower = .false.
       do k = 1, size(number)
          before = upper(k) - lower(k)
-         do i = 1, size(x)
-            if (below(i) < number(k)) then
-               lower(k) = max(lower(k), x(i))
-            else
-               upper(k) = min(upper(k), x(i))
-            end if
-         end do
+         lower(k) = max(lower(k), maxval(merge(x, lower(k), below < number(k))))
+         upper(k) = min(upper(k), minval(merge(x, upper(k), below >= number(k))))
          is_narrower = is_narrower .or. upper(k) - lower(k) < before
       end do
    end subroutine narrow
+
+   !> An orthonormal basis (n, k), k <= lanes, of the space of eigenvectors of A for eigenvalues
+   !> that are roughly known, by inverse iteration on T.
+   pure subroutine lowest_vectors(t, value, basis, is_found)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(in) :: value(:)
+      real(wp), intent(out) :: basis(:, :)
+      logical, intent(out) :: is_found
+      real(wp) :: z(lanes, t%n), shift(lanes), start(lanes)
+      integer :: step, k, i
+
+      ! Lanes without a value of their own repeat the last one.
+      shift = value([(min(k, size(value)), k=1, lanes)])
+      ! Anything without symmetry serves to begin with.
+      start = [(k/(lanes + 0.7_wp), k=1, lanes)]
+      do i = 1, t%n
+         start = 9.7_wp*start + 0.3_wp
+         start = start - int(start)
+         z(:, i) = start - 0.4_wp
+      end do
+      do step = 1, most_steps
+         call iterate(t, shift, z)
+         call make_orthonormal(size(value), z)
+         is_found = step > 1
+         if (is_found) is_found = residual(t, z(:size(value), :)) <= good*bound_of(t)
+         if (is_found) exit
+      end do
+      if (.not. is_found) return
+      call turn_back(t, z)
+      basis = transpose(z(:size(value), :))
+   end subroutine lowest_vectors
+
+   !> Solve with T less a shift for each lane. Without pivoting; the residual tells.
+   pure subroutine iterate(t, shift, z)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(in) :: shift(lanes)
+      real(wp), intent(inout) :: z(lanes, t%n)
+      real(wp) :: inverse(lanes, t%n), pivot(lanes), least
+      integer :: i
+
+      least = epsilon(1.0_wp)*bound_of(t) + tiny(least)
+      do i = 1, t%n
+         pivot = t%d(i) - shift
+         if (i > 1) then
+            pivot = pivot - t%e(i - 1)**2*inverse(:, i - 1)
+            z(:, i) = z(:, i) - t%e(i - 1)*inverse(:, i - 1)*z(:, i - 1)
+         end if
+         inverse(:, i) = 1/merge(sign(least, pivot), pivot, abs(pivot) < least)
+      end do
+      z(:, t%n) = z(:, t%n)*inverse(:, t%n)
+      do i = t%n - 1, 1, -1
+         z(:, i) = (z(:, i) - t%e(i)*z(:, i + 1))*inverse(:, i)
+      end do
+   end subroutine iterate
+
+   !> The first k lanes orthonormal, each to those before it; the others are left.
+   pure subroutine make_orthonormal(k, z)
+      integer, intent(in) :: k
+      real(wp), intent(inout) :: z(:, :)
+      real(wp) :: x(size(z, 2), k)
+      integer :: i, j
+
+      do i = 1, k
+         x(:, i) = z(i, :)/max(tiny(1.0_wp), maxval(abs(z(i, :))))
+         x(:, i) = x(:, i)/max(tiny(1.0_wp), sqrt(product_of(x(:, i), x(:, i))))
+         do j = 1, i - 1
+            x(:, i) = x(:, i) - product_of(x(:, j), x(:, i))*x(:, j)
+         end do
+         x(:, i) = x(:, i)/max(tiny(1.0_wp), sqrt(product_of(x(:, i), x(:, i))))
+         z(i, :) = x(:, i)
+      end do
+   end subroutine make_orthonormal
+
+   !> The largest part of T z outside of the space of the columns of z'.
+   pure real(wp) function residual(t, z)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(in) :: z(:, :)
+      real(wp) :: image(t%n, size(z, 1)), x(t%n, size(z, 1))
+      integer :: i, j
+
+      x = transpose(z)
+      residual = 0.0_wp
+      do i = 1, size(z, 1)
+         image(:, i) = t%d*x(:, i)
+         image(2:, i) = image(2:, i) + t%e*x(:t%n - 1, i)
+         image(:t%n - 1, i) = image(:t%n - 1, i) + t%e*x(2:, i)
+         do j = 1, size(z, 1)
+            image(:, i) = image(:, i) - product_of(x(:, j), image(:, i))*x(:, j)
+         end do
+         residual = max(residual, maxval(abs(image(:, i))))
+      end do
+   end function residual
+
+   !> Vectors of A from those of T, in place.
+   pure subroutine turn_back(t, z)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(inout) :: z(lanes, t%n)
+      real(wp) :: along(lanes)
+      integer :: k, i
+
+      do k = t%n - 1, 1, -1
+         if (.not. abs(t%beta(k)) > 0) cycle
+         along = 0.0_wp
+         do i = k + 1, t%n
+            along = along + t%v(i, k)*z(:, i)
+         end do
+         along = t%beta(k)*along
+         do i = k + 1, t%n
+            z(:, i) = z(:, i) - t%v(i, k)*along
+         end do
+      end do
+   end subroutine turn_back
 end module flexact_tridiagonal

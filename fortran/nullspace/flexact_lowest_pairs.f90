@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The smallest singular values of a small dense matrix of full rank with their vectors, and
-!> the ends of its spectrum, in less time than a decomposition takes; theory.md (44).
+!> the ends of its spectrum, in less time than a decomposition takes; theory.md (49) and (50).
 !>
 !> The eigenvectors of A'A give a space that is right to second order of their errors: in it
 !> the values and the vectors are found from A itself, so that they are as exact as those of
@@ -9,28 +9,27 @@ module flexact_lowest_pairs
    use flexact_decomposition, only: decompose, singular_values
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
-   use flexact_full_rank, only: make_gram
-   use flexact_lapack, only: dsytd2, dstein, dormtr
-   use flexact_tridiagonal, only: some_eigenvalues
+   use flexact_full_rank, only: make_dense_gram
+   use flexact_tridiagonal, only: tridiagonal_t, tridiagonalise, ends_of => find_ends, lowest_values, lowest_vectors, lanes
    implicit none
    private
    public :: lowest_pairs, find_ends
 
    !> Eigenvalues are wanted to this part of the largest, where their vectors and A follow.
-   real(wp), parameter :: rough = 1.0e-9_wp
-   !> Entries beside the diagonal that are this small split a tridiagonal matrix.
-   real(wp), parameter :: splits = 1.0e-12_wp
+   real(wp), parameter :: rough = 1.0e-7_wp
    !> Eigenvalues of A'A below this part of the largest have lost too many digits.
    real(wp), parameter :: least_part = 1.0e-7_wp
+   !> Squares from here to its inverse can be multiplied with each other.
+   real(wp), parameter :: least_square = 1.0e-100_wp
    !> Columns whose cosine is below are orthogonal.
-   real(wp), parameter :: orthogonal = 4*epsilon(1.0_wp)
+   real(wp), parameter :: orthogonal = 1.0e-13_wp
    integer, parameter :: most_sweeps = 12
 
 contains
 
    !> The smallest values, ascending, as many as there is room for and no more than there are
    !> (used), with left (rows, :) and right (columns, :) vectors of unit norm.
-   !> gram: A'A or A A', by make_gram.
+   !> gram: A'A or A A', by make_dense_gram.
    subroutine lowest_pairs(a, gram, values, left, right, used, error)
       real(wp), intent(in), contiguous :: a(:, :), gram(:, :)
       real(wp), intent(out) :: values(:), left(:, :), right(:, :)
@@ -39,7 +38,7 @@ contains
       real(wp), allocatable :: basis(:, :)
       logical :: is_found
 
-      used = min(size(values), size(a, 1), size(a, 2))
+      used = min(size(values), size(a, 1), size(a, 2), lanes)
       if (used == 0) return
       allocate (basis(minval(shape(a)), used))
       call lowest_space(gram, basis, is_found)
@@ -59,24 +58,14 @@ contains
    !> Eigenvectors of the smallest eigenvalues of A'A or A A'.
    subroutine lowest_space(gram, basis, is_found)
       real(wp), intent(in) :: gram(:, :)
-      real(wp), intent(inout), contiguous :: basis(:, :)
+      real(wp), intent(inout) :: basis(:, :)
       logical, intent(out) :: is_found
-      real(wp), dimension(size(basis, 1)) :: d, e, tau
-      real(wp) :: reflections(size(basis, 1), size(basis, 1)), work(64*size(basis, 1)), w(size(basis, 2))
-      integer :: block(size(basis, 1)), split(size(basis, 1)), iwork(size(basis, 1)), fail(size(basis, 2)), n, k, info
+      type(tridiagonal_t) :: t
+      real(wp) :: value(size(basis, 2))
 
-      n = size(basis, 1)
-      k = size(basis, 2)
-      reflections = gram
-      call dsytd2('L', n, reflections, n, d, e, tau, info)
-      is_found = all(abs(e(:n - 1)) > splits*(abs(d(:n - 1)) + abs(d(2:))))
-      if (.not. is_found) return
-      call some_eigenvalues(d, e(:n - 1), [(info, info=1, k)], rough, rough, w)
-      block = 1
-      split = n
-      call dstein(n, d, e, k, w, block, split, basis, n, work, iwork, fail, info)
-      is_found = info == 0
-      if (is_found .and. n > 1) call dormtr('L', 'L', 'N', n, k, reflections, n, tau, basis, n, work, size(work), info)
+      call tridiagonalise(gram, t)
+      call lowest_values(t, rough, value)
+      call lowest_vectors(t, value, basis, is_found)
    end subroutine lowest_space
 
    !> Turn the columns of `image` (the images of the columns of `source`) until they are
@@ -84,14 +73,18 @@ contains
    subroutine make_orthogonal(image, source, values)
       real(wp), intent(inout) :: image(:, :), source(:, :)
       real(wp), intent(out) :: values(:)
+      real(wp) :: products(size(values), size(values))
       integer :: i, j, sweep, first
       logical :: is_done
 
       do sweep = 1, most_sweeps
+         products = matmul(transpose(image), image)
          is_done = .true.
          do j = 2, size(values)
             do i = 1, j - 1
-               call rotate(image(:, i), image(:, j), source(:, i), source(:, j), is_done)
+               if (.not. abs(products(i, j)) > orthogonal*sqrt(products(i, i)*products(j, j))) cycle
+               is_done = .false.
+               call rotate(image(:, i), image(:, j), source(:, i), source(:, j))
             end do
          end do
          if (is_done) exit
@@ -106,17 +99,15 @@ contains
       end do
    end subroutine make_orthogonal
 
-   pure subroutine rotate(x, y, u, v, is_done)
+   pure subroutine rotate(x, y, u, v)
       real(wp), intent(inout) :: x(:), y(:), u(:), v(:)
-      logical, intent(inout) :: is_done
       real(wp) :: xx, yy, xy, zeta, tangent, cosine, sine
       integer :: i
 
       xx = dot_product(x, x)
       yy = dot_product(y, y)
       xy = dot_product(x, y)
-      if (.not. abs(xy) > orthogonal*sqrt(xx*yy)) return
-      is_done = .false.
+      if (.not. abs(xy) > 0) return
       zeta = (yy - xx)/(2*xy)
       tangent = sign(1/(abs(zeta) + hypot(1.0_wp, zeta)), zeta)
       cosine = 1/hypot(1.0_wp, tangent)
@@ -159,24 +150,24 @@ contains
       real(wp), intent(in), contiguous :: a(:, :)
       real(wp), intent(out) :: smallest, largest
       type(error_t), allocatable, intent(out) :: error
-      real(wp), dimension(minval(shape(a))) :: d, e, tau
-      real(wp) :: gram(minval(shape(a)), minval(shape(a))), ends(2)
+      type(tridiagonal_t) :: t
+      real(wp) :: gram(minval(shape(a)), minval(shape(a))), values(minval(shape(a))), ends(2)
       real(wp), allocatable :: copy(:, :)
-      integer :: n, info
 
-      n = size(d)
       smallest = 0.0_wp
       largest = 0.0_wp
-      if (n == 0) return
-      call make_gram(a, gram)
-      call dsytd2('L', n, gram, n, d, e, tau, info)
-      call some_eigenvalues(d, e(:n - 1), [1, n], epsilon(1.0_wp), 0.0_wp, ends)
-      if (.not. ends(1) > least_part*ends(2)) then
-         allocate (copy, source=a)
-         call singular_values(copy, d, error)
-         ends = d([n, 1])**2
+      if (size(values) == 0) return
+      call make_dense_gram(a, gram)
+      call tridiagonalise(gram, t)
+      call ends_of(t, ends)
+      if (ends(1) > max(least_square, least_part*ends(2)) .and. ends(2) < 1/least_square) then
+         ends = sqrt(ends)
+      else
+         copy = a
+         call singular_values(copy, values, error)
+         ends = values([size(values), 1])
       end if
-      smallest = sqrt(ends(1))
-      largest = sqrt(ends(2))
+      smallest = ends(1)
+      largest = ends(2)
    end subroutine find_ends
 end module flexact_lowest_pairs

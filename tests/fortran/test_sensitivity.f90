@@ -3,11 +3,11 @@
 program test_sensitivity
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
-   use flexact_slots, only: node_position, node_orientation
-   use flexact_element_table, only: find_element_kind
+   use flexact_slots, only: node_position, node_orientation, has_axis, is_position, slots
+   use flexact_element_table, only: find_element_kind, element_kinds
    use flexact_jacobian, only: jacobian_t, make_jacobian
    use flexact_sensitivity, only: sensitivity_t, find_sensitivities
-   use flexact_variation, only: variation_t, make_variation
+   use flexact_effects, only: geometry_t, make_geometry, find_effects
    use flexact_testing, only: tally_t
    use flexact_test_models, only: new_model, set_node, set_element, fix, release, twelve_trusses, folded_sheet
    implicit none
@@ -18,7 +18,7 @@ program test_sensitivity
    call digits_of_a_bar()
    call a_hinge_turns_its_axis()
    call the_paper_misaligned()
-   call changes_of_beams()
+   call changes_of_elements()
    call body_without_length()
    call nothing_where_no_geometry_counts()
    call tally%finish()
@@ -142,43 +142,79 @@ contains
       if (node > 4) velocity = v(3*node - 14:3*node - 12)
    end function velocity
 
-   !> Against the Jacobian of a beam whose node or vector stands elsewhere.
-   subroutine changes_of_beams()
-      type(model_t) :: model, alone
-      type(variation_t) :: variation
-      real(wp), parameter :: step = 1.0e-6_wp, vector(3) = [0.2_wp, 1.0_wp, 0.4_wp]
-      real(wp) :: before(6, 12), after(6, 12)
+   !> Of every kind of element, with a vector and without one, against central differences of
+   !> u' D v of an element whose node or vector stands elsewhere.
+   subroutine changes_of_elements()
+      real(wp), parameter :: vector(3) = [0.2_wp, 1.0_wp, 0.4_wp]
+      integer :: kind
+
+      do kind = 1, size(element_kinds)
+         call changes_of(kind, vector*merge(1, 0, element_kinds(kind)%vector > 0))
+         call changes_of(kind, -3*vector([3, 1, 2])*merge(1, 0, element_kinds(kind)%vector > 1))
+      end do
+   end subroutine changes_of_elements
+
+   subroutine changes_of(kind, vector)
+      integer, intent(in) :: kind
+      real(wp), intent(in) :: vector(3)
+      type(model_t) :: model
+      type(geometry_t) :: geometry
+      real(wp), parameter :: step = 1.0e-6_wp
+      real(wp) :: u(6), v(12), effect(6), nothing(2), expected(6)
       integer :: i
 
-      model = new_model(4, 1)
-      call set_node(model, 1, node_position, [0.1_wp, 0.2_wp, 0.3_wp])
-      call set_node(model, 2, node_orientation, upright)
-      call set_node(model, 3, node_position, [1.3_wp, -0.2_wp, 0.9_wp])
-      call set_node(model, 4, node_orientation, upright)
-      call set_element(model, 1, find_element_kind('BEAM'), [1, 2, 3, 4], vector)
-      call make_variation(model, 1, alone, variation)
+      model = one_element(kind, vector)
+      u = [0.7_wp, -0.4_wp, 0.9_wp, 0.3_wp, -0.8_wp, 0.5_wp]
+      v = [(cos(3.0_wp*i), i=1, 12)]
+      call make_geometry(model, 1, geometry)
+      call find_effects(geometry, u, v, effect, nothing)
+      expected = 0.0_wp
       do i = 1, 3
-         model%node_value(i, 3) = model%node_value(i, 3) + step
-         after = derivative_of(model)
-         model%node_value(i, 3) = model%node_value(i, 3) - 2*step
-         before = derivative_of(model)
-         model%node_value(i, 3) = model%node_value(i, 3) + step
-         call check_change(variation%derivative(:, :, i), (after - before)/(2*step), 'a node of a beam')
-         model%element_vector(i, 1) = vector(i) + step
-         after = derivative_of(model)
-         model%element_vector(i, 1) = vector(i) - step
-         before = derivative_of(model)
-         model%element_vector(i, 1) = vector(i)
-         call check_change(variation%derivative(:, :, 3 + i), (after - before)/(2*step), 'the vector of a beam')
+         if (model%element_node(3, 1) > 0) then
+            if (has_axis(model%node_kind(3), i)) expected(i) = (moved(model, u, v, i, step) - moved(model, u, v, i, -step))/(2*step)
+         end if
+         if (any(abs(vector) > 0)) expected(3 + i) = (moved(model, u, v, 3 + i, step) - moved(model, u, v, 3 + i, -step))/(2*step)
       end do
-   end subroutine changes_of_beams
+      call tally%near(effect, expected, 1.0e-8_wp, element_kinds(kind)%keyword)
+      call tally%check(all(nothing < 1.0e-6_wp), 'what is nothing is little')
 
-   subroutine check_change(change, expected, name)
-      real(wp), intent(in) :: change(6, 12), expected(6, 12)
-      character(len=*), intent(in) :: name
-      call tally%check(maxval(abs(expected)) > 1.0e-3_wp, name//' counts')
-      call tally%near(reshape(change, [72]), reshape(expected, [72]), 1.0e-8_wp, name)
-   end subroutine check_change
+   end subroutine changes_of
+
+   !> u' D v of the one element with one number of the geometry changed.
+   function moved(model, u, v, number, change) result(product)
+      type(model_t), intent(in) :: model
+      real(wp), intent(in) :: u(6), v(12), change
+      integer, intent(in) :: number
+      real(wp) :: product
+      type(model_t) :: other
+
+      other = model
+      if (number <= 3) other%node_value(number, 3) = other%node_value(number, 3) + change
+      if (number > 3) other%element_vector(number - 3, 1) = other%element_vector(number - 3, 1) + change
+      product = dot_product(u, matmul(derivative_of(other), v))
+   end function moved
+
+   !> Nodes 1 to 4 in the slots of one element, as far as it has them.
+   function one_element(kind, vector) result(model)
+      integer, intent(in) :: kind
+      real(wp), intent(in) :: vector(3)
+      type(model_t) :: model
+      real(wp), parameter :: place(3, 2) = reshape([0.1_wp, 0.2_wp, 0.3_wp, 1.3_wp, -0.2_wp, 0.9_wp], [3, 2])
+      integer :: slot, node(slots)
+
+      model = new_model(slots, 1)
+      do slot = 1, slots
+         associate (wanted => element_kinds(kind)%slot_kind(slot))
+            node(slot) = merge(slot, 0, wanted > 0)
+            if (is_position(wanted)) then
+               call set_node(model, slot, wanted, place(:, (slot + 1)/2))
+            else
+               call set_node(model, slot, merge(wanted, node_orientation, wanted > 0), upright)
+            end if
+         end associate
+      end do
+      call set_element(model, 1, kind, node, vector)
+   end function one_element
 
    function derivative_of(model) result(derivative)
       type(model_t), intent(in) :: model

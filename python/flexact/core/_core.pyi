@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Types of the extension module made by f2py from fortran/boundary/*bindings.f90."""
+"""Types of the extension module made by f2py from fortran/boundary/bindings.f90."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,8 +83,8 @@ def analyse_variants(
     elements: _Ints,
     vectors: _Floats,
     wishes: _Floats,
-    position: _Floats,
-    class_: _Ints,
+    positions: _Floats,
+    classes: _Ints,
     facts: _Floats,
     /,
 ) -> None: ...
