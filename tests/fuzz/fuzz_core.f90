@@ -4,11 +4,14 @@
 !> a deck a line; each path is printed before its deck is taken.
 program fuzz_core
    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_signed_char
+   use flexact_result, only: most_pairs
+   use flexact_variant_exchange, only: variant_fact_names
    implicit none
    !> Larger models are read, but not analysed.
    integer, parameter :: most_deformations = 300
    integer, parameter :: methods = 4
-   external :: read_deck, check_model, count_model, find_frames, assemble, analyse_model, find_sensitivities, find_echelon
+   external :: read_deck, check_model, count_model, find_frames, assemble, analyse_model, find_sensitivities, find_echelon, &
+      analyse_variants
 
    call main()
 
@@ -87,6 +90,7 @@ contains
       do method = 0, methods - 1
          call take_analysis(nodes, places, elements, vectors, sizes, method)
       end do
+      call take_variants(nodes, places, elements, vectors)
       call take_echelon(nodes, places, elements, vectors, sizes(2), 0)
       call take_echelon(nodes, places, elements, vectors, sizes(1), 1)
    end subroutine take_model
@@ -118,6 +122,26 @@ contains
       call find_sensitivities(sum(sizes), pairs, pairs, size(nodes, 2), size(elements, 2), nodes, places, elements, vectors, &
                               by_size(:sum(sizes), 3:pairs + 2), pair, effect, owner, used)
    end subroutine take_analysis
+
+   !> The model as it is, and stretched more and more; then with all deformations held.
+   subroutine take_variants(nodes, places, elements, vectors)
+      integer(c_int), intent(in) :: nodes(:, :), elements(:, :)
+      real(c_double), intent(in) :: places(:, :), vectors(:, :)
+      integer, parameter :: variants = 4, room = size(variant_fact_names) + 3*most_pairs
+      real(c_double), allocatable :: positions(:, :, :), facts(:, :)
+      integer(c_int), allocatable :: classes(:, :, :)
+      integer :: i, with_values
+
+      allocate (positions(3, size(nodes, 2), variants), classes(6, size(elements, 2), variants), facts(room, variants))
+      do i = 1, variants
+         positions(:, :, i) = places(:3, :)*spread([1.0_c_double, 0.5_c_double + i, 1.0_c_double/i], 2, size(nodes, 2))
+         classes(:, :, i) = merge(min(elements(7:, :), 1), elements(7:, :), i == variants)
+      end do
+      do with_values = 0, 1
+         call analyse_variants(room, variants, size(nodes, 2), size(elements, 2), variants, variants, nodes, places, elements, &
+                               vectors, [real(c_double) :: 10, 10, 0.01, with_values, 1.0e9, 0, 0], positions, classes, facts)
+      end do
+   end subroutine take_variants
 
    subroutine take_echelon(nodes, places, elements, vectors, n, transposed)
       integer(c_int), intent(in) :: nodes(:, :), elements(:, :)
