@@ -47,7 +47,8 @@ class Folder:
 
     def lines(self) -> Iterator[str]:
         """What was found, the most frequent first."""
-        yield f"{self.kinds.total() or 'no'} offences"
+        total = self.kinds.total()
+        yield f"{total or 'no'} offence{'s' * (total != 1)}"
         for kind, count in self.kinds.most_common():
             yield f"{count:>9} {kind}"
         if self.kinds:

@@ -80,7 +80,7 @@ def main() -> int:
     folder = Folder(asked.keep)
     fuzzing = Fuzzing(asked.seed, asked.minutes, folder)
     core = threading.Thread(target=fuzzing.through_the_core)
-    with tqdm(unit=" decks", disable=asked.quiet) as progress:
+    with tqdm(unit=" decks", disable=asked.quiet or None) as progress:
         core.start()
         try:
             fuzzing.through_the_package(asked.workers, progress)

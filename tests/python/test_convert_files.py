@@ -185,6 +185,9 @@ def test_a_format_that_loses_data_is_told_and_one_without_lines_refused(tmp_path
     for suffix in (".stl", ".obj"):
         with pytest.raises(MeshError, match=r"lines|triangle"):
             bytes_of(model, tmp_path / f"trusses{suffix}")
+    mixed = flexact.read_text("TRUSS 1 1 2\nPLTRUSS 2 1 2\nX 2 1 0 0\nFIX 1\n")
+    with pytest.raises(MeshError, match="kind pltruss"):
+        bytes_of(mixed, tmp_path / "mixed.vtu")
     with pytest.raises(MeshError, match=r"truss|hinge|share"):
         bytes_of(flexact.read_text(deck_of("linkages/rssr")), tmp_path / "linkage.vtu")
 

@@ -41,7 +41,7 @@ def mesh_of(model: Model) -> tuple[Any, Remarks]:
     model.check()
     tables, remarks = tables_with_remarks(model.data)
     remarks.own.clear()
-    _require_lines(tables)
+    _require_lines(tables, model.planar)
     nodes: Sequence[Entry] = tables["nprops"]
     turning = bool((model.node_kinds > NodeKind.POSITION).any())
     data = [name for name in POINT_DATA if turning or not name.endswith("rotation")]
@@ -71,11 +71,13 @@ def mesh_of(model: Model) -> tuple[Any, Remarks]:
     )
 
 
-def _require_lines(tables: Mapping[str, Any]) -> None:
+def _require_lines(tables: Mapping[str, Any], planar: bool) -> None:
+    # All lines of a mesh are planar, or none.
+    known = [kind for kind in KINDS if kind.startswith("pl") is planar]
     wrong: Counter[str] = Counter()
     for entry in tables["eprops"]:
-        kind = entry.get("type", "beam")
-        if kind not in KINDS:
+        kind = entry.get("type", known[0])
+        if kind not in known:
             wrong[f"elements of kind {kind}"] += len(entry["elems"])
     for entry in tables["nprops"]:
         for name, words in (("same_pos", "position"), ("same_orien", "orientation")):
