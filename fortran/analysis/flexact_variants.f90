@@ -14,6 +14,7 @@ module flexact_variants
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_sensitivity, only: sensitivity_t, find_sensitivities
    use flexact_small_problem, only: small_problem_t, make_small_problem, plain_matrix
+   use flexact_zero_margins, only: zero_limits_t, find_zero_changes
    implicit none
    private
    public :: analyse_variant, variant_t, question_t
@@ -30,6 +31,7 @@ module flexact_variants
       real(wp) :: cut_off = 0.0_wp, most_reach = 0.0_wp
       !> Whether values and margins are wanted beside the rank.
       logical :: with_values = .false.
+      type(zero_limits_t) :: zeros
       type(options_t) :: options
    end type question_t
 
@@ -40,8 +42,10 @@ module flexact_variants
       integer :: rank = 0
       !> The largest value of the scaled matrix that counts as zero, negative without one.
       real(wp) :: largest_zero = -1.0_wp
-      !> Of D(c) itself.
-      real(wp) :: smallest = 0.0_wp, largest = 0.0_wp
+      !> Whether the move of one node, or the turn of one element, lifts some zero.
+      logical :: zero_moves = .false., zero_turns = .false.
+      !> Of D(c) itself; negative where it is not known.
+      real(wp) :: smallest = -1.0_wp, largest = -1.0_wp
       real(wp) :: characteristic_length = 1.0_wp
       !> The smallest values of the scaled matrix that are not zero, ascending, and what each
       !> changes by a move of one node and by a turn of one element.
@@ -134,14 +138,14 @@ contains
 
       is_near = any(variant%value(:variant%pairs) <= reach)
       if (question%with_values .or. is_near) &
-         call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found,.not. is_near)
+         call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found, &
+                                                                        .not. is_near)
       variant%by_move(:size(found)) = found%by_move
       variant%by_turn(:size(found)) = found%by_turn
       variant%is_decided = .not. any(variant%value(:size(found)) <= question%cut_off*found%lift_of_digits)
    end subroutine judge
 
-   !> The rank by a complete analysis, as it is done for a single model: decided if nothing is
-   !> in doubt. Values and margins of zeros are left to those who asked.
+   !> By a complete analysis, as it is done for a single model: decided if nothing is in doubt.
    subroutine analyse_completely(model, question, variant)
       type(model_t), intent(in) :: model
       type(question_t), intent(in) :: question
@@ -149,23 +153,16 @@ contains
       type(problem_t) :: problem
       type(result_t) :: result
       real(wp), allocatable :: left(:, :), right(:, :)
-      logical :: is_proven, is_clear
       integer :: k
 
       variant%is_decided = .false.
-      if (question%with_values) return
       call analyse(model, question%options, problem, result)
       if (allocated(result%error)) return
       variant%rank = result%decision%rank
       variant%characteristic_length = problem%scaling%characteristic_length
-      is_proven = result%proof%total() == variant%rank
-      is_clear = is_proven .or. (result%confirmed .and. variant%rank == minval([size(problem%scaling%row), &
-                                                                                size(problem%scaling%column)]))
-      is_clear = is_clear .and. result%undecided == 0 .and. result%unseen == 0
       variant%pairs = size(result%pair_value)
       variant%value(:variant%pairs) = result%pair_value
-      if (any(result%pair_value <= question%near*result%decision%noise)) is_clear = .false.
-      if (.not. is_clear) return
+      if (.not. is_clear(problem, question, result)) return
       allocate (left, source=result%pair_stress)
       allocate (right, source=result%pair_motion)
       do k = 1, variant%pairs
@@ -173,5 +170,47 @@ contains
          right(:, k) = problem%scaling%column*right(:, k)
       end do
       call judge(model, left, right, question, min(question%most_reach, question%cut_off*problem%scaling%reach_of_digits), variant)
+      if (variant%is_decided .and. question%with_values) call find_other_values(model, problem, question, result, variant)
    end subroutine analyse_completely
+
+   !> Whether the rank is proven, or full and confirmed, and no value is near rounding.
+   pure logical function is_clear(problem, question, result)
+      type(problem_t), intent(in) :: problem
+      type(question_t), intent(in) :: question
+      type(result_t), intent(in) :: result
+
+      is_clear = result%proof%total() == result%decision%rank .or. &
+                 (result%confirmed .and. result%decision%rank == min(size(problem%scaling%row), size(problem%scaling%column)))
+      is_clear = is_clear .and. result%undecided == 0 .and. result%unseen == 0 .and. &
+                 .not. any(result%pair_value <= question%near*result%decision%noise)
+   end function is_clear
+
+   !> What counts as zero and what lifts it, and the values of D(c) itself.
+   subroutine find_other_values(model, problem, question, result, variant)
+      type(model_t), intent(in) :: model
+      type(problem_t), intent(in) :: problem
+      type(question_t), intent(in) :: question
+      type(result_t), intent(in) :: result
+      type(variant_t), intent(inout) :: variant
+      type(problem_t) :: plain_problem
+      type(result_t) :: plain
+      type(options_t) :: options
+      integer :: side
+
+      side = min(size(problem%scaling%row), size(problem%scaling%column))
+      associate (values => result%scaled_values, first => variant%rank - (side - size(result%scaled_values)) + 1)
+         if (variant%rank < side .and. size(values) > 0) variant%largest_zero = abs(values(max(first, 1)))
+      end associate
+      call find_zero_changes(model, problem, result, question%zeros, variant%zero_moves, variant%zero_turns)
+      options = question%options
+      options%method = result%method
+      options%only_plain_values = .true.
+      call analyse(model, options, plain_problem, plain)
+      if (allocated(plain%error)) then
+         variant%is_decided = .false.
+      else if (size(plain%scaled_values) > 0) then
+         variant%smallest = plain%scaled_values(size(plain%scaled_values))
+         if (size(plain%scaled_values) == side) variant%largest = plain%scaled_values(1)
+      end if
+   end subroutine find_other_values
 end module flexact_variants

@@ -240,7 +240,7 @@ subroutine analyse_variants(room, variants, nn, ne, np, nc, nodes, places, eleme
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: room, variants, nn, ne, np, nc, nodes(5, nn), elements(12, ne), classes(6, ne, nc)
-   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(7), positions(3, nn, np)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(11), positions(3, nn, np)
    real(c_double), intent(inout) :: facts(room, variants)
    type(model_t) :: model
 

@@ -8,6 +8,7 @@ module flexact_variant_exchange
    use flexact_result, only: most_pairs
    use flexact_slots, only: axes, has_axis, is_position
    use flexact_variants, only: analyse_variant, question_t, variant_t
+   use flexact_zero_margins, only: zero_limits_t
    implicit none
    private
    public :: run_variants, variant_fact_names
@@ -15,14 +16,15 @@ module flexact_variant_exchange
    !> What each fact of a variant is; then come the values of pairs, what they change by a
    !> move and what by a turn, room for as many as there may be each.
    character(len=24), parameter :: variant_fact_names(*) = [character(len=24) :: &
-                                                            'decided', 'rows', 'columns', 'rank', 'smallest', 'largest', &
+                                                            'decided', 'rows', 'columns', 'rank', 'largest zero', &
+                                                            'zero moves', 'zero turns', 'smallest', 'largest', &
                                                             'characteristic length', 'pairs']
 
 contains
 
    !> wishes: what a value is near the noise by, what digits may have been cut off, the most
-   !> that a digit reaches, 1 if values are wanted, bytes of memory, how it is proven, and 1 if
-   !> numbers are no decimals. position (3, nodes, variants): where nodes are, and class
+   !> that a digit reaches, 1 if values are wanted, bytes of memory, how it is proven, 1 if
+   !> numbers are no decimals, and the limits of flexact_zero_margins. position (3, nodes, variants): where nodes are, and class
    !> (6, elements, variants) of the deformations; either may be one for all.
    subroutine run_variants(model, wishes, position, class, facts)
       type(model_t), intent(inout) :: model
@@ -43,6 +45,7 @@ contains
       question%options%memory = wishes(5)
       question%options%prove = nint(wishes(6))
       question%options%as_stored = wishes(7) > 0
+      question%zeros = zero_limits_t(nint(wishes(8)), nint(wishes(9)), wishes(10), wishes(11))
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       before = 0
       do i = 1, size(facts, 2)
@@ -80,8 +83,9 @@ contains
 
       first = size(variant_fact_names)
       facts(:first) = [real([merge(1, 0, variant%is_decided), partition%count%rows, partition%count%columns, &
-                             variant%rank], wp), variant%smallest, variant%largest, variant%characteristic_length, &
-                       real(variant%pairs, wp)]
+                             variant%rank], wp), variant%largest_zero, &
+                       real([merge(1, 0, variant%zero_moves), merge(1, 0, variant%zero_turns)], wp), &
+                       variant%smallest, variant%largest, variant%characteristic_length, real(variant%pairs, wp)]
       facts(first + 1:first + 3*most_pairs) = [variant%value, variant%by_move, variant%by_turn]
    end subroutine give
 end module flexact_variant_exchange

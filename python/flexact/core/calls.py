@@ -388,6 +388,9 @@ class VariantWishes(NamedTuple):
     prove: bool | None = None
     as_stored: bool = False
     """Whether numbers are no decimals as typed, whatever they look like."""
+    zeros: tuple[int, int, float, float] = (0, 0, 0.0, 0.0)
+    """How many zeros are looked at, each against how many vectors of the other side, how many
+    pairs times nodes and elements there may be, and what change of a zero is none."""
 
 
 def analyse_variants(
@@ -416,12 +419,16 @@ def analyse_variants(
     _require_room_for(model)
     _core.analyse_variants(
         *model,
-        np.array((*wishes[:4], memory, _PROOFS[wishes.prove], wishes.as_stored), float),
+        np.array(
+            (*wishes[:4], memory, _PROOFS[wishes.prove], wishes.as_stored, *wishes.zeros), float
+        ),
         np.ascontiguousarray(positions, float).T,
         np.ascontiguousarray(classes, np.int32).T,
         facts,
     )
     named = dict(zip(_VARIANT_FACTS, facts, strict=False))
+    # What is not known is negative.
+    known = {name: np.where(fact >= 0.0, fact, math.nan) for name, fact in named.items()}
     pairs = facts[first:].reshape(3, _MOST_PAIRS, many).swapaxes(1, 2)
     pairs = np.where(np.arange(_MOST_PAIRS) < named["pairs"][:, None], pairs, math.nan)
     return RawVariants(
@@ -429,8 +436,11 @@ def analyse_variants(
         named["rows"].astype(np.int32),
         named["columns"].astype(np.int32),
         named["rank"].astype(np.int32),
-        named["smallest"],
-        named["largest"],
+        known["largest zero"],
+        named["zero moves"] == 1,
+        named["zero turns"] == 1,
+        known["smallest"],
+        known["largest"],
         named["characteristic length"],
         *pairs,
     )

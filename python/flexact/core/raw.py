@@ -202,10 +202,16 @@ class RawVariants(NamedTuple):
     """(variants,) likewise."""
     rank: IntArray
     """(variants,)"""
+    largest_zero: FloatArray
+    """(variants,) of the scaled D(c); NaN without one."""
+    zero_moves: BoolArray
+    """(variants,) whether the move of one node lifts some zero."""
+    zero_turns: BoolArray
+    """(variants,) whether the turn of one element does."""
     smallest: FloatArray
-    """(variants,) smallest singular value of D(c) itself."""
+    """(variants,) smallest singular value of D(c) itself; NaN where there is none."""
     largest: FloatArray
-    """(variants,) largest of them."""
+    """(variants,) largest of them; NaN where it is not known."""
     characteristic_length: FloatArray
     """(variants,) [m]."""
     pair_value: FloatArray

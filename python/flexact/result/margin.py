@@ -15,7 +15,7 @@ from .sensitivity import Pair
 from .verdict import Margin
 
 #: A change by less than this part of the scale of the whole matrix is none: no geometry has it.
-_NOTHING = 1.0e-9
+NOTHING = 1.0e-9
 _NO_MARGIN = Margin(None, None, None, None, None)
 
 
@@ -51,8 +51,8 @@ def _of_zero(outcome: Outcome, group: tuple[Pair, ...]) -> Margin:
 
 def margin_of(outcome: Outcome, pair: Pair, distance: float) -> Margin:
     """The misalignments that change the value of a pair by `distance`, to first order."""
-    moves = pair.by_move * outcome.characteristic_length > _NOTHING
-    turns = pair.by_turn > _NOTHING
+    moves = pair.by_move * outcome.characteristic_length > NOTHING
+    turns = pair.by_turn > NOTHING
     length = distance / pair.by_move if moves else math.inf
     angle = distance / pair.by_turn if turns else math.inf
     return Margin(
@@ -78,8 +78,8 @@ def least_misalignments(
     Returns:
         Lengths [m] and angles [rad], (variants,) each; infinite where none changes a value.
     """
-    moves = by_move * characteristic_length[:, None] > _NOTHING
-    turns = by_turn > _NOTHING
+    moves = by_move * characteristic_length[:, None] > NOTHING
+    turns = by_turn > NOTHING
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         lengths = np.where(moves, values / by_move, np.inf)
         angles = np.where(turns, values / by_turn, np.inf)

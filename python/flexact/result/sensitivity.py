@@ -19,10 +19,10 @@ from ..core.raw import RawSensitivities
 from .outcome import Outcome
 
 #: How many zeros are looked at, and each against how many vectors of the other side.
-_MOST_ZEROS = 8
-_MOST_OTHERS = 64
+MOST_ZEROS = 8
+MOST_OTHERS = 64
 #: Pairs times nodes and elements: what may be spent (a good second for a large model).
-_MOST_WORK = 1_000_000
+MOST_WORK = 1_000_000
 
 
 class Pair(NamedTuple):
@@ -70,11 +70,11 @@ def of_zeros(outcome: Outcome) -> tuple[tuple[Pair, ...], ...]:
     raw = outcome.raw
     stresses, motions = outcome.over_constrained, outcome.under_constrained
     most_pairs = affordable_pairs(outcome)
-    zeros = min(stresses, motions, raw.stresses.vectors, raw.motions.vectors, _MOST_ZEROS)
+    zeros = min(stresses, motions, raw.stresses.vectors, raw.motions.vectors, MOST_ZEROS)
     zeros = min(zeros, max(1, math.isqrt(most_pairs)))
     if not zeros:
         return ()
-    most = max(zeros, min(_MOST_OTHERS, most_pairs // zeros))
+    most = max(zeros, min(MOST_OTHERS, most_pairs // zeros))
     left = _unscaled(raw.stresses, raw.row_scale, zeros if stresses <= motions else most)
     right = _unscaled(raw.motions, raw.column_scale, most if stresses <= motions else zeros)
     pairs = np.indices((left.shape[1], right.shape[1]), np.int32).reshape(2, -1)
@@ -90,7 +90,7 @@ def of_zeros(outcome: Outcome) -> tuple[tuple[Pair, ...], ...]:
 def affordable_pairs(outcome: Outcome) -> int:
     """How many pairs may be looked at; each takes as long as there are nodes and elements."""
     arrays = outcome.data.arrays
-    return _MOST_WORK // (arrays.node_number.size + arrays.element_number.size)
+    return MOST_WORK // (arrays.node_number.size + arrays.element_number.size)
 
 
 def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:

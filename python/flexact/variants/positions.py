@@ -26,9 +26,10 @@ from ..model.parts.chains import perhaps_condensed
 from ..model.variation import classes_held, with_held, with_positions
 from ..result.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
 from ..result.decompose import AnalysisError
-from ..result.margin import least_misalignments
+from ..result.margin import NOTHING, least_misalignments
 from ..result.outcome import Asked
 from ..result.result import result_of
+from ..result.sensitivity import MOST_OTHERS, MOST_WORK, MOST_ZEROS
 from ..result.verdict import Certainty, Verdict
 from .columns import columns_of
 from .row import MISSING, Value, error_row, row_of
@@ -151,6 +152,7 @@ def _fill(some: _Variants, want: str, room: float, common: BoolArray | None, par
     wishes = calls.VariantWishes(
         *(NEAR, CUT_OFF, REACH_OF_DIGITS, with_values, room, None),
         some.data.has_long_numbers,
+        (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NOTHING),
     )
     positions = own if some.positions is None else some.positions
     raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())
@@ -174,13 +176,19 @@ def _known(raw: RawVariants, with_values: bool) -> Columns:
         "certainty": np.full(raw.rank.size, Certainty.CERTAIN.value),
     }
     if with_values:
+        full = raw.rank == np.minimum(raw.rows, raw.columns)
         with np.errstate(divide="ignore", invalid="ignore"):
-            condition = raw.largest / raw.smallest
+            condition = np.where(full & (raw.smallest > 0.0), raw.largest / raw.smallest, np.nan)
         margin, angle = least_misalignments(
             raw.pair_value, raw.by_move, raw.by_turn, raw.characteristic_length
         )
+        # What is there in exact alignment only has no margin.
+        exact = raw.zero_moves | raw.zero_turns
+        margin = np.where(exact, np.where(raw.zero_moves, 0.0, np.inf), margin)
+        angle = np.where(exact, np.where(raw.zero_turns, 0.0, np.inf), angle)
         made |= {
             "gap": raw.pair_value[:, 0],
+            "largest_zero": raw.largest_zero,
             "smallest_singular_value": raw.smallest,
             "condition_number": condition,
             "margin": margin,
