@@ -130,6 +130,7 @@ contains
       integer, parameter :: variants = 4, room = size(variant_fact_names) + 3*most_pairs
       real(c_double), allocatable :: positions(:, :, :), facts(:, :)
       integer(c_int), allocatable :: classes(:, :, :)
+      real(c_double) :: wishes(11)
       integer :: i, with_values
 
       allocate (positions(3, size(nodes, 2), variants), classes(6, size(elements, 2), variants), facts(room, variants))
@@ -137,9 +138,11 @@ contains
          positions(:, :, i) = places(:3, :)*spread([1.0_c_double, 0.5_c_double + i, 1.0_c_double/i], 2, size(nodes, 2))
          classes(:, :, i) = merge(min(elements(7:, :), 1), elements(7:, :), i == variants)
       end do
+      wishes = [real(c_double) :: 10, 10, 0.01, 0, 1.0e9, 0, 0, 8, 6, 1.0e6, 1.0e-9]
       do with_values = 0, 1
+         wishes(4) = with_values
          call analyse_variants(room, variants, size(nodes, 2), size(elements, 2), variants, variants, nodes, places, elements, &
-                               vectors, [real(c_double) :: 10, 10, 0.01, with_values, 1.0e9, 0, 0], positions, classes, facts)
+                               vectors, wishes, positions, classes, facts)
       end do
    end subroutine take_variants
 
