@@ -11,7 +11,7 @@ from types import ModuleType
 import pytest
 from dask_cluster import Cluster, is_alive, running_cluster
 
-from flexact.engine import dask_crew
+from flexact.engine import dask_client
 from flexact.engine.running import Done, EngineError, results_of
 
 distributed = pytest.importorskip("distributed")
@@ -27,8 +27,7 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
 
 @pytest.fixture(autouse=True)
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(dask_crew, "_ANSWER", 1.0)
-    monkeypatch.setattr(dask_crew, "_LOOK", 0.2)
+    monkeypatch.setattr(dask_client, "LOOK", 0.2)
 
 
 def slow_square(number: int) -> int:
@@ -106,6 +105,7 @@ def test_what_kills_its_workers_is_a_failure_and_a_lost_scheduler_an_error(
                 if len(found) == 100:
                     cluster.kill_scheduler()
         assert len(found) >= 100 and all(done.result == done[0] ** 2 for done in found)
+    monkeypatch.setattr(dask_client, "_ANSWER", 1.0)
     with pytest.raises(EngineError, match="dask scheduler"):
         list(results_of(slow_square, range(3), executor=cluster.address))
 
@@ -119,7 +119,7 @@ def test_without_dask_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPat
 def test_workers_are_not_waited_for_in_vain(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(dask_crew, "_NO_WORKER", 0.5)
+    monkeypatch.setattr(dask_client, "_NO_WORKER", 0.5)
     with (
         running_cluster(tmp_path, workers=0) as cluster,
         pytest.raises(EngineError, match="dask worker"),

@@ -152,8 +152,8 @@ def test_a_deck_that_kills_its_worker_fails_alone(
 def test_a_scheduler_that_is_not_there_is_said_in_words(
     folder: Path, capsys: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    crew = pytest.importorskip("flexact.engine.dask_crew")
-    monkeypatch.setattr(crew, "_ANSWER", 0.5)
+    client = pytest.importorskip("flexact.engine.dask_client")
+    monkeypatch.setattr(client, "_ANSWER", 0.5)
     out, err = compared("--dask", "tcp://127.0.0.1:9", code=1, out=capsys)
     assert out == "" and "dask scheduler" in err and "Traceback" not in err
 

@@ -7,6 +7,7 @@ import argparse
 import os
 import time
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from flexact.base.errors import BatchError
@@ -137,6 +138,8 @@ def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, Exi
             finding = Finding(State.FAILED, error=error, seconds=finding.seconds)
         else:
             say(f"{name}: stored in {harmless(str(place))}")
+            # All findings are kept, but not the texts of large answers.
+            finding = replace(finding, text="")
     if finding.error is not None:
         return finding, failures.report(deck, finding.error, as_json=False).code
     if finding.state is State.DIFFERENT:

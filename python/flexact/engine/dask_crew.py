@@ -3,27 +3,22 @@
 
 from __future__ import annotations
 
-import logging
-import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from queue import Empty, SimpleQueue
 from typing import Any
 
 from ..base.loading import load
+from . import dask_client
 from .chunks import Answer, Chunk, Raised, Source, timed
+from .dask_client import DaskClient, dask_or_error
 from .errors import EngineError
-from .processors import processors
 
 #: What a chunk should take at least [s]: master, scheduler and worker take some 5 ms for it.
 LEAST_SECONDS = 0.25
 #: What a scheduler is given to do at most [chunks/s]: it can do some four times as much.
 CHUNKS_PER_SECOND = 100.0
-#: How long a scheduler may take to answer, and how long there may be no worker [s].
-_ANSWER, _NO_WORKER = 10.0, 60.0
-#: How often workers are counted [s].
-_LOOK = 2.0
 
 
 def timed_there(function: bytes, items: bytes) -> bytes:
@@ -48,7 +43,7 @@ class DaskCrew:
     """Chunks as futures of a Dask client, two a thread of the workers at most."""
 
     def __init__(self, function: Callable[[Any], Any], executor: Any, workers: int | None) -> None:
-        """Nothing is sent yet.
+        """Nothing is opened or sent yet.
 
         Args:
             function: What is applied.
@@ -58,22 +53,12 @@ class DaskCrew:
         Raises:
             EngineError: Dask is missing, or the function cannot be sent.
         """
-        try:
-            import distributed
-        except ImportError as error:
-            raise EngineError(
-                f"Dask needs the package distributed: pip install 'flexact[dask]' ({error})"
-            ) from error
-        self._dask: Any = distributed
-        self._function = self._pickled(function, "the function")
-        self._executor, self._workers = executor, workers
-        self._client: Any = None
-        self._own: list[Any] = []
-        self._levels: dict[str, int] = {}
+        self._killed = dask_or_error().KilledWorker
+        self._function = _pickled(function, "the function")
+        self._where = executor, workers
+        self._cluster: DaskClient | None = None
         self._chunks: dict[Any, Chunk] = {}
         self._finished: SimpleQueue[Any] = SimpleQueue()
-        self._threads, self._is_lost = 0, False
-        self._looked = self._had_workers = 0.0
 
     @property
     def is_busy(self) -> bool:
@@ -82,17 +67,16 @@ class DaskCrew:
 
     def feed(self, source: Source) -> None:
         """Send as many chunks as there is room for."""
-        if self._client is None:
-            self._connect()
-        self._look()
-        source.chunk_seconds = max(LEAST_SECONDS, self._threads / CHUNKS_PER_SECOND)
-        most = max(1, self._threads) * (2 if source.are_short else 1)
+        cluster = self._opened()
+        cluster.look()
+        source.chunk_seconds = max(LEAST_SECONDS, cluster.threads / CHUNKS_PER_SECOND)
+        most = max(1, cluster.threads) * (2 if source.are_short else 1)
         while len(self._chunks) < most and (chunk := source.next()) is not None:
-            items = self._pickled(chunk.items, "an item")
+            items = _pickled(chunk.items, "an item")
             try:
-                future = self._client.submit(timed_there, self._function, items, pure=False)
+                future = cluster.client.submit(timed_there, self._function, items, pure=False)
             except Exception as error:
-                raise self._lost(error) from error
+                raise cluster.lost(error) from error
             self._chunks[future] = chunk
             future.add_done_callback(self._finished.put)
 
@@ -100,99 +84,36 @@ class DaskCrew:
         """What has come; nothing where a while went by without."""
         done = []
         with suppress(Empty):
-            done.append(self._finished.get(timeout=_LOOK))
+            done.append(self._finished.get(timeout=dask_client.LOOK))
             while True:
                 done.append(self._finished.get_nowait())
-        self._look()
-        chunks = {future: self._chunks.pop(future) for future in done}
+        cluster = self._opened()
+        cluster.look()
         if any(future.status in ("cancelled", "lost") for future in done):
-            raise self._lost("it has cancelled the work")
-        bad = [future for future in done if future.status == "error"]
+            raise cluster.lost("it has cancelled the work")
         good = [future for future in done if future.status != "error"]
         try:
-            found = self._client.gather(good)
+            found = cluster.client.gather(good)
         except Exception as error:
-            raise self._lost(error) from error
-        read = load("cloudpickle").loads
-        answers = [Answer(chunks[f], *read(got)) for f, got in zip(good, found, strict=True)]
+            raise cluster.lost(error) from error
+        chunks = {future: self._chunks.pop(future) for future in done}
+        answers = [_answer(chunks[f], made) for f, made in zip(good, found, strict=True)]
+        bad = [future for future in done if future.status == "error"]
         return answers + [self._failed(chunks[future], future.exception()) for future in bad]
 
     def close(self) -> None:
         """Take back what is not done, and close what was opened here."""
-        if self._client is None:
-            return
-        with suppress(Exception):
-            if self._chunks and self._client.status == "running":
-                self._client.cancel(list(self._chunks))
+        if self._cluster is not None:
+            self._cluster.close(self._chunks)
         self._chunks.clear()
-        for each in self._own:
-            with suppress(Exception):
-                each.close(timeout=_ANSWER)
-        # It has words of its own about a connection that was lost, some of them late.
-        if not self._is_lost:
-            _set_levels(self._levels)
 
-    def _pickled(self, given: object, what: str) -> bytes:
-        try:
-            made: bytes = load("cloudpickle").dumps(given)
-        except Exception as error:
-            raise EngineError(f"{what} cannot be sent to Dask workers: {error}") from error
-        return made
-
-    def _connect(self) -> None:
-        """Find or open a client."""
-        if not isinstance(self._executor, str):
-            self._client = self._executor
-            if self._client.asynchronous:
-                raise EngineError("an asynchronous Dask client cannot be used: give its address")
-            return
-        if self._executor == "dask":
-            with suppress(ValueError):
-                self._client = self._dask.default_client()
-                return
-        self._levels = _levels()
-        _set_levels(dict.fromkeys(self._levels, logging.CRITICAL + 1))
-        address = self._executor
-        try:
-            if address == "dask":
-                cluster = self._dask.LocalCluster(
-                    n_workers=self._workers or processors(),
-                    threads_per_worker=1,
-                    dashboard_address="127.0.0.1:0",
-                    silence_logs=logging.CRITICAL,
-                )
-                self._own.append(cluster)
-                address = cluster.scheduler_address
-            wait = min(_ANSWER, _configured_wait())
-            self._client = self._dask.Client(address, timeout=wait, set_as_default=False)
-        except Exception as error:
-            for each in self._own:
-                each.close()
-            raise EngineError(_not_there(address, error)) from error
-        self._own.insert(0, self._client)
-
-    def _look(self) -> None:
-        """Count the workers, now and then."""
-        now = time.monotonic()
-        if self._client.status != "running":
-            raise self._lost("the connection is broken")
-        if self._looked and now - self._looked < _LOOK:
-            return
-        try:
-            self._threads = sum(self._client.nthreads().values())
-        except Exception as error:
-            raise self._lost(error) from error
-        if self._threads or not self._looked:
-            self._had_workers = now
-        elif now - self._had_workers > _NO_WORKER:
-            raise EngineError(
-                f"the Dask scheduler has had no worker for {_NO_WORKER:.0f} s; start some, such as "
-                f"`dask worker {self._address()}`, and try again"
-            )
-        self._looked = now
+    def _opened(self) -> DaskClient:
+        if self._cluster is None:
+            self._cluster = DaskClient(*self._where)
+        return self._cluster
 
     def _failed(self, chunk: Chunk, error: BaseException) -> Answer:
-        if isinstance(error, self._dask.KilledWorker):
+        if isinstance(error, self._killed):
             count = error.allowed_failures + 1
             words = f"the worker process died (so did {count} Dask workers)"
             return Answer(chunk, death=words, deaths=count)
@@ -201,39 +122,17 @@ class DaskCrew:
             "the same versions of Flexact and Python, and the modules of the function"
         ) from error
 
-    def _lost(self, reason: object) -> EngineError:
-        self._is_lost = True
-        words = (str(reason) or type(reason).__name__).splitlines()[0]
-        return EngineError(
-            f"the Dask scheduler at {self._address()} was lost ({words}): start it again, then "
-            "what was not done"
-        )
 
-    def _address(self) -> str:
-        scheduler = getattr(self._client, "scheduler", None)
-        return str(getattr(scheduler, "address", None) or self._executor)
+def _pickled(given: Callable[[Any], Any] | Sequence[Any], what: str) -> bytes:
+    try:
+        made: bytes = load("cloudpickle").dumps(given)
+    except Exception as error:
+        raise EngineError(f"{what} cannot be sent to Dask workers: {error}") from error
+    return made
 
 
-def _configured_wait() -> float:
-    configured = load("dask").config.get("distributed.comm.timeouts.connect")
-    return float(load("dask.utils").parse_timedelta(configured))
-
-
-def _levels() -> dict[str, int]:
-    """The level of each of Dask's loggers."""
-    names = [name for name in logging.root.manager.loggerDict if name.startswith("distributed")]
-    return {name: logging.getLogger(name).level for name in names}
-
-
-def _set_levels(levels: dict[str, int]) -> None:
-    for name, level in levels.items():
-        logging.getLogger(name).setLevel(level)
-
-
-def _not_there(address: str, error: Exception) -> str:
-    if address == "dask":
-        return f"no Dask cluster can be started on this machine: {error}"
-    return (
-        f"no Dask scheduler answers at {address}; start one (`dask scheduler`, then "
-        f"`dask worker {address}`), or mend the address"
-    )
+def _answer(chunk: Chunk, made: bytes) -> Answer:
+    try:
+        return Answer(chunk, *load("cloudpickle").loads(made))
+    except Exception as error:
+        raise EngineError(f"a result cannot be read: {error}") from error

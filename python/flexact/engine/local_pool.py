@@ -12,93 +12,23 @@ import pickle
 import signal
 import sys
 import warnings
-from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from multiprocessing.connection import Connection, wait
-from multiprocessing.process import BaseProcess
+from multiprocessing.connection import wait
 from typing import Any
 
 from ..base.errors import reason_of
 from ..base.interruption import SIGNALS
 from ..base.loading import load
-from .chunks import NOTHING, Answer, Chunk, Source
+from .chunks import Answer, Source
 from .errors import EngineError
-from .worker import Part, serve
+from .member import Member
+from .worker import serve
 
 #: Forked processes are not safe with the libraries of macOS, and Windows has none.
 FORKS = sys.platform not in ("darwin", "win32")
 #: How often it is asked whether a worker whose line is silent is alive [s].
 _LOOK = 1.0
-
-
-class _Worker:
-    """A process, its line, and the chunks that it was sent and has not finished."""
-
-    def __init__(self, process: BaseProcess, line: Connection) -> None:
-        self.process, self.line = process, line
-        self.chunks: deque[Chunk] = deque()
-        self.done = 0
-        self.has_started = False
-
-    def send(self, chunk: Chunk) -> None:
-        self.chunks.append(chunk)
-        try:
-            self.line.send(chunk.items)
-        except OSError:
-            # It is dead, which is found where its answers are awaited.
-            return
-        except Exception as error:
-            raise EngineError(f"an item cannot be sent to a worker process: {error}") from error
-
-    def hear(self) -> list[Answer]:
-        """What it says, or what there is to say where it is dead."""
-        try:
-            part = self.line.recv()
-        except (EOFError, OSError):
-            return self.buried()
-        except Exception as error:
-            raise EngineError(f"a result cannot be read: {error}") from error
-        if not self.has_started:
-            self.has_started = True
-            return [Answer(NOTHING, raised=part.raised)] if part.raised else []
-        return [self._answer(part)]
-
-    def _answer(self, part: Part) -> Answer:
-        chunk, first = self.chunks[0], self.done
-        self.done += len(part.results)
-        if part.is_last:
-            self.chunks.popleft()
-            self.done = 0
-        some = chunk.part(first, first + len(part.results))
-        return Answer(some, part.results, part.seconds, part.raised)
-
-    def buried(self) -> list[Answer]:
-        """What it leaves: what it was about, and what it had not begun."""
-        self.stop()
-        code = self.process.exitcode or 0
-        if code > 0 and not self.has_started:
-            raise EngineError(
-                f"worker processes do not start (exit code {code}); a script that uses them "
-                'needs `if __name__ == "__main__":` before what it does'
-            )
-        death = f"the worker process died ({_words_of(code)})"
-        left = [Answer(chunk) for chunk in self.chunks]
-        if left:
-            begun = self.chunks[0]
-            left[0] = Answer(begun.part(self.done, len(begun.items)), death=death)
-        return left
-
-    def stop(self) -> None:
-        self.process.kill()
-        self.process.join()
-        self.line.close()
-
-
-def _words_of(code: int) -> str:
-    if code == -9:
-        return "signal 9, as where memory runs out"
-    return f"signal {-code}" if code < 0 else f"exit code {code}"
 
 
 class LocalPool:
@@ -113,7 +43,7 @@ class LocalPool:
         self._context: Any = multiprocessing.get_context("fork" if FORKS else "spawn")
         self._function = function if FORKS else pickled(function)
         self._most = workers
-        self._workers: list[_Worker] = []
+        self._workers: list[Member] = []
         # Those that are forked have it then.
         load("threadpoolctl")
 
@@ -144,7 +74,7 @@ class LocalPool:
         if not heard:
             # Children of a worker can hold its line open.
             dead = [worker for worker in self._workers if not worker.process.is_alive()]
-            answers = [answer for worker in dead for answer in _last_words(worker)]
+            answers = [answer for worker in dead for answer in worker.last_words()]
         self._workers = [worker for worker in self._workers if not worker.line.closed]
         return answers
 
@@ -171,14 +101,7 @@ class LocalPool:
             ) from error
         finally:
             its.close()
-        self._workers.append(_Worker(process, mine))
-
-
-def _last_words(worker: _Worker) -> list[Answer]:
-    answers: list[Answer] = []
-    while not worker.line.closed:
-        answers += worker.hear() if worker.line.poll() else worker.buried()
-    return answers
+        self._workers.append(Member(process, mine))
 
 
 @contextmanager
