@@ -12,12 +12,12 @@ PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist workstea
 QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
          derivatives certainty accuracy json advice advice_on_declarations modes broken_decks no_cascades \
          diagnostics_rendering reading regress engine cli outputs wording docs version package_files parts screws \
-         builder_words builder_bodies builder_edits gallery
+         builder_words builder_bodies builder_edits gallery sweep crossings notebooks
 
 # Tests that compare words with files.
 WORDED := wording broken_decks appearance docs element_table gallery
 
-.PHONY: demo test check core-test lint wording gallery attack bench clean
+.PHONY: demo test check core-test lint wording gallery attack fuzz bench clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -35,7 +35,7 @@ check: .venv/ready-to-test core-test
 	$(BIN)/ruff format --check .
 	$(PYTEST) $(QUICK:%=tests/python/test_%.py)
 
-# The core with run-time checks, and its unit tests.
+# The core with run-time checks and sanitizers, and its unit tests.
 core-test: .venv/ready-to-test
 	PATH="$(CURDIR)/$(BIN):$$PATH" tools/test_core.sh
 
@@ -43,7 +43,7 @@ lint: .venv/ready-to-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/fprettify --diff --recursive fortran tests/fortran | (! grep .)
+	$(BIN)/fprettify --diff --recursive fortran tests/fortran tests/fuzz | (! grep .)
 
 # Write what results and messages say now where the tests compare it; read git diff afterwards.
 wording: .venv/ready-to-test
@@ -57,6 +57,11 @@ gallery: .venv/ready-to-run
 # Random decks with exact counts, until stopped with Ctrl-C; offending ones go to build/attack.
 attack: .venv/ready-to-test
 	$(BIN)/python tests/attack/run.py --keep build/attack
+
+# Ten minutes of real decks with random mistakes; offending ones go to build/fuzz.
+fuzz: .venv/ready-to-test
+	PATH="$(CURDIR)/$(BIN):$$PATH" tools/test_core.sh --build-only
+	$(BIN)/python tests/fuzz/run.py --keep build/fuzz
 
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write the pages of docs/gallery from its scripts: code, picture, and what Flexact says.
+"""Write the pages of docs/gallery from its scripts and notebooks: code, pictures, words.
 
 Called by `make gallery`. With a folder, it writes there the page of each mechanism that moves.
 """
@@ -8,6 +8,8 @@ import runpy
 import sys
 from pathlib import Path
 
+import notebooks
+
 import flexact
 
 GALLERY = Path(__file__).resolve().parents[1] / "docs" / "gallery"
@@ -15,6 +17,11 @@ HEAD = """# Gallery
 
 Ten mechanisms as their designers would type them, each in at most twelve lines, and what Flexact
 says of them. `make gallery` writes these pages anew, and those that move to `results/gallery/`.
+
+"""
+TAIL = """
+
+Sweeps, as notebooks:
 
 """
 
@@ -45,7 +52,8 @@ def page_of(script: Path, analysis: flexact.Analysis) -> str:
 def contents() -> str:
     """The page that names all."""
     lines = [f"- [{title_of(script)}]({script.stem}.md)" for script in scripts()]
-    return HEAD + "\n".join(lines) + "\n"
+    swept = [f"- [{notebooks.title_of(each)}]({each.stem}.md)" for each in notebooks.notebooks()]
+    return HEAD + "\n".join(lines) + TAIL + "\n".join(swept) + "\n"
 
 
 def main(folder: Path | None) -> None:
@@ -59,6 +67,7 @@ def main(folder: Path | None) -> None:
         if folder is not None:
             analysis.save(folder / f"{script.stem}.html")
         print(f"{script.stem}: {analysis.verdict}")
+    notebooks.main()
 
 
 if __name__ == "__main__":

@@ -139,7 +139,7 @@ contains
       is_near = any(variant%value(:variant%pairs) <= reach)
       if (question%with_values .or. is_near) &
          call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found, &
-                                                                        .not. is_near)
+                                 .not. is_near)
       variant%by_move(:size(found)) = found%by_move
       variant%by_turn(:size(found)) = found%by_turn
       variant%is_decided = .not. any(variant%value(:size(found)) <= question%cut_off*found%lift_of_digits)

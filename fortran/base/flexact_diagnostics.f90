@@ -18,10 +18,13 @@ module flexact_diagnostics
    character(len=24), parameter :: severity_names(3) = [character(len=24) :: 'error', 'warning', 'note']
 
    !> All diagnostics are counted. At most these many are kept, the first that are met
-   !> but errors before all others, and the first by place of these are shown. The
-   !> limits guard against a broken deck of millions of lines.
+   !> but errors before all others, and the first by place of these are shown, again
+   !> errors before all others. The limits guard against a broken deck of millions of
+   !> lines.
    integer, parameter :: most_kept = 2000
    integer, parameter :: most_shown = 100
+   !> More than any place in a text.
+   real(wp), parameter :: behind_all = 2.0_wp*huge(1)
    integer, parameter :: text_length = 240
    integer, parameter :: code_length = 32
 
@@ -146,13 +149,21 @@ contains
       self%count(severity_error) = self%count(severity_error) + 1
    end subroutine count_error
 
-   !> Into the order of the text; those without a place come last.
+   !> Those that are shown into the order of the text; those without a place come last.
    subroutine sort_by_place(self)
       class(diagnostics_t), intent(inout) :: self
 
       if (self%kept < 2) return
       associate (item => self%item(:self%kept))
-         item = item(ascending(real(merge(item%place%first, huge(1), item%place%first > 0), wp)))
+         item = item(ascending(places(item) + merge(0.0_wp, behind_all, item%severity == severity_error)))
+      end associate
+      associate (shown => self%item(:min(self%kept, most_shown)))
+         shown = shown(ascending(places(shown)))
       end associate
    end subroutine sort_by_place
+
+   pure elemental real(wp) function places(item)
+      type(diagnostic_t), intent(in) :: item
+      places = real(merge(item%place%first, huge(1), item%place%first > 0), wp)
+   end function places
 end module flexact_diagnostics

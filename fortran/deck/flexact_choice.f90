@@ -2,12 +2,12 @@
 !> What a statement may name by number: the components of a node or the
 !> deformations of an element.
 module flexact_choice
-   use flexact_element_table, only: element_kinds, number_of_deformations => deformations_of
+   use flexact_element_table, only: element_kinds, beam_with_warping, number_of_deformations => deformations_of
    use flexact_slots, only: node_planar_position, node_position, node_angle
    use flexact_operands, only: operands_t
    implicit none
    private
-   public :: choice_t, components_of, deformations_of, take_choice
+   public :: choice_t, components_of, deformations_of, warping_components, take_choice
 
    !> What there is to name, and which entry of the classes each one is (0 for
    !> lambda0, which is none).
@@ -63,18 +63,32 @@ contains
       end select
    end function components_of
 
-   pure function deformations_of(kind) result(choice)
+   !> The only component of a warping node.
+   pure function warping_components() result(choice)
+      type(choice_t) :: choice
+
+      choice%owner = 'node'
+      choice%what = 'warping'
+      choice%part = 'component'
+      choice%range = 'a warping node has 1 alone'
+      allocate (choice%entry(1), source=[1])
+   end function warping_components
+
+   !> The deformations of an element, behind them two of warping where it has them.
+   pure function deformations_of(kind, has_warping) result(choice)
       integer, intent(in) :: kind
+      logical, intent(in) :: has_warping
       type(choice_t) :: choice
       integer :: i, deformations
 
       choice%owner = 'element'
       choice%what = 'deformation'
       choice%part = 'deformation'
-      deformations = number_of_deformations(kind)
+      deformations = number_of_deformations(kind) + merge(2, 0, has_warping)
       choice%range = trim(element_kinds(kind)%keyword)//' has 1 alone'
       if (deformations > 1) &
          choice%range = trim(element_kinds(kind)%keyword)//' has 1 to '//achar(iachar('0') + deformations)
+      if (has_warping) choice%range = beam_with_warping//' has 1 to 8'
       allocate (choice%entry(deformations), source=[(i, i=1, deformations)])
    end function deformations_of
 end module flexact_choice

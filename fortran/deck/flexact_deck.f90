@@ -8,12 +8,14 @@ module flexact_deck
    use flexact_deck_picture, only: read_picture
    use flexact_deck_model, only: deck_model_t
    use flexact_deck_properties, only: read_properties
+   use flexact_deck_warping, only: check_warping_nodes, excuse_fixed_warping, note_warping
    use flexact_deck_values, only: read_values
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_labels, only: names_t
+   use flexact_ground_points, only: excuse_ground_points
    use flexact_lexer, only: operand_span
    use flexact_silent_mistakes, only: check_silent_mistakes
-   use flexact_statement, only: statement_t, read_statements, find_unreadable
+   use flexact_statement, only: statement_t, read_statements, find_unreadable, has_warping
    implicit none
    private
    public :: read_deck, locate
@@ -40,8 +42,11 @@ contains
       associate (all_statements => statements(:count))
          call read_elements(all_statements, deck)
          if (deck%model%elements > 0) then
+            call excuse_fixed_warping(all_statements, deck)
+            call excuse_ground_points(all_statements, deck)
             call read_values(all_statements, deck)
             call read_classes(all_statements, deck)
+            call check_warping_nodes(deck)
             call read_picture(all_statements, deck)
             call read_properties(all_statements, deck)
             call read_forms(all_statements, deck)
@@ -52,6 +57,7 @@ contains
          call check_model(deck%model, names, diagnostics)
          if (.not. diagnostics%has_errors()) then
             call check_silent_mistakes(deck%model, names, diagnostics)
+            call note_warping(deck)
             call note_unused(all_statements, unused, diagnostics)
          end if
       end associate
@@ -100,7 +106,13 @@ contains
       integer, intent(in) :: words(2)
       type(span_t), intent(inout) :: place
 
-      if (place%first > 0 .and. place%last == 0) place = operand_span(text, place%first, words(1), words(2))
+      integer :: behind
+
+      if (place%first == 0 .or. place%last > 0) return
+      behind = 0
+      ! Of a beam with warping, what stands behind its nodes has two more words before it.
+      if (words(1) > 6 .and. has_warping(text, place%first)) behind = 2
+      place = operand_span(text, place%first, words(1) + behind, min(words(2), huge(1) - 2) + behind)
    end subroutine narrow
 
    !> The line and the column, both from 1, of a position in the text.

@@ -4,7 +4,7 @@
 module flexact_deck_elements
    use flexact_deck_model, only: deck_model_t
    use flexact_diagnostics, only: span_t
-   use flexact_element_table, only: element_kinds, deformations_of, vector_none, vector_optional, vector_required
+   use flexact_element_table, only: element_kinds, deformations_of, beam_with_warping, vector_none, vector_optional, vector_required
    use flexact_keywords, only: role_element, role_uncovered, role_unknown
    use flexact_kinds, only: wp
    use flexact_lexer, only: operand_span
@@ -14,7 +14,7 @@ module flexact_deck_elements
    use flexact_numbering, only: make_numbering
    use flexact_numbers, only: leading_integer
    use flexact_operands, only: operands_t, operands_of
-   use flexact_statement, only: statement_t
+   use flexact_statement, only: statement_t, has_warping
    implicit none
    private
    public :: read_elements
@@ -22,6 +22,7 @@ module flexact_deck_elements
    character(len=*), parameter :: node_in_slot(slots) = [character(len=27) :: &
                                                          'node number (position p)', 'node number (orientation p)', &
                                                          'node number (position q)', 'node number (orientation q)']
+   character(len=*), parameter :: warping_in_slot(2) = ['node number (warping p)', 'node number (warping q)']
    !> Of each kind of node.
    character(len=*), parameter :: node_in_words(4) = [character(len=14) :: &
                                                       'a position', 'a position', 'a planar angle', 'an orientation']
@@ -42,6 +43,8 @@ contains
          model%elements = count(statements%role == role_element)
          call allocate_elements(model)
          allocate (deck%element_names(model%elements))
+         allocate (deck%warping_node(2, model%elements), source=0)
+         allocate (deck%has_warping(model%elements), source=.false.)
          k = 0
          do i = 1, size(statements)
             select case (statements(i)%role)
@@ -54,7 +57,11 @@ contains
                call excuse(deck, statements(i), excused)
             end select
          end do
+         deck%warping_nodes = make_numbering(reshape(deck%warping_node, [2*model%elements]))
+         allocate (deck%warping_class(1, size(deck%warping_nodes%number)), source=class_dependent)
          deck%excused = make_numbering(excused)
+         ! What is said of a warping node is read with the classes alone.
+         deck%left_out = deck%warping_nodes
          deck%nodes = make_numbering(reshape(model%element_node, [slots*model%elements]))
       end associate
       call make_nodes(deck)
@@ -97,7 +104,10 @@ contains
       logical, intent(out) :: fine
       type(operands_t) :: operands, ahead
       integer :: slot
+      logical :: warps
 
+      warps = has_warping(deck%text, statement%keyword%first)
+      deck%has_warping(k) = warps
       associate (model => deck%model, kind => element_kinds(statement%what))
          model%element_kind(k) = statement%what
          model%element_origin(k) = statement%keyword%first
@@ -107,11 +117,13 @@ contains
          do slot = 1, slots
             if (kind%slot_kind(slot) == 0) cycle
             call operands%positive_integer(node_in_slot(slot), model%element_node(slot, k))
+            if (warps .and. modulo(slot, 2) == 0) &
+               call operands%positive_integer(warping_in_slot(slot/2), deck%warping_node(slot/2, k))
          end do
          call read_vector(operands, kind%vector, model%element_vector(:, k))
          if (operands%fine) then
             ahead = operands
-            if (ahead%another()) call operands%finish(form_of(statement%what))
+            if (ahead%another()) call operands%finish(form_of(statement%what, warps))
          end if
          fine = operands%fine
       end associate
@@ -148,9 +160,11 @@ contains
    end subroutine read_vector
 
    !> How a statement of this kind is written.
-   function form_of(kind) result(form)
+   function form_of(kind, warps) result(form)
       integer, intent(in) :: kind
+      logical, intent(in) :: warps
       character(len=:), allocatable :: form
+      character(len=*), parameter :: with_warping = ' e p op wp q oq wq'
       character(len=2), parameter :: slot_letters(slots) = ['p ', 'op', 'q ', 'oq']
       integer :: slot
 
@@ -158,6 +172,7 @@ contains
       do slot = 1, slots
          if (element_kinds(kind)%slot_kind(slot) /= 0) form = form//' '//trim(slot_letters(slot))
       end do
+      if (warps) form = beam_with_warping//with_warping
       if (element_kinds(kind)%vector == vector_required) form = form//' ax ay az'
       if (element_kinds(kind)%vector == vector_optional) form = form//' [yx yy yz]'
    end function form_of
@@ -232,6 +247,7 @@ contains
       integer :: word
 
       word = 2 + count(element_kinds(deck%model%element_kind(k))%slot_kind(:slot) /= 0)
+      if (slot > 2 .and. deck%has_warping(k)) word = word + 1
       place = operand_span(deck%text, deck%model%element_origin(k), word, word)
    end function place_of_slot
 

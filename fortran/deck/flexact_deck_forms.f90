@@ -90,7 +90,7 @@ contains
       select case (letter)
       case ('e')
          call take_element(deck, operands, whole)
-         if (whole > 0) choice = deformations_of(deck%model%element_kind(whole))
+         if (whole > 0) choice = deformations_of(deck%model%element_kind(whole), deck%has_warping(whole))
       case ('n')
          call take_node(deck, operands, whole)
          if (whole > 0) choice = components_of(deck%model%node_kind(whole))

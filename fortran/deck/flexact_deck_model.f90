@@ -28,8 +28,17 @@ module flexact_deck_model
       !> Numbers in element statements that could not be read: nodes or elements
       !> perhaps, so that it is not reported that they do not exist.
       type(numbering_t) :: excused
+      !> Nodes of the deck that the model does not have: of warping, and points of the ground.
+      type(numbering_t) :: left_out
       !> Whether the geometry was typed with more digits than its numbers hold.
       logical :: has_long_numbers = .false.
+      !> Numbers of the warping nodes at p and q of each element, 0 where there is none.
+      integer, allocatable :: warping_node(:, :)
+      type(numbering_t) :: warping_nodes
+      !> Class of the warping of each of warping_nodes, (1, nodes).
+      integer, allocatable :: warping_class(:, :)
+      !> Whether each element is stated as a beam with warping.
+      logical, allocatable :: has_warping(:)
       !> How the elements are to be drawn, where the deck says something about it.
       type(appearance_t), allocatable :: appearance
       !> Stiffness and mass, where the deck says something about them.
@@ -52,7 +61,7 @@ contains
       node = deck%nodes%find(number)
       if (node > 0) return
       operands%fine = .false.
-      if (deck%excused%find(number) > 0) return
+      if (deck%excused%find(number) > 0 .or. deck%left_out%find(number) > 0) return
       call operands%diagnostics%error('no-such-node', operands%word, &
                                       'there is no node '//operands%spelling(), &
                                       'no element uses this node', &

@@ -5,6 +5,7 @@ module flexact_deck_properties
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use flexact_deck_model, only: deck_model_t, take_node, take_element
    use flexact_diagnostics, only: span_t
+   use flexact_element_table, only: element_kinds
    use flexact_keywords, only: keywords, role_property
    use flexact_kinds, only: wp
    use flexact_operands, only: operands_t, operands_of
@@ -42,33 +43,35 @@ contains
       type(deck_model_t), intent(inout) :: deck
       type(places_t), intent(inout) :: stated
       type(operands_t) :: operands
-      integer :: owner
+      integer :: owner, of_warping
 
       operands = operands_of(deck%text, deck%diagnostics, statement)
       associate (name => keywords(statement%what)%name, properties => deck%properties)
          if (name == 'XM' .or. name == 'MASS') then
             call take_node(deck, operands, owner)
-            if (owner > 0) call take_numbers(operands, properties%node_mass(:, owner), stated%node_mass(owner))
+            if (owner > 0) call take_numbers(operands, 0, properties%node_mass(:, owner), stated%node_mass(owner))
             return
          end if
          call take_element(deck, operands, owner)
          if (owner == 0) return
+         of_warping = merge(1, 0, element_kinds(deck%model%element_kind(owner))%keyword == 'BEAM')
          if (name == 'ESTIFF') then
-            call take_numbers(operands, properties%stiffness(:, owner), stated%stiffness(owner))
+            call take_numbers(operands, of_warping, properties%stiffness(:, owner), stated%stiffness(owner))
          else
-            call take_numbers(operands, properties%mass(:, owner), stated%mass(owner))
+            call take_numbers(operands, of_warping, properties%mass(:, owner), stated%mass(owner))
          end if
       end associate
    end subroutine read_statement
 
    !> Take the numbers behind the element or the node, at least one; those that are
-   !> more than there can be are left out.
-   subroutine take_numbers(operands, numbers, stated)
+   !> more than there can be are left out. One of warping, behind the others, is not used.
+   subroutine take_numbers(operands, of_warping, numbers, stated)
       type(operands_t), intent(inout) :: operands
+      integer, intent(in) :: of_warping
       real(wp), intent(inout) :: numbers(:)
       type(span_t), intent(inout) :: stated
       type(operands_t) :: ahead
-      type(span_t) :: owner
+      type(span_t) :: owner, surplus
       real(wp) :: value, taken(size(numbers))
       integer :: count
 
@@ -79,13 +82,14 @@ contains
          if (.not. operands%fine) return
          count = count + 1
          if (count <= size(taken)) taken(count) = value
-         if (count == size(taken) + 1) &
-            call operands%diagnostics%warning('surplus-operand', operands%word, 'there are more numbers than can be meant; '// &
-                                              'they are left out', 'from here on', &
-                                              'ESTIFF takes up to 6 numbers, EM up to 5, XM up to 6')
+         if (count == size(taken) + 1) surplus = operands%word
          ahead = operands
          if (.not. ahead%another()) exit
       end do
+      if (count > size(taken) .and. count /= size(taken) + of_warping) &
+         call operands%diagnostics%warning('surplus-operand', surplus, 'there are more numbers than can be meant; '// &
+                                           'they are left out', 'from here on', &
+                                           'ESTIFF takes up to 6 numbers, EM up to 5, XM up to 6')
       if (stated%first > 0) &
          call operands%diagnostics%warning('repeated-value', owner, 'the same is given already', 'this one counts', &
                                            'remove one of the two statements', stated)

@@ -9,6 +9,7 @@ module flexact_keywords
    implicit none
    private
    public :: keyword_t, keywords, find_keyword, nearest_keyword, edit_distance
+   public :: why_uncovered, instead_of_uncovered
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
    public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture, &
              role_property
@@ -62,8 +63,8 @@ module flexact_keywords
                                  keyword_t('INPUTE', kin, role_deformation, 'ei', 1, any_number), &
                                  keyword_t('DYNE', kin, role_deformation, 'ei', 1, any_number), &
                                  keyword_t('OUTLEVEL', kin, form, 'r', 1, 2), &
-                                 keyword_t('BEAMW', kin, no, 'w', 0, any_number), &
                                  keyword_t('PLBEAR', kin, no, 'w', 0, any_number), &
+                                 keyword_t('PLBELT', kin, no, 'w', 0, any_number), &
                                  keyword_t('WHEEL', kin, no, 'w', 0, any_number), &
                                  keyword_t('PLWHEEL', kin, no, 'w', 0, any_number), &
                                  keyword_t('ENHC', kin, no, 'w', 0, any_number), &
@@ -132,6 +133,35 @@ contains
          if (keywords(i)%block == block) return
       end do
    end function find_keyword
+
+   !> Why an element is not covered.
+   pure function why_uncovered(name) result(why)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: why
+
+      select case (name)
+      case ('PLBEAR', 'PLBELT')
+         why = 'no public text says with certainty what it measures'
+      case default
+         why = 'rolling holds velocities, not positions'
+      end select
+   end function why_uncovered
+
+   !> What to write instead.
+   pure function instead_of_uncovered(name) result(instead)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: instead
+
+      select case (name)
+      case ('PLBEAR')
+         instead = 'write PLRBEAM e p op q for the translations, or one node for p and q, and PLHINGE e op oq for the rotation'
+      case ('PLBELT')
+         instead = 'write a PLTRUSS for each free part of the belt, between points that PLRBEAM joins to the pulleys: '// &
+                   'to first order it is the same'
+      case default
+         instead = 'leave it out, and hold with FIX, TRUSS or RBEAM what it holds in this configuration'
+      end select
+   end function instead_of_uncovered
 
    !> The keyword of this block that is spelt most nearly like the word; blank
    !> where none is near.

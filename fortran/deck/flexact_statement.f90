@@ -3,14 +3,14 @@
 !> keyword is. Operands are left to those who know what they mean.
 module flexact_statement
    use flexact_diagnostics, only: span_t, diagnostics_t
-   use flexact_element_table, only: element_kinds, find_element_kind
-   use flexact_keywords, only: keywords, find_keyword, nearest_keyword, block_kinematics, block_dynamics, &
-                               block_closed, block_inout, block_picture, role_element, role_uncovered, role_unknown, &
-                               role_picture
-   use flexact_lexer, only: line_t, next_line, next_word, upper_case, listed
+   use flexact_element_table, only: find_element_kind, beam_with_warping
+   use flexact_keywords, only: keywords, find_keyword, nearest_keyword, why_uncovered, instead_of_uncovered, &
+                               block_kinematics, block_dynamics, block_closed, block_inout, block_picture, &
+                               role_element, role_uncovered, role_unknown, role_picture
+   use flexact_lexer, only: line_t, next_line, next_word, upper_case
    implicit none
    private
-   public :: statement_t, read_statements, find_unreadable
+   public :: statement_t, read_statements, find_unreadable, has_warping
 
    !> One statement: its keyword's place and role, where its operands may
    !> stand, and the comment behind it.
@@ -78,6 +78,19 @@ contains
       end do
    end subroutine read_statements
 
+   !> Whether the statement that starts here is one of a beam with warping.
+   pure logical function has_warping(text, first)
+      character(len=*), intent(in) :: text
+      integer, intent(in) :: first
+      integer :: behind
+
+      has_warping = .false.
+      behind = first + len(beam_with_warping)
+      if (behind > len(text)) return
+      if (iachar(text(behind:behind)) > iachar(' ')) return
+      has_warping = upper_case(text(first:behind - 1)) == beam_with_warping
+   end function has_warping
+
    !> The first character that no text holds (a NUL, another control
    !> character), 0 where all is readable.
    pure integer function find_unreadable(text) result(position)
@@ -136,8 +149,9 @@ contains
       else
          reader%reported_block = .false.
          if (reader%role == role_uncovered) then
-            call diagnostics%error('not-covered', statement%keyword, 'Flexact does not analyse '//trim(reader%word), &
-                                   'not covered', 'the elements are '//listed(element_kinds%keyword))
+            call diagnostics%error('not-covered', statement%keyword, 'Flexact does not analyse '//trim(reader%word)// &
+                                   ': '//why_uncovered(trim(reader%word)), 'not covered', &
+                                   instead_of_uncovered(trim(reader%word)))
          end if
       end if
       meaningful = statement%role /= 0

@@ -9,7 +9,7 @@ module flexact_element_table
    use flexact_slots, only: node_planar_position, node_position, node_angle, node_orientation, slots, most_deformations
    implicit none
    private
-   public :: element_kind_t, element_kinds, find_element_kind, deformations_of
+   public :: element_kind_t, element_kinds, find_element_kind, deformations_of, beam_with_warping
    public :: frame_none, frame_along, frame_about, frame_planar, frame_names
    public :: vector_none, vector_optional, vector_required, vector_names
    public :: member_bar, member_beam, member_link, member_hinge, member_names
@@ -51,6 +51,9 @@ module flexact_element_table
       integer :: role(most_deformations)
    end type element_kind_t
 
+   !> A beam with a warping node behind each orientation, which decks may state.
+   character(len=*), parameter :: beam_with_warping = 'BEAMW'
+
    integer, parameter :: x2 = node_planar_position, x3 = node_position, r1 = node_angle, r3 = node_orientation
    integer, parameter :: no = vector_none, may = vector_optional, must = vector_required
    integer, parameter :: none = frame_none, along = frame_along, about = frame_about, plane = frame_planar
@@ -80,13 +83,14 @@ module flexact_element_table
 contains
 
    !> The kind with this keyword in capitals, other spellings included; 0
-   !> where there is none.
+   !> where there is none. A beam with warping is a beam.
    pure integer function find_element_kind(keyword) result(kind)
       character(len=*), intent(in) :: keyword
 
       do kind = size(element_kinds), 1, -1
          if (element_kinds(kind)%keyword == keyword) return
          if (element_kinds(kind)%synonym == keyword .and. keyword /= '') return
+         if (element_kinds(kind)%keyword == 'BEAM' .and. keyword == beam_with_warping) return
       end do
    end function find_element_kind
 

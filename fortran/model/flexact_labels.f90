@@ -49,14 +49,24 @@ contains
    end function element_label
 
    !> The name of the part that element k belongs to: its own without what counts the
-   !> elements of a part, ", 3" or ", part 3 of 4".
+   !> elements of a part, ", 3" or ", part 3 of 4"; of "element 2 beam 3", as SPACAR
+   !> Light calls the beams of an element, "element 2".
    pure type(span_t) function part_name(names, k) result(span)
       type(names_t), intent(in) :: names
       integer, intent(in) :: k
-      integer :: comma
+      integer :: comma, beam
 
       span = names%element(k)
       if (span%first < 1) return
+      beam = index(names%text(span%first:span%last), ' beam ')
+      if (beam > len('element ')) then
+         if (names%text(span%first:span%first + 7) == 'element ' .and. &
+             is_whole(names%text(span%first + 8:span%first + beam - 1)) .and. &
+             is_whole(names%text(span%first + beam + 5:span%last))) then
+            span%last = span%first - 1 + len_trim(names%text(span%first:span%first + beam - 1))
+            return
+         end if
+      end if
       comma = index(names%text(span%first:span%last), ',', back=.true.)
       if (comma < 2) return
       if (.not. counts(names%text(span%first + comma:span%last))) return

@@ -27,6 +27,7 @@ contains
          allocate (name(model%elements))
          do i = 1, model%elements
             name(i) = part_name(names, i)
+            if (is_of_beams(names%text, name(i))) name(i) = span_t()
          end do
          allocate (group(model%elements))
          call find_equal_texts(names%text, name, group, groups)
@@ -38,7 +39,7 @@ contains
       if (any(names%node%first > 0)) then
          name = names%node
          do i = 1, model%nodes
-            if (.not. is_position(model%node_kind(i))) name(i) = span_t()
+            if (.not. is_position(model%node_kind(i)) .or. is_intermediate(names%text, name(i))) name(i) = span_t()
          end do
          group = [(0, i=1, model%nodes)]
          call find_equal_texts(names%text, name, group, groups)
@@ -46,6 +47,26 @@ contains
             call check(model, names, name, group, groups, [(i, i=1, model%nodes)], 'points are called', diagnostics)
       end if
    end subroutine check_repeated_names
+
+   !> Whether a name is that which SPACAR Light gives to every inner node.
+   pure logical function is_intermediate(text, name)
+      character(len=*), intent(in) :: text
+      type(span_t), intent(in) :: name
+
+      is_intermediate = .false.
+      if (name%first > 0) is_intermediate = text(name%first:name%last) == 'intermediate node'
+   end function is_intermediate
+
+   !> Whether a name is one that SPACAR Light gives to beams of every element: "beam", "beam 2".
+   pure logical function is_of_beams(text, name)
+      character(len=*), intent(in) :: text
+      type(span_t), intent(in) :: name
+
+      is_of_beams = .false.
+      if (name%first < 1 .or. name%last < name%first + 3) return
+      if (text(name%first:name%first + 3) /= 'beam') return
+      is_of_beams = verify(text(name%first + 4:name%last), ' 0123456789') == 0
+   end function is_of_beams
 
    !> The part of each element, as one of its elements.
    subroutine find_parts(model, group, groups, part)

@@ -47,6 +47,11 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .variants.crossing import Crossing, Crossings
+    from .variants.parameters import grid
+    from .variants.sweep import sweep
+    from .variants.table import Table
+    from .variants.tolerances import Tolerances, tolerances
 
 __version__ = VERSION
 
@@ -71,6 +76,11 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
+    "variants.crossing": ("Crossing", "Crossings"),
+    "variants.parameters": ("grid",),
+    "variants.sweep": ("sweep",),
+    "variants.table": ("Table",),
+    "variants.tolerances": ("Tolerances", "tolerances"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -84,6 +94,8 @@ __all__ = [
     "ClassCounts",
     "Configuration",
     "Counts",
+    "Crossing",
+    "Crossings",
     "DeckError",
     "Diagnostic",
     "Element",
@@ -105,14 +117,19 @@ __all__ = [
     "SelfStress",
     "Severity",
     "Sheet",
+    "Table",
+    "Tolerances",
     "Verdict",
     "Wire",
     "__version__",
     "analyse",
     "deformations",
+    "grid",
     "jacobian",
     "read",
     "read_text",
+    "sweep",
+    "tolerances",
 ]
 
 

@@ -78,6 +78,10 @@ contains
       call expect_part('leg, part x of 4', 'leg, part x of 4')
       call expect_part('leg, 1 of 4', 'leg, 1 of 4')
       call expect_part('leg, 1.5', 'leg, 1.5')
+      call expect_part('element 12 beam 3', 'element 12')
+      call expect_part('element 12 beam', 'element 12 beam')
+      call expect_part('element x beam 3', 'element x beam 3')
+      call expect_part('cross beam 3', 'cross beam 3')
    end subroutine parts
 
    subroutine expect_part(name, part)

@@ -9,6 +9,7 @@ import ast
 import importlib.util
 import re
 import runpy
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -110,6 +111,7 @@ def test_a_cross_hinge_of_two_steel_sheets_takes_few_statements() -> None:
 
 def tool() -> ModuleType:
     """What writes the pages."""
+    sys.path.insert(0, str(ROOT / "tools"))
     spec = importlib.util.spec_from_file_location("gallery", ROOT / "tools" / "gallery.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)

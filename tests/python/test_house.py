@@ -39,7 +39,10 @@ MOST_MODULES_AT_THE_TOP = 6
 MOST_ARGUMENTS = 15
 MOST_LINES_OF_BINDINGS = 250
 #: Packages that may be missing, and so are imported where they are needed.
-OPTIONAL = ("matplotlib", "PIL", "meshio", "vtk", "vtkmodules", "distributed", "pyarrow")
+OPTIONAL = (
+    *("matplotlib", "PIL", "meshio", "vtk", "vtkmodules"),
+    *("pyarrow", "distributed", "pandas", "yaml"),
+)
 
 
 def name_of(path: Path) -> str:

@@ -28,7 +28,7 @@ def errors_of(deck: str) -> list[tuple[str, int]]:
             ("missing-end", 6),
         ),
         (f"SPRING 1 1 2 3 4\nTRUSS 2 1 3\n{PLACED}", ("unknown-keyword", 1)),
-        (f"BEAMW 1 1 2 7 3 4 8\nTRUSS 2 1 3\n{PLACED}", ("not-covered", 1)),
+        (f"PLBEAR 1 1 2 3 4\nTRUSS 2 1 3\n{PLACED}", ("not-covered", 1)),
         (f"BEAM 1 1 2 3 4x\nFIX 4 2\n{PLACED}", ("bad-number", 1)),
         (f"BEAM 1 1. 2 3 4\n{PLACED}", ("not-whole", 1)),
         ("BEAM 1 1 2 3 4\nX 3a 1 0 0\nFIX 1\n", ("bad-number", 2)),

@@ -37,6 +37,10 @@ def row_of_beams(
         ("left sheet part 2 of 4", "left sheet"),
         ("upper 90, ground to fold", "upper 90, ground to fold"),
         ("sheet 1", "sheet 1"),
+        ("element 2 beam 3", "element 2"),
+        ("element 2 beam", "element 2 beam"),
+        ("cross beam 3", "cross beam 3"),
+        ("beam 3", "beam 3"),
         ("", ""),
     ],
 )

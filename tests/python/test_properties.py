@@ -95,6 +95,15 @@ def test_too_many_numbers_are_left_out_with_a_warning() -> None:
 
 
 @pytest.mark.parametrize(
+    ("statement", "places"), [("EM 7 1 2 3 4 5 6", []), ("ESTIFF 9 1 2 3 4 5 6 7", [22])]
+)
+def test_the_number_of_warping_is_that_of_a_beam(statement: str, places: list[int]) -> None:
+    """One behind the others, as programs write it for every beam."""
+    model = flexact.read_text(f"{MODEL}END\n{statement}\n")
+    assert [d.column for d in model.diagnostics] == places
+
+
+@pytest.mark.parametrize(
     ("statement", "code"),
     [
         ("EM 8 1", "no-such-element"),

@@ -46,6 +46,7 @@ from flexact.regress.stored_answer import StoredAnswerError, answer_of, read_ans
 from flexact.result.outcome import Asked
 from flexact.text.describe import describe
 from flexact.text.log import log_text
+from flexact.text.spacar_log import spacar_log
 
 INPUT = ROOT / "input_decks"
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
@@ -132,6 +133,11 @@ def test_words_of_a_result(name: str, as_stored: AsStored) -> None:
 def test_words_of_a_log(name: str, as_stored: AsStored) -> None:
     log = log_text(RESULTS[name](), most_in_mesh=6)
     as_stored(masked(log), GOLDEN / "logs" / f"{name}.txt")
+
+
+def test_words_of_a_log_in_the_form_of_spacar(as_stored: AsStored) -> None:
+    log = spacar_log(deck("linkages/four_bar_planar_driven")).split("\n", 1)[1]
+    as_stored(re.sub(" +$", "", log, flags=re.MULTILINE), GOLDEN / "logs" / "spacar.txt")
 
 
 @pytest.mark.parametrize("name", RESULTS)

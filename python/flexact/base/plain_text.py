@@ -33,8 +33,9 @@ def in_short(given: object) -> str:
         return "a number of so many digits"
     try:
         text = harmless(" ".join(repr(given).split()))
-    except ValueError:
-        # Python writes no number of thousands of digits, in a list either.
+    except (ValueError, RecursionError):
+        # Python writes no number of thousands of digits, in a list either, nor lists in lists
+        # without end.
         text = type(given).__name__
     return text if len(text) <= _LONG_TEXT else f"{text[: _LONG_TEXT - 3]}..."
 

@@ -32,6 +32,8 @@ VERDICTS = {
     "over": Verdict.OVER,
     "both": Verdict.BOTH,
 }
+#: Forms of logs beside that of Flexact.
+LOGS = ("spacar",)
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -49,6 +51,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
     )
+    parser.add_argument(
+        "--log",
+        choices=LOGS,
+        help="the log in the form of SPACAR's in place of the words, or, with -o, as NAME.log",
+    )
     add_decision(parser)
     add_accuracy(parser)
     parser.add_argument(
@@ -63,6 +70,8 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the decks that were asked for, say and write the results."""
     if chosen.format and not chosen.output:
         raise BatchError("--format is for the mesh, which needs a folder: -o DIR")
+    if chosen.log and chosen.json and not chosen.output:
+        raise BatchError("--json and --log both go to stdout: choose one, or a folder: -o DIR")
     decks = find_decks(chosen.decks)
     return take(decks, _Work(chosen, decks).step, as_json=chosen.json)
 
@@ -75,7 +84,9 @@ class _Work:
         self.files: ResultFiles | None = None
         if chosen.output:
             module = load("flexact.cli.result_files")
-            self.files = module.ResultFiles(decks, chosen.output, chosen.format or "vtu")
+            self.files = module.ResultFiles(
+                decks, chosen.output, chosen.format or "vtu", log=chosen.log
+            )
 
     def step(self, deck: DeckFile) -> Outcome:
         """Analyse one deck, say and write its results."""
@@ -104,5 +115,8 @@ class _Work:
         if self.chosen.json:
             text: str = load("flexact.text.json_result").text_of(analysis)
             return text
+        if self.chosen.log and not self.files:
+            log: str = load("flexact.text.spacar_log").spacar_log(analysis)
+            return log
         # What concerns the deck stands on stderr already.
         return f"{describe(analysis, about_model=False, most=MOST_MODES)}\n"

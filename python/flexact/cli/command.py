@@ -38,6 +38,7 @@ VERBS = {
     "picture": "a deck's mechanism as a picture: its motion, its self-stress",
     "export": "a deck's mechanism with its modes as a mesh, for ParaView",
     "report": "a page of each deck, to open in a browser and to mail",
+    "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
 }
 EPILOG = """\
 exit codes:

@@ -14,6 +14,7 @@ from flexact.mesh.file import find_format, mesh_bytes
 from flexact.result.result import Result
 from flexact.text.json_result import text_of
 from flexact.text.log import log_text
+from flexact.text.spacar_log import spacar_log
 
 
 class ResultFiles:
@@ -24,8 +25,11 @@ class ResultFiles:
         MeshFormatError: There is no such mesh format.
     """
 
-    def __init__(self, decks: Sequence[DeckFile], folder: Path, mesh_format: str) -> None:
-        """Plan the files of all decks."""
+    def __init__(
+        self, decks: Sequence[DeckFile], folder: Path, mesh_format: str, log: str | None = None
+    ) -> None:
+        """Plan the files of all decks; `log` is the form of the logs, None that of Flexact."""
+        self._log = log
         with unwinding():
             self.format = find_format(mesh_format)
         self.plan = plan_files(decks, folder, (".json", ".log", f".{self.format}"))
@@ -33,7 +37,7 @@ class ResultFiles:
     def write(self, deck: DeckFile, result: Result) -> Exception | None:
         """Write the results, or say why not: that is no reason to keep the verdict back."""
         try:
-            contents = contents_of(result, self.format)
+            contents = contents_of(result, self.format, self._log)
             with unwinding():
                 write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
         except (OutputError, MemoryError) as error:
@@ -41,8 +45,10 @@ class ResultFiles:
         return None
 
 
-def contents_of(result: Result, mesh_format: str) -> tuple[bytes, ...]:
+def contents_of(result: Result, mesh_format: str, log: str | None = None) -> tuple[bytes, ...]:
     """What stands in the files of a result, in the order of the plan.
+
+    `log` is the form of the log, None that of Flexact.
 
     Raises:
         OutputError: The mesh cannot be written.
@@ -50,7 +56,7 @@ def contents_of(result: Result, mesh_format: str) -> tuple[bytes, ...]:
     """
     json = f"{text_of(result)}\n".encode()
     meshes = Meshes(result)
-    log = log_text(result, most_in_mesh=meshes.most_modes).encode("utf-8", "backslashreplace")
+    words = spacar_log(result) if log else log_text(result, most_in_mesh=meshes.most_modes)
     mesh = meshes.still()
     with unwinding():
-        return json, log, mesh_bytes(mesh, mesh_format)
+        return json, words.encode("utf-8", "backslashreplace"), mesh_bytes(mesh, mesh_format)

@@ -27,6 +27,8 @@ _WRITTEN_AS: dict[int, dict[str, str]] = {
 }
 #: Whose comments are names, which are data of the model.
 _NAMED = (ELEMENT, "X")
+#: Of the largest number of a node or an element.
+_MOST_DIGITS = 10
 _MARK = re.compile(r"[%#]")
 _MARK_OF_PICTURES = re.compile(r"[%#;]")
 
@@ -91,6 +93,8 @@ class _Reader:
         self.waiting: list[str] = []
         kinds = element_kinds()
         self.elements = {word for kind in kinds for word in (kind.keyword, kind.synonym) if word}
+        # Read as beams, and written as such.
+        self.elements.add("BEAMW")
 
     def read(self, line: str) -> None:
         """Take the next line."""
@@ -123,14 +127,15 @@ class _Reader:
         written = _WRITTEN_AS.get(self.block, {}).get(keyword)
         if self.block == _KINEMATICS and keyword in self.elements:
             written = ELEMENT
-        number = number.removeprefix("+")
-        if written is None or not number.isdecimal():
+        # Python makes no number of thousands of digits, even of zeros.
+        digits = number.removeprefix("+").lstrip("0")
+        if written is None or not digits.isdecimal() or len(digits) > _MOST_DIGITS:
             return
-        key = written, int(number)
+        key = written, int(digits)
         if self.waiting:
             self.made.before.setdefault(key, []).extend(self.waiting)
             self.waiting = []
-        if comment and written not in _NAMED and (words := _printable(comment.lstrip("%# \t"))):
+        if comment and written not in _NAMED and (words := _words_of(comment)):
             self.made.behind.setdefault(key, []).append(words)
 
     def _next_block(self, word: str) -> None:
@@ -146,6 +151,11 @@ class _Reader:
         lines = self.made.end if self.block == _KINEMATICS else self.made.rest
         lines.extend(self.waiting)
         self.waiting = []
+
+
+def _words_of(comment: str) -> str:
+    """A comment without its mark, as it reads again."""
+    return _printable(comment).lstrip("%# ")
 
 
 def _printable(text: str) -> str:

@@ -26,7 +26,7 @@ _VALUES = {
     NodeKind.ORIENTATION: 4,
 }
 #: Component of axis 0 by kind of node, less that axis: lambda1 is component 2.
-_FIRST_COMPONENT = {
+FIRST_COMPONENT = {
     NodeKind.PLANAR_POSITION: 1,
     NodeKind.POSITION: 1,
     NodeKind.ANGLE: -1,
@@ -109,7 +109,7 @@ def _coordinates(data: ModelData, wanted: Class, keyword: str) -> _Statements:
         number = int(a.node_number[index])
         words = [keyword, str(number)]
         if len(axes) < len(AXES[kind]):
-            words += [str(axis + _FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
+            words += [str(axis + FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
         yield number, " ".join(words)
 
 

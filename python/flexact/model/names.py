@@ -21,11 +21,14 @@ def is_coordinate(given: object) -> bool:
 
 
 _TAIL = re.compile(r",?\s+(?:part\s+)?\d+\s+of\s+\d+$|,\s*\d+$")
+#: What SPACAR Light calls the beams of an element.
+_OF_ELEMENT = re.compile(r"^(element\s+\d+)\s+beam\s+\d+$")
 
 
 def part_name(element_name: str) -> str:
     """The name of the part that an element belongs to: without its own number in the part."""
-    return _TAIL.sub("", element_name)
+    found = _OF_ELEMENT.match(element_name)
+    return found[1] if found else _TAIL.sub("", element_name)
 
 
 def renamed(element_name: str, part: str) -> str:

@@ -32,7 +32,7 @@ from ..result.result import result_of
 from ..result.sensitivity import MOST_OTHERS, MOST_WORK, MOST_ZEROS
 from ..result.verdict import Certainty, Verdict
 from .columns import columns_of
-from .row import MISSING, Value, error_row, row_of
+from .row import MISSING, Value, error_row, in_a_line, row_of
 
 Columns = dict[str, np.ndarray]
 #: So many variants at once: some milliseconds of work, and few numbers.
@@ -201,4 +201,4 @@ def _row(data: ModelData, want: str) -> dict[str, Value]:
     try:
         return row_of(result_of(data, Asked()), want)
     except (AnalysisError, DeckError, ModelError) as error:
-        return error_row(str(error), want)
+        return error_row(in_a_line(error), want)

@@ -5,17 +5,38 @@ from __future__ import annotations
 
 import math
 
+from ..base.plain_text import harmless
+from ..diagnostics.diagnostic import Diagnostic
+from ..diagnostics.errors import ProblemsError
 from ..result.result import Result
 from .columns import Column, columns_of
 
 Value = str | int | float
 #: What stands where there is no result.
 MISSING: dict[type, Value] = {str: "", int: -1, float: math.nan}
+#: Letters of the message of an error.
+_LONGEST = 400
 
 
 def row_of(result: Result, want: str = "values") -> dict[str, Value]:
     """The columns of one result by name, for one of `WANTS`; the error is empty."""
     return {c.name: _value(result, c) for c in columns_of(want)} | {"error": ""}
+
+
+def in_a_line(error: BaseException) -> str:
+    """Kind and message of an exception on one line; of a wrong model or deck the first error."""
+    words = str(error)
+    if isinstance(error, ProblemsError):
+        first = next((each for each in error.diagnostics if each.is_error), None)
+        words = words if first is None else _placed(first)
+    words = harmless(" ".join(words.split()))
+    if len(words) > _LONGEST:
+        words = f"{words[: _LONGEST - 3]}..."
+    return f"{type(error).__name__}: {words}" if words else type(error).__name__
+
+
+def _placed(first: Diagnostic) -> str:
+    return f"line {first.line}: {first.message}" if first.line else first.message
 
 
 def error_row(error: str, want: str = "values") -> dict[str, Value]:

@@ -112,7 +112,12 @@ def chains_of(arrays: ModelArrays, names: Sequence[str]) -> tuple[Chain, ...]:
     not belong together.
     """
     neighbours = _Neighbours(arrays, names)
-    return tuple(row for row in neighbours.rows() if _is_stretched(arrays, row))
+    return tuple(row for row in neighbours.rows() if _has_ends(row) and _is_stretched(arrays, row))
+
+
+def _has_ends(row: Chain) -> bool:
+    """Whether its ends turn apart: no beam has one node at both ends."""
+    return row.orientations[0] != row.orientations[-1]
 
 
 def _is_stretched(arrays: ModelArrays, row: Chain) -> bool:

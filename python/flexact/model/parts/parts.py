@@ -271,7 +271,7 @@ class Parts:
         return harmless(self.data.node_names[position]).strip()
 
 
-def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
+def natural(name: str) -> tuple[tuple[bool, int, str, str], ...]:
     """A key by which names are sorted as people do: "sheet 2" before "sheet 10"."""
     words: list[str] = []
     for c in name:
@@ -279,6 +279,9 @@ def natural(name: str) -> tuple[tuple[bool, int, str], ...]:
             words[-1] += c
         else:
             words.append(c)
+    # Python makes no number of thousands of digits, but more digits are a larger one.
+    numbers = (word.lstrip("0") if word.isdecimal() else "" for word in words)
     return tuple(
-        (not word.isdecimal(), int(word) if word.isdecimal() else 0, word) for word in words
+        (not word.isdecimal(), len(number), number, word)
+        for word, number in zip(words, numbers, strict=True)
     )

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact convert``: decks, tables in the style of SPACAR Light, and meshes of lines."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from flexact.base.errors import BatchError, FlexactError
+from flexact.base.interruption import unwinding
+from flexact.base.plain_text import harmless
+from flexact.cli.analysed import report_problems
+from flexact.cli.outcome import ExitCode
+from flexact.cli.terminal import complain, say
+from flexact.convert.files import Format, bytes_of, format_of, read_any
+from flexact.convert.mesh_data import KINDS
+from flexact.convert.tables import FLEXIBLE
+from flexact.diagnostics.errors import ProblemsError
+from flexact.diagnostics.rendering import render
+from flexact.files.decks import DeckFile
+from flexact.files.outputs import plan_file, write_together
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
+        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which."
+    )
+    parser.add_argument("file", metavar="FILE", type=Path, help="what is to be converted")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", required=True, help="what is to be written"
+    )
+    parser.add_argument(
+        "--as",
+        dest="kind",
+        choices=KINDS,
+        help="what lines of a mesh are (default: beam)",
+    )
+    parser.add_argument(
+        "--fix",
+        type=points,
+        default=(),
+        metavar="POINTS",
+        help="points of a mesh that are fixed, from 1, such as 1,4-6",
+    )
+    parser.add_argument(
+        "--flexible",
+        choices=FLEXIBLE,
+        help="what deformations in flex of tables are that are not released: degrees of freedom, "
+        "as in SPACAR Light (default), or released, too",
+    )
+    parser.set_defaults(run=convert_file)
+
+
+def points(text: str) -> tuple[int, ...]:
+    """Numbers from 1, and spans of them, as an option's type."""
+    made: list[int] = []
+    try:
+        for part in text.split(","):
+            first, _, last = part.partition("-")
+            low, high = int(first), int(last or first)
+            if not 1 <= low <= high <= 10**9 or high - low > 10**7:
+                raise ValueError
+            made += range(low, high + 1)
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"numbers of points from 1 are wanted, such as 1,4-6, not {text!r}"
+        ) from None
+    return tuple(made)
+
+
+def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
+    """How the file is to be taken.
+
+    Raises:
+        BatchError: an option is for files of another format.
+    """
+    made: dict[str, Any] = {}
+    for option, name, value, wanted in (
+        ("--as", "kind", chosen.kind, Format.MESH),
+        ("--fix", "fixed", chosen.fix or None, Format.MESH),
+        ("--flexible", "flexible", chosen.flexible, Format.TABLES),
+    ):
+        if value is None:
+            continue
+        if form is not wanted:
+            kind = {Format.MESH: "a mesh", Format.TABLES: "tables"}[wanted]
+            raise BatchError(f"{option} is for {kind}, and {chosen.file} is none")
+        made[name] = value
+    return made
+
+
+def convert_file(chosen: argparse.Namespace) -> ExitCode:
+    """Convert the file that was asked for, and say what the other format cannot."""
+    source, target = chosen.file, chosen.output
+    format_of(target)
+    options = _options(chosen, format_of(source))
+    plan_file(DeckFile(str(source), Path(source.stem)), target)
+    try:
+        model = read_any(source, **options)
+        content, notes = bytes_of(model, target)
+    except ProblemsError as error:
+        complain(str(error))
+        return ExitCode.DECK_ERROR
+    except FlexactError as error:
+        complain(f"flexact: error: {harmless(str(error))}")
+        return ExitCode.OTHER
+    report_problems(model.data)
+    name = harmless(str(target))
+    for note in notes:
+        complain(render(note, name))
+    with unwinding():
+        write_together({target: content})
+    a = model.data.arrays
+    elements, nodes = a.element_number.size, a.node_number.size
+    size = f"{elements} element{'s' * (elements != 1)}, {nodes} node{'s' * (nodes != 1)}"
+    say(f"{harmless(str(source))}: written to {name}, {size}")
+    return ExitCode.ANALYSED

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Searches for singular variants between neighbouring rows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..base.errors import FlexactError
+from ..result.outcome import Asked
+from ..result.result import Result, result_of
+from ..result.verdict import Verdict
+from .crossing import Crossing
+from .parameters import Row
+from .roots import Zero, minimum, sign_change
+from .signed import signed_value
+from .source import Source, between
+
+if TYPE_CHECKING:
+    from .table import Table
+
+#: A singular value this small is not told from zero, whatever the default says.
+_ZERO = 1.0e-10
+
+
+class Search(NamedTuple):
+    """Rows between which a zero may be."""
+
+    along: str
+    rows: tuple[int, ...]
+    """Two, between which the sign changes, or up to three with a dip at the middle one."""
+    is_sign_change: bool
+    rank: int
+    """The singular value of this number is followed."""
+    values: tuple[float, ...]
+    """Of the rows."""
+    topology: int
+    """Of all of them; see `flexact.variants.signed`."""
+
+
+class Found(NamedTuple):
+    """What a search found, and how many variants were made for it."""
+
+    crossings: tuple[Crossing, ...]
+    evaluations: int
+
+
+def parameters_between(table: Table, a: int, b: int, share: float) -> Row:
+    """The parameters between those of two rows."""
+    names = table.parameter_names
+    ends = [[table[name][k : k + 1].tolist()[0] for name in names] for k in (a, b)]
+    return between(names, ends[0], ends[1], share)
+
+
+@dataclass(frozen=True)
+class Follow:
+    """Searches between rows."""
+
+    table: Table
+    source: Source
+
+    def at(self, a: int, b: int, share: float, rank: int, topology: int) -> float | None:
+        """The signed singular value between two rows; None where there is none."""
+        try:
+            data = self.source.variant(a, b, share, parameters_between(self.table, a, b, share))
+            data.require_sound()
+            found = signed_value(data, rank)
+        except Exception:
+            return None
+        return found.value if found.topology == topology else None
+
+    def __call__(self, search: Search) -> Found:
+        """What one search finds."""
+        counted = _Counted(self, search)
+        zeros = list(_zeros(search, counted))
+        made = [self._crossing(search, zero, kind, counted) for zero, kind in zeros]
+        return Found(tuple(each for each in made if each is not None), counted.calls)
+
+    def _crossing(
+        self, search: Search, zero: Zero, kind: str, counted: _Counted
+    ) -> Crossing | None:
+        """The crossing at a zero, if an analysis there says so, too."""
+        a, b, share = counted.between(zero.place)
+        row = parameters_between(self.table, a, b, share)
+        try:
+            result = self._singular(self.source, a, b, share, row, search.rank, zero, kind)
+        except FlexactError:
+            return None
+        if result is None:
+            return None
+        return Crossing(
+            *(row, search.along, (a, b), share, zero.width, kind, abs(zero.value)),
+            result.verdict,
+            Verdict(self.table.verdict[a]),
+            Verdict(self.table.verdict[b]),
+            counted.calls,
+        )
+
+    @staticmethod
+    def _singular(
+        source: Source, a: int, b: int, share: float, row: Row, rank: int, zero: Zero, kind: str
+    ) -> Result | None:
+        data = source.variant(a, b, share, row)
+        # The numbers there are rounded: to prove something of them says nothing.
+        result: Result = result_of(data, Asked(prove=False))
+        if result.rank >= rank and (kind == "sign change" or abs(zero.value) < _ZERO):
+            # A root lies between two neighbouring numbers, at which it is not quite zero.
+            tolerance = max(result.tolerance, 2.0 * abs(zero.value), 2.0 * _last(result))
+            result = result_of(data, Asked(prove=False, tolerance=tolerance))
+        return result if result.rank < rank else None
+
+
+def _last(result: Result) -> float:
+    return result.gap.smallest_nonzero or 0.0
+
+
+class _Counted:
+    """The signed value along the rows of a search, and how many variants were made for it."""
+
+    def __init__(self, follow: Follow, search: Search) -> None:
+        self.calls = 0
+        self._follow, self._search = follow, search
+
+    def between(self, place: float) -> tuple[int, int, float]:
+        """The rows round a place, of which the first row's is 0, and the share between them."""
+        rows = self._search.rows
+        first = min(max(int(place), 0), len(rows) - 2)
+        return rows[first], rows[first + 1], place - first
+
+    def __call__(self, place: float) -> float | None:
+        self.calls += 1
+        return self._follow.at(*self.between(place), self._search.rank, self._search.topology)
+
+
+def _zeros(search: Search, function: _Counted) -> Iterator[tuple[Zero, str]]:
+    values = search.values
+    if search.is_sign_change:
+        zero = sign_change(function, 0.0, 1.0, values[0], values[1])
+        if zero is not None:
+            yield zero, "sign change"
+        return
+    sign = math.copysign(1.0, values[0])
+
+    def upward(place: float) -> float | None:
+        value = function(place)
+        return None if value is None else sign * value
+
+    end = float(len(values) - 1)
+    lowest = minimum(upward, 0.0, end)
+    if isinstance(lowest, Zero):
+        yield lowest, "touch"
+    elif lowest is not None:
+        # Two roots near to each other.
+        below = upward(lowest)
+        for place, value in ((0.0, values[0]), (end, values[-1])):
+            if below is None:
+                return
+            zero = sign_change(upward, place, lowest, sign * value, below)
+            if zero is not None:
+                yield zero, "sign change"
