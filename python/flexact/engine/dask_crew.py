@@ -89,8 +89,9 @@ class DaskCrew:
                 done.append(self._finished.get_nowait())
         cluster = self._opened()
         cluster.look()
-        if any(future.status in ("cancelled", "lost") for future in done):
-            raise cluster.lost("it has cancelled the work")
+        # A worker that dies takes results along that nobody had fetched yet.
+        gone = [future for future in done if future.status in ("cancelled", "lost")]
+        done = [future for future in done if future not in gone]
         good = [future for future in done if future.status != "error"]
         try:
             found = cluster.client.gather(good)
@@ -99,6 +100,7 @@ class DaskCrew:
         chunks = {future: self._chunks.pop(future) for future in done}
         answers = [_answer(chunks[f], made) for f, made in zip(good, found, strict=True)]
         bad = [future for future in done if future.status == "error"]
+        answers += [Answer(self._chunks.pop(future)) for future in gone]
         return answers + [self._failed(chunks[future], future.exception()) for future in bad]
 
     def close(self) -> None:
