@@ -19,8 +19,8 @@ module flexact_scaling
    !> lengths within one mechanism differ less, and keep one scale.
    real(wp), parameter :: another_size = 100.0_wp
 
-   !> Squares of numbers up to here, and of their inverses, are numbers.
-   real(wp), parameter :: largest_root = 1.0e100_wp
+   !> Sums of squares from here to the inverse have lost nothing.
+   real(wp), parameter :: least_square = 1.0e-200_wp
 
    !> The scaled matrix is diag(row) D(c) diag(column).
    type :: scaling_t
@@ -136,22 +136,25 @@ contains
       type(jacobian_t), intent(in) :: jacobian
       real(wp), intent(in) :: row_length(:)
       type(scaling_t), intent(inout) :: scaling
-      real(wp) :: value
-      integer :: entry, i
+      real(wp) :: value(jacobian%entries), squares(partition%count%rows)
+      integer :: row(jacobian%entries), entry
 
-      allocate (scaling%row(partition%count%rows), source=0.0_wp)
+      squares = 0.0_wp
       do entry = 1, jacobian%entries
-         i = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
-         if (i == 0) cycle
-         value = jacobian%value(entry)
-         if (is_rotation(model, jacobian%column(1, entry))) value = value/row_length(i)
-         if (abs(value) < largest_root .and. abs(value) > 1/largest_root .and. scaling%row(i) < largest_root) then
-            scaling%row(i) = sqrt(scaling%row(i)**2 + value**2)
-         else
-            ! Unlike a sum of squares, this neither overflows nor vanishes.
-            scaling%row(i) = hypot(scaling%row(i), value)
-         end if
+         row(entry) = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
+         value(entry) = jacobian%value(entry)
+         if (row(entry) == 0) cycle
+         if (is_rotation(model, jacobian%column(1, entry))) value(entry) = value(entry)/row_length(row(entry))
+         squares(row(entry)) = squares(row(entry)) + value(entry)**2
       end do
+      scaling%row = sqrt(squares)
+      if (any(squares > 0 .and. squares < least_square) .or. any(.not. squares < 1/least_square)) then
+         ! Unlike a sum of squares, this neither overflows nor vanishes.
+         scaling%row = 0.0_wp
+         do entry = 1, jacobian%entries
+            if (row(entry) > 0) scaling%row(row(entry)) = hypot(scaling%row(row(entry)), value(entry))
+         end do
+      end if
       where (scaling%row > 0)
          scaling%row = 1/scaling%row
       elsewhere

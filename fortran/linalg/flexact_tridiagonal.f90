@@ -16,6 +16,8 @@ module flexact_tridiagonal
    !> Steps of inverse iteration, and what is left by good vectors, relative to the matrix.
    integer, parameter :: most_steps = 6
    real(wp), parameter :: good = 1.0e-13_wp
+   !> Entries of less than this part of the matrix are none.
+   real(wp), parameter :: negligible = 1.0e-20_wp
 
    !> Q' A Q = T. Q is the product of reflections I - beta v v', v from below the diagonal on.
    type :: tridiagonal_t
@@ -31,7 +33,7 @@ contains
    pure subroutine tridiagonalise(a, t)
       real(wp), intent(in) :: a(:, :)
       type(tridiagonal_t), intent(out) :: t
-      real(wp) :: x, rest, norm
+      real(wp) :: x, rest, norm, nothing
       integer :: k, n
 
       n = size(a, 1)
@@ -39,11 +41,13 @@ contains
       allocate (t%d(n), t%e(max(0, n - 1)))
       allocate (t%beta(n), source=0.0_wp)
       allocate (t%v, source=a)
+      ! What is far below rounding is left out: its inverses may be too large for numbers.
+      nothing = (negligible*maxval([(abs(a(k, k)), k=1, n)]))**2
       do k = 1, n - 1
          t%d(k) = t%v(k, k)
          x = t%v(k + 1, k)
          rest = product_of(t%v(k + 2:n, k), t%v(k + 2:n, k))
-         if (.not. rest > 0) then
+         if (.not. rest > nothing) then
             t%e(k) = x
             cycle
          end if
@@ -51,34 +55,56 @@ contains
          t%e(k) = norm
          t%beta(k) = 1/(norm*(norm - x))
          t%v(k + 1, k) = x - norm
-         call reflect(t%v(k + 1:n, k), t%beta(k), t%v(k + 1:n, k + 1:n))
+         call reflect(k, t%beta(k), t%v)
       end do
       if (n > 0) t%d(n) = t%v(n, n)
    end subroutine tridiagonalise
 
-   !> (I - beta v v') A (I - beta v v'), of the lower triangle.
-   pure subroutine reflect(v, beta, a)
-      real(wp), intent(in) :: v(:), beta
-      real(wp), intent(inout) :: a(:, :)
-      real(wp) :: w(size(v))
-      integer :: j, n
+   !> (I - beta v v') A (I - beta v v') of the lower triangle of what is behind column k, v
+   !> in that column.
+   pure subroutine reflect(k, beta, a)
+      integer, intent(in) :: k
+      real(wp), intent(in) :: beta
+      real(wp), intent(inout), contiguous :: a(:, :)
+      real(wp) :: v(size(a, 1)), w(size(a, 1)), factor, part(4)
+      integer :: i, j, n, whole
 
-      n = size(v)
-      w = 0.0_wp
-      do j = 1, n
-         w(j) = w(j) + a(j, j)*v(j) + product_of(a(j + 1:n, j), v(j + 1:n))
-         w(j + 1:n) = w(j + 1:n) + a(j + 1:n, j)*v(j)
+      n = size(a, 1)
+      do i = k + 1, n
+         v(i) = a(i, k)
+         w(i) = 0.0_wp
       end do
-      w = beta*w
-      w = w - (0.5_wp*beta*product_of(w, v))*v
-      do j = 1, n
-         a(j:n, j) = a(j:n, j) - v(j:n)*w(j) - w(j:n)*v(j)
+      do j = k + 1, n
+         factor = v(j)
+         do i = j + 1, n
+            w(i) = w(i) + a(i, j)*factor
+         end do
+         ! As in product_of, of which every call would take as long as the sum.
+         part = 0.0_wp
+         whole = n - mod(n - j + 1, 4)
+         do i = j, whole, 4
+            part = part + a(i:i + 3, j)*v(i:i + 3)
+         end do
+         factor = (part(1) + part(2)) + (part(3) + part(4))
+         do i = whole + 1, n
+            factor = factor + a(i, j)*v(i)
+         end do
+         w(j) = w(j) + factor
+      end do
+      factor = 0.5_wp*beta**2*product_of(w(k + 1:n), v(k + 1:n))
+      do i = k + 1, n
+         w(i) = beta*w(i) - factor*v(i)
+      end do
+      do j = k + 1, n
+         do i = j, n
+            a(i, j) = a(i, j) - v(i)*w(j) - w(i)*v(j)
+         end do
       end do
    end subroutine reflect
 
    !> The inner product, in four sums that do not wait for each other.
    pure real(wp) function product_of(x, y) result(total)
-      real(wp), intent(in) :: x(:), y(:)
+      real(wp), intent(in), contiguous :: x(:), y(:)
       real(wp) :: part(4)
       integer :: i, whole
 
@@ -98,7 +124,7 @@ contains
    pure subroutine find_ends(t, ends)
       type(tridiagonal_t), intent(in) :: t
       real(wp), intent(out) :: ends(2)
-      call multisect(t, [1, t%n], 0.25_wp*epsilon(1.0_wp), ends)
+      call multisect(t, [1, t%n], 2*epsilon(1.0_wp), ends)
    end subroutine find_ends
 
    !> The smallest eigenvalues, ascending, at most `lanes`, to this part of the largest.
@@ -120,19 +146,20 @@ contains
       real(wp), intent(out) :: value(:)
       real(wp), dimension(size(number)) :: lower, upper
       real(wp) :: x(lanes), squares(t%n), top
-      integer :: below(lanes), k, i
+      real(wp) :: share(lanes)
+      integer :: below(lanes), owner(lanes), i
       logical :: is_narrower
 
       squares = [0.0_wp, max(tiny(top), t%e**2)]
       top = bound_of(t)
       lower = -epsilon(1.0_wp)*top
       upper = top
+      ! Each number has its places evenly in its interval.
+      owner = [(mod(i - 1, size(number)) + 1, i=1, lanes)]
+      share = [(real((i - 1)/size(number) + 1, wp)/((lanes - owner(i))/size(number) + 2), i=1, lanes)]
       is_narrower = .true.
       do while (is_narrower .and. any(upper - lower > absolute*top))
-         do i = 1, lanes
-            k = mod(i - 1, size(number)) + 1
-            x(i) = lower(k) + (upper(k) - lower(k))*(real((i - 1)/size(number) + 1, wp)/((lanes - k)/size(number) + 2))
-         end do
+         x = lower(owner) + (upper(owner) - lower(owner))*share
          call count_below(t%d, squares, x, below)
          call narrow(number, x, below, lower, upper, is_narrower)
       end do
@@ -162,21 +189,22 @@ contains
       below = nint(counted)
    end subroutine count_below
 
-   !> Take in what the counts say.
+   !> Take in what the counts say: each place is in the interval of one number.
    pure subroutine narrow(number, x, below, lower, upper, is_narrower)
       integer, intent(in) :: number(:), below(:)
       real(wp), intent(in) :: x(:)
       real(wp), intent(inout) :: lower(:), upper(:)
       logical, intent(out) :: is_narrower
-      real(wp) :: before
-      integer :: k
+      integer :: i, k
 
       is_narrower = .false.
-      do k = 1, size(number)
-         before = upper(k) - lower(k)
-         lower(k) = max(lower(k), maxval(merge(x, lower(k), below < number(k))))
-         upper(k) = min(upper(k), minval(merge(x, upper(k), below >= number(k))))
-         is_narrower = is_narrower .or. upper(k) - lower(k) < before
+      k = 0
+      do i = 1, size(x)
+         k = k + 1
+         if (k > size(number)) k = 1
+         is_narrower = is_narrower .or. (x(i) > lower(k) .and. x(i) < upper(k))
+         lower(k) = merge(max(lower(k), x(i)), lower(k), below(i) < number(k))
+         upper(k) = merge(upper(k), min(upper(k), x(i)), below(i) < number(k))
       end do
    end subroutine narrow
 
