@@ -47,9 +47,9 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
-    from .variants.crossing import Crossing, Crossings
-    from .variants.parameters import grid
+    from .variants.search.crossing import Crossing, Crossings
     from .variants.sweep import sweep
+    from .variants.sweeps.parameters import grid
     from .variants.table import Table
     from .variants.tolerances import Tolerances, tolerances
 
@@ -76,8 +76,8 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
-    "variants.crossing": ("Crossing", "Crossings"),
-    "variants.parameters": ("grid",),
+    "variants.search.crossing": ("Crossing", "Crossings"),
+    "variants.sweeps.parameters": ("grid",),
     "variants.sweep": ("sweep",),
     "variants.table": ("Table",),
     "variants.tolerances": ("Tolerances", "tolerances"),

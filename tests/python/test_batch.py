@@ -18,7 +18,7 @@ from test_cli_process import process_environment
 import flexact
 from flexact.cli.batch_bar import BatchBar
 from flexact.cli.main import main
-from flexact.variants.deck_rows import deck_row
+from flexact.variants.batches.deck_rows import deck_row
 from flexact.variants.row import row_of
 
 COLUMNS = (
@@ -91,7 +91,7 @@ def test_a_stumble_of_the_program_costs_one_row(
             raise KeyError("surprise")
         return read(raw, name)
 
-    from flexact.variants import deck_rows
+    from flexact.variants.batches import deck_rows
 
     read = deck_rows.read_bytes
     monkeypatch.setattr(deck_rows, "read_bytes", stumble)

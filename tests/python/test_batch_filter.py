@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from flexact.variants.batches.deck_rows import deck_columns
+from flexact.variants.batches.filter import FilterError, filter_of
 from flexact.variants.columns import Column
-from flexact.variants.deck_rows import deck_columns
-from flexact.variants.filter import FilterError, filter_of
 
 ROW = {
     "deck": "guides/five wires.dat",

@@ -38,7 +38,7 @@ def many(tmp_path: Path) -> Path:
 #: The command, with so long a wait before each line of its journal, and no end beyond some lines.
 HELD = """\
 import sys, time
-from flexact.variants.journal import Journal
+from flexact.variants.batches.journal import Journal
 
 pause, lines, add = float(sys.argv.pop(1)), int(sys.argv.pop(1)), Journal.add
 

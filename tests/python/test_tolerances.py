@@ -11,7 +11,7 @@ from test_sweep import platform
 
 import flexact
 from flexact import Model, Verdict, analyse, tolerances
-from flexact.variants.misaligned import misaligned, spread_given
+from flexact.variants.sweeps.misaligned import misaligned, spread_given
 from flexact.variants.tolerances import Share
 
 

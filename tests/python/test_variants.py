@@ -11,8 +11,8 @@ import flexact
 from flexact.core.elements import Class
 from flexact.model.variation import positions_given
 from flexact.variants.columns import WANTS
-from flexact.variants.positions import swept
 from flexact.variants.row import row_of
+from flexact.variants.sweeps.positions import swept
 
 DECKS = Path(__file__).resolve().parents[2] / "input_decks"
 SAMPLES = (

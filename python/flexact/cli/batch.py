@@ -25,7 +25,7 @@ from flexact.engine.processors import processors
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file, require_replaceable
 from flexact.result.decompose import asked_for
-from flexact.variants.journal import Journal, JournalError
+from flexact.variants.batches.journal import Journal, JournalError
 from flexact.variants.writing import require_table
 
 #: Number of the form of the journal.

@@ -24,8 +24,8 @@ from flexact.engine.running import results_of
 from flexact.files.decks import DeckFile, FolderError
 from flexact.files.outputs import OutputError
 from flexact.result.decompose import AnalysisError
-from flexact.variants.deck_rows import first_error
-from flexact.variants.journal import Journal
+from flexact.variants.batches.deck_rows import first_error
+from flexact.variants.batches.journal import Journal
 from flexact.variants.writing import Cell, write_table
 
 #: What is counted of decks without a verdict.

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.result.outcome import Asked
+from flexact.variants.batches.deck_rows import DeckRow, deck_columns, deck_row, failed_row
+from flexact.variants.batches.filter import Test, Values, filter_of
 from flexact.variants.columns import Column
-from flexact.variants.deck_rows import DeckRow, deck_columns, deck_row, failed_row
-from flexact.variants.filter import Test, Values, filter_of
 from flexact.variants.writing import Cell
 
 if TYPE_CHECKING:

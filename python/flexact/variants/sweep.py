@@ -14,14 +14,14 @@ from ..model.model import Model
 from ..model.variation import held_given, positions_given
 from ..result.decompose import asked_for
 from ..result.outcome import Asked
-from .building import table_of, table_of_answers
-from .collecting import Work, answers_of
 from .columns import columns_of
-from .parameters import Parameters, Row, Wrong, given
-from .positions import swept
-from .source import Make, Making, Positions
+from .sweeps.building import table_of, table_of_answers
+from .sweeps.collecting import Work, answers_of
+from .sweeps.parameters import Parameters, Row, Wrong, given
+from .sweeps.positions import swept
+from .sweeps.source import Make, Making, Positions
+from .sweeps.worker import OfFunction, OfModel
 from .table import Table
-from .worker import OfFunction, OfModel
 
 _PLAIN = Asked()
 

@@ -18,15 +18,15 @@ from ..core.arrays import BoolArray
 from ..model.model import Model
 from ..result.verdict import Certainty
 from .columns import COLUMNS, ERROR, Column
-from .crossing import Crossing, Crossings
-from .crossings import crossings_of
-from .curve_plot import curve
 from .described import described, html_of, in_short
-from .map_plot import parameter_map
 from .modes import MotionArrays, StressArrays
-from .plot import chosen, finished, found_crossings
-from .signed import SignedColumns
-from .source import Source
+from .plots.curve_plot import curve
+from .plots.map_plot import parameter_map
+from .plots.plot import chosen, finished, found_crossings
+from .search.crossing import Crossing, Crossings
+from .search.crossings import crossings_of
+from .search.signed import SignedColumns
+from .sweeps.source import Source
 from .writing import write_table
 
 if TYPE_CHECKING:

@@ -20,10 +20,10 @@ from ..model.model import Model
 from ..result.verdict import Verdict
 from ..text.units import length_in_words
 from .described import per_cent, share_in_words
-from .histogram import histograms
-from .misaligned import Spread, misaligned, spread_given
-from .plot import finished, smallest_values
+from .plots.histogram import histograms
+from .plots.plot import finished, smallest_values
 from .sweep import sweep
+from .sweeps.misaligned import Spread, misaligned, spread_given
 from .table import Table
 
 if TYPE_CHECKING:

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.errors import FlexactError
-from ..base.plain_text import harmless
-from ..core.arrays import FloatArray
-from ..files.outputs import write_together
-from ..picture.files import png_bytes, svg_bytes
-from ..picture.loading import load_matplotlib
-from ..picture.make import PictureError, check_packages
-from ..result.verdict import Verdict
-from .crossing import Crossings
-from .described import described, in_short
-from .lines import varying
+from ...base.errors import FlexactError
+from ...base.plain_text import harmless
+from ...core.arrays import FloatArray
+from ...files.outputs import write_together
+from ...picture.files import png_bytes, svg_bytes
+from ...picture.loading import load_matplotlib
+from ...picture.make import PictureError, check_packages
+from ...result.verdict import Verdict
+from ..described import described, in_short
+from ..search.crossing import Crossings
+from ..search.lines import varying
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .table import Table
+    from ..table import Table
 
 #: Of errors, of doubt, and of singular places.
 ERROR_COLOUR, DOUBT_COLOUR, SINGULAR_COLOUR = "#6b7280", "#8a6a00", "#111827"

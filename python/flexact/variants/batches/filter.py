@@ -15,11 +15,11 @@ import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ..base.errors import BatchError
-from ..base.loading import load
-from ..base.plain_text import in_short
-from ..result.verdict import Certainty, Verdict
-from .columns import COLUMNS, Column
+from ...base.errors import BatchError
+from ...base.loading import load
+from ...base.plain_text import in_short
+from ...result.verdict import Certainty, Verdict
+from ..columns import COLUMNS, Column
 
 Values = Mapping[str, Any]
 Test = Callable[[Values], bool]

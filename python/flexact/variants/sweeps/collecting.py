@@ -8,9 +8,9 @@ from contextlib import closing
 from itertools import islice
 from typing import Any, NamedTuple, TypeVar
 
-from ..core.progress import Progress
-from ..engine.errors import EngineError
-from ..engine.running import results_of
+from ...core.progress import Progress
+from ...engine.errors import EngineError
+from ...engine.running import results_of
 from .parameters import Wrong
 from .worker import Answer, failed
 

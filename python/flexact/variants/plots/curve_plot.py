@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from .crossing import Crossing, Crossings
-from .lines import ROWS, lines_of
+from ...core.arrays import FloatArray
+from ..search.crossing import Crossing, Crossings
+from ..search.lines import ROWS, lines_of
 from .plot import (
     FEW_ROWS,
     SINGULAR_COLOUR,
@@ -23,7 +23,7 @@ from .plot import (
 )
 
 if TYPE_CHECKING:
-    from .table import Table
+    from ..table import Table
 
 #: Below this part of the largest a value stands at the lower edge: it is zero.
 _ZERO = 1.0e-9

@@ -8,18 +8,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..base.errors import FlexactError
-from ..result.outcome import Asked
-from ..result.result import Result, result_of
-from ..result.verdict import Verdict
+from ...base.errors import FlexactError
+from ...result.outcome import Asked
+from ...result.result import Result, result_of
+from ...result.verdict import Verdict
+from ..sweeps.parameters import Row
+from ..sweeps.source import Source, between
 from .crossing import Crossing
-from .parameters import Row
 from .roots import Zero, minimum, sign_change
 from .signed import signed_value
-from .source import Source, between
 
 if TYPE_CHECKING:
-    from .table import Table
+    from ..table import Table
 
 #: A singular value this small is not told from zero, whatever the default says.
 _ZERO = 1.0e-10
@@ -37,7 +37,7 @@ class Search(NamedTuple):
     values: tuple[float, ...]
     """Of the rows."""
     topology: int
-    """Of all of them; see `flexact.variants.signed`."""
+    """Of all of them; see `flexact.variants.search.signed`."""
 
 
 class Found(NamedTuple):

@@ -19,8 +19,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..base.errors import BatchError, reason_of
-from ..files.outputs import OutputError, keep_names, written_whole
+from ...base.errors import BatchError, reason_of
+from ...files.outputs import OutputError, keep_names, written_whole
 
 if sys.platform != "win32":
     import fcntl

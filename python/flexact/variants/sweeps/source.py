@@ -10,11 +10,11 @@ from typing import Protocol
 
 import numpy as np
 
-from ..base.frozen import Frozen
-from ..core.arrays import BoolArray, FloatArray
-from ..model.data import ModelData
-from ..model.model import Model
-from ..model.variation import with_held, with_positions
+from ...base.frozen import Frozen
+from ...core.arrays import BoolArray, FloatArray
+from ...model.data import ModelData
+from ...model.model import Model
+from ...model.variation import with_held, with_positions
 from .parameters import Row, Value
 
 Make = Callable[..., Model]

@@ -11,12 +11,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core import calls
-from ..core.arrays import FloatArray
-from ..core.elements import Class, NodeKind
-from ..model.data import ModelData
-from ..model.parts.condensing import condensed
-from ..result.decompose import AnalysisError
+from ...core import calls
+from ...core.arrays import FloatArray
+from ...core.elements import Class, NodeKind
+from ...model.data import ModelData
+from ...model.parts.condensing import condensed
+from ...result.decompose import AnalysisError
 
 #: Entries of D(c), as it is held in full, over all coordinates.
 MOST_ENTRIES = 16_000_000

@@ -8,16 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.arrays import BoolArray, FloatArray
-from ..model.data import ModelData
-from ..model.variation import with_held, with_positions
-from ..result.decompose import AnalysisError
-from ..result.outcome import Asked
-from ..result.result import Result, result_of
-from .modes import MotionArrays, StressArrays, modes_of
+from ...core.arrays import BoolArray, FloatArray
+from ...model.data import ModelData
+from ...model.variation import with_held, with_positions
+from ...result.decompose import AnalysisError
+from ...result.outcome import Asked
+from ...result.result import Result, result_of
+from ..modes import MotionArrays, StressArrays, modes_of
+from ..row import Value, error_row, in_a_line, row_of
+from ..search.signed import Signed, signed_value
 from .parameters import Row
-from .row import Value, error_row, in_a_line, row_of
-from .signed import Signed, signed_value
 from .source import Make, made_by
 
 #: Entries of D(c) up to which a sign costs little beside an analysis.

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from .columns import ERROR, Column, columns_of
-from .modes import NO_MOTIONS, NO_STRESSES
+from ..columns import ERROR, Column, columns_of
+from ..modes import NO_MOTIONS, NO_STRESSES
+from ..search.signed import columns_of_signed
+from ..table import Table
 from .parameters import Row, array_of
-from .signed import columns_of_signed
 from .source import Source
-from .table import Table
 from .worker import Answer
 
 Array = np.ndarray

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .crossing import Crossing
+from ..search.crossing import Crossing
 
 Point = tuple[float, float]
 Segment = tuple[Point, Point]

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..base.plain_text import in_short
-from ..core.arrays import FloatArray, IntArray, floats
-from ..core.elements import NodeKind
-from ..model.data import ModelData
-from ..model.model import Model
-from ..model.variation import axes_used
+from ...base.plain_text import in_short
+from ...core.arrays import FloatArray, IntArray, floats
+from ...core.elements import NodeKind
+from ...model.data import ModelData
+from ...model.model import Model
+from ...model.variation import axes_used
 
 #: A length [m] for all points; lengths by points: names, numbers of nodes, or handles; or an
 #: array of them, (nodes,) or (nodes, 3).

@@ -9,10 +9,10 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from ..base.frozen import Frozen
-from ..core.arrays import FloatArray
-from ..result.verdict import Verdict
-from .parameters import Row
+from ...base.frozen import Frozen
+from ...core.arrays import FloatArray
+from ...result.verdict import Verdict
+from ..sweeps.parameters import Row
 
 
 class Crossing(NamedTuple):

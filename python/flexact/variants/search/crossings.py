@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engine.running import results_of
-from ..result.verdict import Verdict
+from ...engine.running import results_of
+from ...result.verdict import Verdict
+from ..sweeps.source import Positions, Source
+from ..sweeps.worker import signed_or_none
 from .crossing import Crossing, Crossings
 from .lines import lines_of
 from .searches import Follow, Search, parameters_between
 from .signed import Signed, SignedColumns, columns_of_signed
-from .source import Positions, Source
-from .worker import signed_or_none
 
 if TYPE_CHECKING:
-    from .table import Table
+    from ..table import Table
 
 #: With fewer searches than this nobody is sent for.
 _FEW = 8

@@ -6,18 +6,18 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from ..base.plain_text import harmless
-from ..core.arrays import ModelArrays
-from ..core.progress import Progress
-from ..deck.reading import read_bytes
-from ..diagnostics.errors import DeckError, ProblemsError
-from ..files.decks import FolderError
-from ..result.decompose import AnalysisError
-from ..result.outcome import Asked
-from ..result.result import Result, result_of
-from .columns import ERROR, Column, columns_of
-from .row import error_row, row_of
-from .writing import Cell
+from ...base.plain_text import harmless
+from ...core.arrays import ModelArrays
+from ...core.progress import Progress
+from ...deck.reading import read_bytes
+from ...diagnostics.errors import DeckError, ProblemsError
+from ...files.decks import FolderError
+from ...result.decompose import AnalysisError
+from ...result.outcome import Asked
+from ...result.result import Result, result_of
+from ..columns import ERROR, Column, columns_of
+from ..row import error_row, row_of
+from ..writing import Cell
 
 DECK = Column("deck", str, "the deck, as it was named", "verdict")
 _SIZE = (

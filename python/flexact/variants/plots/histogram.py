@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.arrays import FloatArray
-from ..result.verdict import Verdict
+from ...core.arrays import FloatArray
+from ...result.verdict import Verdict
 from .plot import SINGULAR_COLOUR, add_legend, figure_of, label, smallest_values
 
 if TYPE_CHECKING:
-    from .table import Table
+    from ..table import Table
 
 _BINS = 48
 #: What is smaller than this part of the median is zero: it stands in the first bin.

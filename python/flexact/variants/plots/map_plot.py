@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.arrays import BoolArray, FloatArray
-from ..text.units import length_in_words
-from .crossing import Crossings
+from ...core.arrays import BoolArray, FloatArray
+from ...text.units import length_in_words
+from ..search.crossing import Crossings
 from .curves import curves_of
 from .plot import (
     SINGULAR_COLOUR,
@@ -22,7 +22,7 @@ from .plot import (
 )
 
 if TYPE_CHECKING:
-    from .table import Table
+    from ..table import Table
 
 #: A map is of cells where so large a part of them is there.
 _FULL = 0.5

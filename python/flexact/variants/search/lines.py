@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .table import Table
+    from ..table import Table
 
 #: In place of a parameter: rows are neighbours in the order in which they stand.
 ROWS = "rows"

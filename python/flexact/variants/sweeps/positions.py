@@ -15,24 +15,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..base import memory
-from ..core import calls
-from ..core.arrays import BoolArray, FloatArray
-from ..core.progress import Progress
-from ..core.raw import RawVariants
-from ..diagnostics.errors import DeckError, ModelError
-from ..model.data import ModelData
-from ..model.parts.chains import perhaps_condensed
-from ..model.variation import classes_held, with_held, with_positions
-from ..result.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
-from ..result.decompose import AnalysisError
-from ..result.margin import NOTHING, least_misalignments
-from ..result.outcome import Asked
-from ..result.result import result_of
-from ..result.sensitivity import MOST_OTHERS, MOST_WORK, MOST_ZEROS
-from ..result.verdict import Certainty, Verdict
-from .columns import columns_of
-from .row import MISSING, Value, error_row, in_a_line, row_of
+from ...base import memory
+from ...core import calls
+from ...core.arrays import BoolArray, FloatArray
+from ...core.progress import Progress
+from ...core.raw import RawVariants
+from ...diagnostics.errors import DeckError, ModelError
+from ...model.data import ModelData
+from ...model.parts.chains import perhaps_condensed
+from ...model.variation import classes_held, with_held, with_positions
+from ...result.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
+from ...result.decompose import AnalysisError
+from ...result.margin import NOTHING, least_misalignments
+from ...result.outcome import Asked
+from ...result.result import result_of
+from ...result.sensitivity import MOST_OTHERS, MOST_WORK, MOST_ZEROS
+from ...result.verdict import Certainty, Verdict
+from ..columns import columns_of
+from ..row import MISSING, Value, error_row, in_a_line, row_of
 
 Columns = dict[str, np.ndarray]
 #: So many variants at once: some milliseconds of work, and few numbers.
