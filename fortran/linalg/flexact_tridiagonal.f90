@@ -16,6 +16,8 @@ module flexact_tridiagonal
    !> Steps of inverse iteration, and what is left by good vectors, relative to the matrix.
    integer, parameter :: most_steps = 6
    real(wp), parameter :: good = 1.0e-13_wp
+   !> Unit vectors of which so much is left beside the others are told apart.
+   real(wp), parameter :: well_apart = 0.1_wp
    !> Entries of less than this part of the matrix are none.
    real(wp), parameter :: negligible = 1.0e-20_wp
 
@@ -153,7 +155,7 @@ contains
       squares = [0.0_wp, max(tiny(top), t%e**2)]
       top = bound_of(t)
       lower = -epsilon(1.0_wp)*top
-      upper = top
+      upper = min(top, [(bound_by_diagonal(t%d, number(i)), i=1, size(number))])
       ! Each number has its places evenly in its interval.
       owner = [(mod(i - 1, size(number)) + 1, i=1, lanes)]
       share = [(real((i - 1)/size(number) + 1, wp)/((lanes - owner(i))/size(number) + 2), i=1, lanes)]
@@ -171,6 +173,30 @@ contains
       type(tridiagonal_t), intent(in) :: t
       bound = maxval(abs(t%d) + [abs(t%e), 0.0_wp] + [0.0_wp, abs(t%e)])*(1 + 8*epsilon(1.0_wp))
    end function bound_of
+
+   !> Every other entry of the diagonal is a principal submatrix, whose eigenvalues in order are
+   !> no less than those of the whole (Cauchy).
+   pure real(wp) function bound_by_diagonal(d, number) result(bound)
+      real(wp), intent(in) :: d(:)
+      integer, intent(in) :: number
+      real(wp) :: smallest(lanes)
+      integer :: i, k
+
+      bound = huge(bound)
+      if (number > min(lanes, (size(d) + 1)/2)) return
+      smallest = huge(bound)
+      do i = 1, size(d), 2
+         k = number
+         if (.not. d(i) < smallest(k)) cycle
+         do while (k > 1)
+            if (.not. d(i) < smallest(k - 1)) exit
+            smallest(k) = smallest(k - 1)
+            k = k - 1
+         end do
+         smallest(k) = d(i)
+      end do
+      bound = smallest(number)*(1 + 8*epsilon(bound)) + tiny(bound)
+   end function bound_by_diagonal
 
    !> How many eigenvalues are below each place: so many pivots are negative. A pivot of zero
    !> makes the next one minus infinity, and that counts in its place.
@@ -215,7 +241,7 @@ contains
       real(wp), intent(in) :: value(:)
       real(wp), intent(out) :: basis(:, :)
       logical, intent(out) :: is_found
-      real(wp) :: z(lanes, t%n), shift(lanes), start(lanes)
+      real(wp) :: z(lanes, t%n), shift(lanes), start(lanes), apart
       integer :: step, k, i
 
       ! Lanes without a value of their own repeat the last one.
@@ -227,10 +253,20 @@ contains
          start = start - int(start)
          z(:, i) = start - 0.4_wp
       end do
+      is_found = .false.
       do step = 1, most_steps
          call iterate(t, shift, z)
-         call make_orthonormal(size(value), z)
          is_found = step > 1
+         if (is_found) is_found = largest_residual(t, z) <= good*bound_of(t)
+         if (is_found) exit
+      end do
+      call make_orthonormal(size(value), z, apart)
+      if (apart < well_apart) is_found = .false.
+      ! Vectors of equal values are kept apart, and are good if their space is.
+      do step = 1, merge(0, most_steps, is_found)
+         call iterate(t, shift, z)
+         call make_orthonormal(size(value), z, apart)
+         is_found = apart >= well_apart
          if (is_found) is_found = residual(t, z(:size(value), :)) <= good*bound_of(t)
          if (is_found) exit
       end do
@@ -239,12 +275,12 @@ contains
       basis = transpose(z(:size(value), :))
    end subroutine lowest_vectors
 
-   !> Solve with T less a shift for each lane. Without pivoting; the residual tells.
+   !> Solve with T less a shift for each lane, to unit vectors. Without pivoting; the residual tells.
    pure subroutine iterate(t, shift, z)
       type(tridiagonal_t), intent(in) :: t
       real(wp), intent(in) :: shift(lanes)
       real(wp), intent(inout) :: z(lanes, t%n)
-      real(wp) :: inverse(lanes, t%n), pivot(lanes), least
+      real(wp) :: inverse(lanes, t%n), pivot(lanes), squares(lanes), least
       integer :: i
 
       least = epsilon(1.0_wp)*bound_of(t) + tiny(least)
@@ -257,27 +293,61 @@ contains
          inverse(:, i) = 1/merge(sign(least, pivot), pivot, abs(pivot) < least)
       end do
       z(:, t%n) = z(:, t%n)*inverse(:, t%n)
+      squares = z(:, t%n)**2
       do i = t%n - 1, 1, -1
          z(:, i) = (z(:, i) - t%e(i)*z(:, i + 1))*inverse(:, i)
+         squares = squares + z(:, i)**2
+      end do
+      squares = 1/sqrt(max(squares, tiny(least)))
+      do i = 1, t%n
+         z(:, i) = squares*z(:, i)
       end do
    end subroutine iterate
 
-   !> The first k lanes orthonormal, each to those before it; the others are left.
-   pure subroutine make_orthonormal(k, z)
+   !> Of the unit vectors in the lanes the largest |T z - (z' T z) z|.
+   pure real(wp) function largest_residual(t, z) result(largest)
+      type(tridiagonal_t), intent(in) :: t
+      real(wp), intent(in) :: z(lanes, t%n)
+      real(wp) :: image(lanes, t%n), quotient(lanes), left(lanes)
+      integer :: i
+
+      quotient = 0.0_wp
+      do i = 1, t%n
+         image(:, i) = t%d(i)*z(:, i)
+         if (i > 1) image(:, i) = image(:, i) + t%e(i - 1)*z(:, i - 1)
+         if (i < t%n) image(:, i) = image(:, i) + t%e(i)*z(:, i + 1)
+         quotient = quotient + image(:, i)*z(:, i)
+      end do
+      left = 0.0_wp
+      do i = 1, t%n
+         left = max(left, abs(image(:, i) - quotient*z(:, i)))
+      end do
+      largest = maxval(left)
+   end function largest_residual
+
+   !> The first k lanes, unit vectors, orthonormal, each to those before it; the others are left.
+   !> apart: the least that was left of one.
+   pure subroutine make_orthonormal(k, z, apart)
       integer, intent(in) :: k
       real(wp), intent(inout) :: z(:, :)
-      real(wp) :: x(size(z, 2), k)
-      integer :: i, j
+      real(wp), intent(out) :: apart
+      real(wp) :: x(size(z, 2), k), norm
+      integer :: i, j, round
 
+      apart = 1.0_wp
+      x = transpose(z(:k, :))
       do i = 1, k
-         x(:, i) = z(i, :)/max(tiny(1.0_wp), maxval(abs(z(i, :))))
-         x(:, i) = x(:, i)/max(tiny(1.0_wp), sqrt(product_of(x(:, i), x(:, i))))
-         do j = 1, i - 1
-            x(:, i) = x(:, i) - product_of(x(:, j), x(:, i))*x(:, j)
+         ! Twice is enough, also for vectors that are nearly parallel.
+         do round = 1, 2
+            do j = 1, i - 1
+               x(:, i) = x(:, i) - product_of(x(:, j), x(:, i))*x(:, j)
+            end do
+            norm = sqrt(product_of(x(:, i), x(:, i)))
+            apart = min(apart, norm)
+            x(:, i) = x(:, i)/max(tiny(norm), norm)
          end do
-         x(:, i) = x(:, i)/max(tiny(1.0_wp), sqrt(product_of(x(:, i), x(:, i))))
-         z(i, :) = x(:, i)
       end do
+      z(:k, :) = transpose(x)
    end subroutine make_orthonormal
 
    !> The largest part of T z outside of the space of the columns of z'.
