@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -308,16 +309,18 @@ def _is_beam(arrays: ModelArrays) -> BoolArray:
     return made
 
 
-def _is_bendable(arrays: ModelArrays) -> np.ndarray:
-    """(elements,) beams that do not hold every bending."""
-    kind = arrays.element_kind
-    bends = np.isin(
-        role_table()[kind],
-        (
-            *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
-            *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
-        ),
-    )
-    free: np.ndarray = np.any(bends & (arrays.deformation_class.T != Class.FIXED), axis=1)
-    made: np.ndarray = _is_beam(arrays) & free
+def _is_bendable(arrays: ModelArrays) -> BoolArray:
+    """Which elements are beams that do not hold every bending, (elements,)."""
+    free = _bendings()[arrays.element_kind] & (arrays.deformation_class.T != Class.FIXED)
+    made: BoolArray = _is_beam(arrays) & free.any(axis=1)
     return made
+
+
+@cache
+def _bendings() -> BoolArray:
+    """(kinds + 1, 6) which deformations bend, by element kind."""
+    bends = (
+        *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
+        *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
+    )
+    return np.isin(role_table(), bends)
