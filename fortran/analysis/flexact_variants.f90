@@ -12,6 +12,7 @@ module flexact_variants
    use flexact_partition, only: partition_t
    use flexact_problem, only: problem_t
    use flexact_result, only: options_t, result_t, most_pairs
+   use flexact_scaling, only: scaling_t
    use flexact_sensitivity, only: sensitivity_t, find_sensitivities
    use flexact_small_problem, only: small_problem_t, make_small_problem, plain_matrix
    use flexact_zero_margins, only: zero_limits_t, find_zero_changes
@@ -87,8 +88,8 @@ contains
          ! The norm by the sum of squares is no less than the largest value.
          told = max(question%near*(scaling%error_of_bits + epsilon(1.0_wp)*side*norm2(problem%matrix)), &
                     scaling%error_of_digits)
-         reach = min(question%most_reach, question%cut_off*scaling%reach_of_digits)
       end associate
+      reach = reach_of(problem%scaling, question)
       call make_dense_gram(problem%matrix, gram)
       call is_above(gram, sum(shape(problem%matrix)), max(told, reach), is_clear)
       is_full = is_clear
@@ -109,7 +110,6 @@ contains
       type(variant_t), intent(inout) :: variant
       real(wp) :: left(size(problem%matrix, 1), most_pairs), right(size(problem%matrix, 2), most_pairs)
       type(error_t), allocatable :: error
-      integer :: k
 
       call lowest_pairs(problem%matrix, gram, variant%value, left, right, variant%pairs, error)
       if (.not. allocated(error) .and. question%with_values) &
@@ -118,16 +118,21 @@ contains
          variant%is_decided = .false.
          return
       end if
-      do k = 1, variant%pairs
-         left(:, k) = problem%scaling%row*left(:, k)
-         right(:, k) = problem%scaling%column*right(:, k)
-      end do
-      call judge(model, left(:, :variant%pairs), right(:, :variant%pairs), question, reach, variant)
+      call judge(model, problem%scaling, left(:, :variant%pairs), right(:, :variant%pairs), question, reach, variant)
    end subroutine find_values
 
-   !> What changes the values of pairs of vectors of D(c) itself, and whether digits explain one.
-   subroutine judge(model, left, right, question, reach, variant)
+   !> Values up to here may be made by digits that are missing.
+   pure real(wp) function reach_of(scaling, question)
+      type(scaling_t), intent(in) :: scaling
+      type(question_t), intent(in) :: question
+      reach_of = min(question%most_reach, question%cut_off*scaling%reach_of_digits)
+   end function reach_of
+
+   !> What changes the values of pairs of vectors of the scaled matrix, and whether digits
+   !> explain one.
+   subroutine judge(model, scaling, left, right, question, reach, variant)
       type(model_t), intent(in) :: model
+      type(scaling_t), intent(in) :: scaling
       real(wp), intent(in) :: left(:, :), right(:, :)
       type(question_t), intent(in) :: question
       real(wp), intent(in) :: reach
@@ -138,8 +143,9 @@ contains
 
       is_near = any(variant%value(:variant%pairs) <= reach)
       if (question%with_values .or. is_near) &
-         call find_sensitivities(model, left, right, reshape([(k, k, k=1, size(found))], [2, size(found)]), found, &
-                                 .not. is_near)
+         call find_sensitivities(model, spread(scaling%row, 2, size(found))*left, &
+                                 spread(scaling%column, 2, size(found))*right, &
+                                 reshape([(k, k, k=1, size(found))], [2, size(found)]), found,.not. is_near)
       variant%by_move(:size(found)) = found%by_move
       variant%by_turn(:size(found)) = found%by_turn
       variant%is_decided = .not. any(variant%value(:size(found)) <= question%cut_off*found%lift_of_digits)
@@ -152,8 +158,6 @@ contains
       type(variant_t), intent(inout) :: variant
       type(problem_t) :: problem
       type(result_t) :: result
-      real(wp), allocatable :: left(:, :), right(:, :)
-      integer :: k
 
       variant%is_decided = .false.
       call analyse(model, question%options, problem, result)
@@ -163,13 +167,8 @@ contains
       variant%pairs = size(result%pair_value)
       variant%value(:variant%pairs) = result%pair_value
       if (.not. is_clear(problem, question, result)) return
-      allocate (left, source=result%pair_stress)
-      allocate (right, source=result%pair_motion)
-      do k = 1, variant%pairs
-         left(:, k) = problem%scaling%row*left(:, k)
-         right(:, k) = problem%scaling%column*right(:, k)
-      end do
-      call judge(model, left, right, question, min(question%most_reach, question%cut_off*problem%scaling%reach_of_digits), variant)
+      call judge(model, problem%scaling, result%pair_stress, result%pair_motion, question, &
+                 reach_of(problem%scaling, question), variant)
       if (variant%is_decided .and. question%with_values) call find_other_values(model, problem, question, result, variant)
    end subroutine analyse_completely
 

@@ -91,6 +91,12 @@ def with_held(data: ModelData, held: BoolArray) -> ModelData:
     return _changed(data, replace_arrays={"deformation_class": classes_held(data, held)})
 
 
+def varied(data: ModelData, positions: FloatArray | None, held: BoolArray | None) -> ModelData:
+    """The model with its nodes at other positions, or with something else held, or both."""
+    made = data if positions is None else with_positions(data, positions)
+    return made if held is None else with_held(made, held)
+
+
 def classes_held(data: ModelData, held: BoolArray) -> IntArray:
     """(..., 6, elements) classes where these are held, (..., elements, 6)."""
     own = data.arrays.deformation_class

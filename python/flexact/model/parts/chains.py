@@ -195,13 +195,10 @@ class _Neighbours:
         self.arrays = arrays
         self.names = names
         self.next_of: dict[tuple[int, int], tuple[int, int]] = {}
-        for pair in self._joined():
+        for pair in _joined(arrays, _is_bendable(arrays)):
             if self._continue(*pair):
                 one, other = pair
                 self.next_of[one], self.next_of[other] = other, one
-
-    def _joined(self) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-        yield from _joined(self.arrays, _is_bendable(self.arrays))
 
     def _continue(self, one: tuple[int, int], other: tuple[int, int]) -> bool:
         a, (i, at_i), (j, at_j) = self.arrays, one, other

@@ -8,7 +8,6 @@ analysed here as a single model would be, so that each row says what `flexact.an
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from typing import NamedTuple
@@ -21,9 +20,10 @@ from ...core.arrays import BoolArray, FloatArray
 from ...core.progress import Progress
 from ...core.raw import RawVariants
 from ...diagnostics.errors import DeckError, ModelError
+from ...engine.processors import processors
 from ...model.data import ModelData
 from ...model.parts.chains import perhaps_condensed
-from ...model.variation import classes_held, with_held, with_positions
+from ...model.variation import classes_held, varied
 from ...result.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
 from ...result.decompose import AnalysisError
 from ...result.margin import NOTHING, least_misalignments
@@ -67,10 +67,8 @@ class _Variants(NamedTuple):
 
     def one(self, i: int) -> ModelData:
         """One of them as a model."""
-        made = self.data
-        if self.positions is not None:
-            made = with_positions(made, self.positions[i])
-        return made if self.held is None else with_held(made, self.held[i])
+        positions = None if self.positions is None else self.positions[i]
+        return varied(self.data, positions, None if self.held is None else self.held[i])
 
     def classes(self) -> np.ndarray:
         """(variants or 1, elements, 6) of deformations."""
@@ -106,7 +104,7 @@ def swept(
     made["error"] = np.full(every.number, "", object)
     # Where only positions differ, what is held does not.
     common = _perhaps_condensed(every.some(0, 1)) if held is None else None
-    threads = workers or len(os.sched_getaffinity(0))
+    threads = workers or processors()
     step = max(1, min(_MOST_AT_ONCE, -(-every.number // (4 * threads))))
     starts = range(0, every.number, step)
     room = memory.allowance() / threads
@@ -147,6 +145,21 @@ def _perhaps_condensed(some: _Variants) -> BoolArray:
 
 def _fill(some: _Variants, want: str, room: float, common: BoolArray | None, part: Columns) -> None:
     """Put what is known of some variants into their part of the columns; room: bytes."""
+    condensed = _perhaps_condensed(some) if common is None else common
+    if not condensed.all():
+        known, decided = _decided_by_core(some, want, room)
+        decided &= ~condensed
+        for name, array in known.items():
+            part[name][decided] = array[decided]
+    else:
+        decided = np.zeros(some.number, np.bool_)
+    for i in np.flatnonzero(~decided).tolist():
+        for name, value in _row(some.one(i), want).items():
+            part[name][i] = value
+
+
+def _decided_by_core(some: _Variants, want: str, room: float) -> tuple[Columns, BoolArray]:
+    """The columns that the core gives, and (variants,) for which of them they hold."""
     with_values = want != "verdict"
     own = some.data.arrays.node_value[:3].T[None]
     wishes = calls.VariantWishes(
@@ -156,13 +169,7 @@ def _fill(some: _Variants, want: str, room: float, common: BoolArray | None, par
     )
     positions = own if some.positions is None else some.positions
     raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())
-    decided = raw.decided & ~(_perhaps_condensed(some) if common is None else common)
-    found = _known(raw, with_values)
-    for name, array in found.items():
-        part[name][decided] = array[decided]
-    for i in np.flatnonzero(~decided).tolist():
-        for name, value in _row(some.one(i), want).items():
-            part[name][i] = value
+    return _known(raw, with_values), raw.decided
 
 
 def _known(raw: RawVariants, with_values: bool) -> Columns:

@@ -14,7 +14,7 @@ from ...base.frozen import Frozen
 from ...core.arrays import BoolArray, FloatArray
 from ...model.data import ModelData
 from ...model.model import Model
-from ...model.variation import with_held, with_positions
+from ...model.variation import varied
 from .parameters import Row, Value
 
 Make = Callable[..., Model]
@@ -56,11 +56,11 @@ class Positions(Frozen):
 
     def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
         """Each position on the straight line between its two places."""
-        made = self.data
+        between = None
         if self.positions is not None:
             first, last = self.positions[a], self.positions[b]
-            made = with_positions(made, first + share * (last - first))
-        return made if self.held is None else with_held(made, self.held[a])
+            between = first + share * (last - first)
+        return varied(self.data, between, None if self.held is None else self.held[a])
 
     def goes_between(self, a: int, b: int) -> bool:
         """Unless what is held differs, or nothing moves at all."""

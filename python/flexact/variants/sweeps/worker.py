@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.arrays import BoolArray, FloatArray
 from ...model.data import ModelData
-from ...model.variation import with_held, with_positions
+from ...model.variation import varied
 from ...result.decompose import AnalysisError
 from ...result.outcome import Asked
 from ...result.result import Result, result_of
@@ -66,11 +66,8 @@ class OfModel:
 
     def __call__(self, variant: tuple[FloatArray | None, BoolArray | None]) -> Answer:
         """The variant at some positions, with some deformations held."""
-        positions, held = variant
         try:
-            data = self.data if positions is None else with_positions(self.data, positions)
-            data = data if held is None else with_held(data, held)
-            return _answer(data, self.want, self.asked)
+            return _answer(varied(self.data, *variant), self.want, self.asked)
         except Exception as error:
             return failed(in_a_line(error), self.want)
 
