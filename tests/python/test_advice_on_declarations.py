@@ -10,7 +10,7 @@ from random_models import mechanism
 
 from flexact import Analysis, Model, analyse
 from flexact.advice import leverage
-from flexact.advice.advice import coordinate_of
+from flexact.advice.ways import coordinate_of
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.arrays import BoolArray, FloatArray, IntArray, floats
-from ..core.elements import Class, NodeKind
+from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from .data import ModelData
 
 
@@ -89,6 +89,40 @@ def with_held(data: ModelData, held: BoolArray) -> ModelData:
     What is declared independent stays so unless it is held.
     """
     return _changed(data, replace_arrays={"deformation_class": classes_held(data, held)})
+
+
+def with_classes(
+    data: ModelData,
+    deformations: Mapping[tuple[int, int], Class],
+    coordinates: Mapping[tuple[int, str], Class],
+) -> ModelData:
+    """The model with other classes of some deformations and coordinates.
+
+    Args:
+        data: The model.
+        deformations: Class by the number of the element and that of the deformation, from 1.
+        coordinates: Class by the number of the node and the coordinate's name, such as "rz".
+
+    Raises:
+        KeyError: there is no such element, deformation, node or coordinate.
+    """
+    arrays = data.arrays
+    of_deformation = arrays.deformation_class.copy(order="F")
+    of_coordinate = arrays.coordinate_class.copy(order="F")
+    for (element, number), given in deformations.items():
+        index = data.element_index[element]
+        if not 1 <= number <= 6 or of_deformation[number - 1, index] == Class.NONE:
+            raise KeyError((element, number))
+        of_deformation[number - 1, index] = given
+    for (node, name), given in coordinates.items():
+        index = data.node_index[node]
+        kind = int(arrays.node_kind[index])
+        axis = next((a for a in AXES[kind] if coordinate_name(kind, a) == name), None)
+        if axis is None:
+            raise KeyError((node, name))
+        of_coordinate[axis, index] = given
+    changed = {"deformation_class": of_deformation, "coordinate_class": of_coordinate}
+    return _changed(data, replace_arrays=changed)
 
 
 def varied(data: ModelData, positions: FloatArray | None, held: BoolArray | None) -> ModelData:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..advice.advice import Advice, Part, Step, on_motions, on_self_stresses
+from ..advice.ways import Part, Step, Way, on_motions, on_self_stresses
 from ..result.result import Result
 from .calls import call_in_words
 from .naming import counts_in_words, in_words, part_in_words
@@ -37,7 +37,7 @@ def lines_on_motions(result: Result) -> tuple[Line, ...]:
     return tuple(_line(result, heads[item.step], item) for item in advice)
 
 
-def _lines_on_internal(result: Result, whole: Result, advice: Advice) -> Iterator[Line]:
+def _lines_on_internal(result: Result, whole: Result, advice: Way) -> Iterator[Line]:
     """What makes each divided sheet or wire one beam, and what the verdict is then."""
     chains = [chain for chain in result.given.chains if chain.condensed_classes is None]
     names = [part_words(result.parts.of_element(chain.elements[0])) for chain in chains]
@@ -80,7 +80,7 @@ def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
     return tuple(made)
 
 
-def _line(result: Result, head: str, advice: Advice) -> Line:
+def _line(result: Result, head: str, advice: Way) -> Line:
     most = {
         Step.FREE_SUPPORT: _SUPPORTS,
         Step.DECLARE_OR_HOLD_ALL: len(advice.parts),
@@ -95,7 +95,7 @@ def _line(result: Result, head: str, advice: Advice) -> Line:
     return Line((head,), pieces, notes, advice.more).shortened(most)
 
 
-def _note(result: Result, advice: Advice, part: Part, first: bool) -> str:
+def _note(result: Result, advice: Way, part: Part, first: bool) -> str:
     """How it is done with a part: in a deck by a statement, in Python by a call."""
     if not advice.keywords:
         return ""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..advice.advice import Advice, Coordinate, Part
+from ..advice.ways import Coordinate, Part, Way
 from ..core.elements import Role
 from ..model.parts.parts import Part as NamedPart
 from ..result.outcome import Outcome
@@ -13,7 +13,7 @@ from .deformation import bending_of, part_of, role_of
 _METHODS = {"DYNX": "independent", "FIX": "fix", "RLSE": "release", "DYNE": "independent"}
 
 
-def call_in_words(result: Outcome, advice: Advice, part: Part) -> str:
+def call_in_words(result: Outcome, advice: Way, part: Part) -> str:
     """Such as `model.release("sheet 1", "in-plane bending", at="clamp 1")`.
 
     Empty where no word says it without local axes.

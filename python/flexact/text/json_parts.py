@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
-from ..advice.advice import (
-    Advice,
+from ..advice.ways import (
     Coordinate,
     Part,
     Step,
+    Way,
     on_motions,
     on_self_stresses,
 )
@@ -118,7 +118,7 @@ def advice(result: Result) -> Iterator[Entries]:
         yield from (_one_advice(result, about, item) for item in every)
 
 
-def _one_advice(result: Result, about: str, item: Advice) -> Entries:
+def _one_advice(result: Result, about: str, item: Way) -> Entries:
     return {
         "about": about,
         "removes": "all" if item.step in _ALL else "one",
@@ -140,7 +140,7 @@ def _one_advice(result: Result, about: str, item: Advice) -> Entries:
     }
 
 
-def _calls(result: Result, item: Advice) -> list[str]:
+def _calls(result: Result, item: Way) -> list[str]:
     """What does it with the first part of a model that was made in Python."""
     if result.given.source is not None or not item.keywords:
         return []

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..advice.advice import Coordinate, Part
+from ..advice.ways import Coordinate, Part
 from ..core.elements import Dual, dual_table
 from ..result.freedoms import Freedom
 from ..result.outcome import Outcome

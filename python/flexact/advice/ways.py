@@ -55,7 +55,7 @@ class Deformation(NamedTuple):
 Part = Coordinate | Deformation
 
 
-class Advice(NamedTuple):
+class Way(NamedTuple):
     """One way to remove motions or self-stresses."""
 
     step: Step
@@ -69,7 +69,7 @@ class Advice(NamedTuple):
     """Whether that takes the place of a statement that is there."""
 
 
-def on_motions(result: Result) -> Iterator[Advice]:
+def on_motions(result: Result) -> Iterator[Way]:
     """What may be declared or held so that there are fewer motions, the best first."""
     if not result.under_constrained:
         return
@@ -83,7 +83,7 @@ def on_motions(result: Result) -> Iterator[Advice]:
         yield from _if_any(_some(Step.DECLARE_OR_HOLD_ALL, every))
 
 
-def on_self_stresses(result: Result) -> Iterator[Advice]:
+def on_self_stresses(result: Result) -> Iterator[Way]:
     """What may be released, freed or taken away so that there are fewer self-stresses."""
     if not result.over_constrained:
         return
@@ -105,12 +105,12 @@ def on_self_stresses(result: Result) -> Iterator[Advice]:
 
 def _some(
     step: Step, parts: Iterable[Part], keywords: tuple[str, ...] = (), instead: bool = False
-) -> Advice:
+) -> Way:
     some = tuple(islice(parts, _MOST_PARTS + 1))
-    return Advice(step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, keywords, instead)
+    return Way(step, some[:_MOST_PARTS], len(some) > _MOST_PARTS, keywords, instead)
 
 
-def _internal(result: Result) -> Advice:
+def _internal(result: Result) -> Way:
     """What makes each divided sheet or wire one beam, as far as a deck or model does not yet."""
     numbers = result.given.arrays.element_number
     parts = tuple(
@@ -118,10 +118,10 @@ def _internal(result: Result) -> Advice:
         for element, deformations in surplus_of(result.given)
         for number in (int(numbers[element]),)
     )
-    return Advice(Step.DECLARE_INTERNAL, parts, False, ("DYNE",), instead=True)
+    return Way(Step.DECLARE_INTERNAL, parts, False, ("DYNE",), instead=True)
 
 
-def _if_any(advice: Advice) -> Iterator[Advice]:
+def _if_any(advice: Way) -> Iterator[Way]:
     if advice.parts:
         yield advice
 

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proposals: changes that were tried before they are said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple
+
+from ..base.frozen import Frozen
+from ..result.outcome import Asked
+from ..result.result import Result, result_of
+from ..result.verdict import Verdict
+from .change import Change
+
+
+class Purpose(str, Enum):
+    """What a proposal is to do."""
+
+    RELEASE = "release what is stopped twice"
+    DECLARE = "declare what moves"
+    HOLD = "hold what moves"
+    MEND = "turn a constraint that repeats another so that it stops what is free"
+    ADD_WIRE = "add a wire that stops what moves"
+
+
+class After(NamedTuple):
+    """What an analysis says of the changed mechanism."""
+
+    verdict: Verdict
+    under_constrained: int
+    over_constrained: int
+    smallest: float
+    """The smallest singular value of the scaled D(c) that is not zero."""
+
+
+@dataclass(frozen=True)
+class Proposal(Frozen):
+    """A change that was tried.
+
+    Attributes:
+        purpose: What it is to do.
+        change: What is done.
+        condition: By how much it may amplify what is off: 1 is the best [1].
+        after: What the analysis of the changed mechanism says.
+        alternatives: Other changes that symmetry makes equal to this one.
+    """
+
+    purpose: Purpose
+    change: Change
+    condition: float
+    after: After
+    alternatives: tuple[Change, ...] = ()
+
+
+def tried(result: Result, change: Change) -> After:
+    """What an analysis of the mechanism says once it is changed so.
+
+    Raises:
+        KeyError: it has no such element, deformation, node or coordinate.
+        FlexactError: the changed mechanism cannot be analysed.
+    """
+    model = change.apply(result.given)
+    after: Result = result_of(model.data, Asked(result.asked.method, result.asked.tolerance))
+    return After(
+        after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
+    )
