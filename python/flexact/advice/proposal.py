@@ -30,8 +30,8 @@ class After(NamedTuple):
     verdict: Verdict
     under_constrained: int
     over_constrained: int
-    smallest: float
-    """The smallest singular value of the scaled D(c) that is not zero."""
+    smallest: float | None
+    """The smallest singular value of the scaled D(c) that is not zero; None where all are."""
 
 
 @dataclass(frozen=True)
