@@ -14,6 +14,7 @@ from ..model.parts.parts import Part, PartKind, Parts, natural
 
 #: How many of the parts that meet at a joint its name names.
 _MOST_NAMED = 3
+_FLEXURES = (PartKind.SHEET, PartKind.WIRE)
 
 
 class Joint(NamedTuple):
@@ -27,6 +28,14 @@ class Joint(NamedTuple):
     """The parts that meet there, by name."""
     name: str
     """Its name in the model; empty without one."""
+
+    @property
+    def is_fold(self) -> bool:
+        """Whether two sheets or wires meet there, and nothing else.
+
+        Where more meet it is what they carry: a body that is a point.
+        """
+        return len(self.parts) == 2 and all(part.kind in _FLEXURES for part in self.parts)
 
     def __str__(self) -> str:
         """Its name, or what meets there."""
@@ -71,6 +80,13 @@ class Carriers:
     def inner(self) -> frozenset[int]:
         """The nodes of all insides."""
         return frozenset(node for inside in self.insides for node in inside.nodes)
+
+    @cached_property
+    def between_ends(self) -> frozenset[int]:
+        """The nodes that lie between the ends of flexures: those of insides and of folds."""
+        folds = (joint for joint in self.joints if joint.is_fold)
+        nodes = (node for joint in folds for node in (joint.position, joint.orientation))
+        return self.inner.union(node for node in nodes if node is not None)
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:

@@ -2,14 +2,15 @@
 """The basis in which motions and self-stresses are told: sparse over parts, largest entry one.
 
 It follows from names and places alone, not from numbers, ends p and q, or the sense of a width.
-Motions: as few bodies as can be, then joints, then insides of sheets and wires; of those of one
-set of bodies the translations first, then the rotations across them, about as few axes as can be.
+Motions: as few bodies as can be, then joints, then folds, then insides of sheets and wires; of
+those of one set of bodies the translations first, then the rotations across them, about as few
+axes as can be.
 Self-stresses: as few flexible parts as can be; of those of one set as few deformations.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -117,15 +118,26 @@ def internal_motions(outcome: Outcome, basis: Basis) -> int:
     """
     if not basis.vectors:
         return 0
-    inner = list(outcome.carriers.inner)
-    if not inner:
-        return 0
+    return int(np.count_nonzero(moves_within(outcome, basis, outcome.carriers.inner)))
+
+
+def moves_within(outcome: Outcome, basis: Basis, nodes: Collection[int]) -> BoolArray:
+    """(vectors,) whether each vector of a basis of the motions moves nothing but some nodes.
+
+    Args:
+        outcome: The analysis.
+        basis: The motions [m, rad].
+        nodes: Indices in the model as given.
+    """
+    if not nodes:
+        return np.zeros(basis.vectors, bool)
     node = outcome.condensed.nodes[outcome.raw.column_label[0] - 1]
-    outside = ~np.isin(node, inner)[basis.place]
+    outside = ~np.isin(node, list(nodes))[basis.place]
     largest = np.zeros(basis.vectors)
     weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
     np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
-    return int(np.count_nonzero(largest <= outcome.rounding))
+    made: BoolArray = largest <= outcome.rounding
+    return made
 
 
 def _kept(key: Key) -> Key:
@@ -249,6 +261,13 @@ def _is_undivided(pieces: Sequence[Piece]) -> bool:
     )
 
 
+def _place_in_order(piece: Piece) -> tuple[object, ...]:
+    """Few bodies first, then few joints, folds among them; insides of parts last."""
+    bodies, joints, folds, insides = piece.cost
+    joints += folds
+    return not bodies + joints, bodies, joints, insides, piece.support
+
+
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
@@ -269,7 +288,7 @@ class _MotionGroups:
         pieces = pieces_of(space, groups, costs, self._by_points)
         if _is_undivided(pieces):
             return None
-        pieces.sort(key=lambda piece: piece.cost[:2] == (0, 0))
+        pieces.sort(key=_place_in_order)
         return columns_of(pieces, space.shape[0])
 
     def _groups(self, *, one_by_one: bool) -> tuple[Groups, list[Cost], bool]:
@@ -284,10 +303,14 @@ class _MotionGroups:
         parts = self.carriers.parts
         bodies = [(body.positions + body.orientations) for body in parts.bodies]
         taken = {node for nodes in bodies for node in nodes}
-        joints = [
-            [node for node in (j.position, j.orientation) if node is not None and node not in taken]
-            for j in self.carriers.joints
-        ]
+        folds, joints = (
+            [
+                [n for n in (j.position, j.orientation) if n is not None and n not in taken]
+                for j in self.carriers.joints
+                if j.is_fold == is_fold
+            ]
+            for is_fold in (True, False)
+        )
         insides = [
             nodes
             for inside in self.carriers.insides
@@ -295,13 +318,21 @@ class _MotionGroups:
         ]
         made: list[IntArray] = []
         costs: list[Cost] = []
-        for kind, cost in ((bodies, (1, 0, 0)), (joints, (0, 1, 0)), (insides, (0, 0, 1))):
-            found = [sorted(row for node in nodes for row in place.get(node, ())) for nodes in kind]
+        for kinds in (
+            ((bodies, (1, 0, 0, 0)),),
+            ((joints, (0, 1, 0, 0)), (folds, (0, 0, 1, 0))),
+            ((insides, (0, 0, 0, 1)),),
+        ):
+            found = (
+                (sorted(row for node in nodes for row in place.get(node, ())), cost)
+                for kind, cost in kinds
+                for nodes in kind
+            )
             # Rows are in canonical order, so that this orders bodies by it, too.
-            for rows in sorted(rows for rows in found if rows):
+            for rows, cost in sorted(each for each in found if each[0]):
                 made.append(np.array(rows, np.int32))
                 costs.append(cost)
-        return made, costs, any(cost[2] for cost in costs)
+        return made, costs, any(cost[-1] for cost in costs)
 
     def _points_of(self, nodes: Iterable[int]) -> list[tuple[int, ...]]:
         """Nodes by the place where they are."""

@@ -10,6 +10,7 @@ from ..core.basis import Basis
 from .mode_basis import (
     internal_motions,
     is_large,
+    moves_within,
     motion_basis,
     scaled_motions,
     scaled_stresses,
@@ -60,3 +61,15 @@ class Spaces(Outcome):
         core gives it, it is how many of the core's vectors are so.
         """
         return internal_motions(self, self.motion_basis)
+
+    @cached_property
+    def are_between_ends(self) -> tuple[bool, ...]:
+        """Of each motion whether it moves nothing but what is between the ends of flexures.
+
+        That is insides of sheets and wires, and folds. Those that do are a basis of all such
+        motions, but of spaces so large that they are told as the core gives them.
+        """
+        if not self.motion_basis.vectors:
+            return ()
+        nodes = self.carriers.between_ends
+        return tuple(moves_within(self, self.motion_basis, nodes).tolist())
