@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Why a motion or a self-stress is there, as values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from ...base.frozen import Frozen
+from ...core.arrays import FloatArray
+from ...model.parts.parts import Part
+from ..proposal import Proposal
+
+
+class CauseKind(str, Enum):
+    """Why a motion or a self-stress is there."""
+
+    GENERIC = "generic"
+    """The count: any geometry of the same topology has it."""
+    SPECIAL = "special"
+    """This geometry: almost every other one has it not."""
+    UNKNOWN = "not looked at"
+    """No other geometry could be analysed."""
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+@dataclass(frozen=True)
+class Lift(Frozen):
+    """How fast a misalignment lifts a zero singular value of the scaled D(c), to first order.
+
+    Attributes:
+        by_move: Where the node that does it most is moved [1/m]; 0 where no node does.
+        node: Number of that node in the model as given; None where no node does.
+        by_turn: Where the element that does it most is turned about its centre [1/rad].
+        element: Number of that element, likewise.
+    """
+
+    by_move: float
+    node: int | None
+    by_turn: float
+    element: int | None
+
+    def __bool__(self) -> bool:
+        """Whether anything lifts it to first order."""
+        return self.node is not None or self.element is not None
+
+
+class RelationKind(str, Enum):
+    """What lines, points or members have in common that others have not."""
+
+    ONE_LINE = "lie along one line"
+    PARALLEL = "are parallel"
+    ONE_PLANE = "lie in one plane"
+    CONCURRENT = "meet in one point"
+    ONE_TRANSVERSAL = "all meet one line"
+    REGULUS = "are generators of one hyperboloid"
+    COMPLEX = "belong to one linear complex"
+    CIRCLE = "lie on one circle"
+    CONIC = "lie on one conic"
+    ROTATION = "a rotation takes them to each other"
+    REFLECTION = "a reflection takes them to each other"
+    POSITION = "stand in a special position"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+class LineKind(str, Enum):
+    """What the lines of a relation are."""
+
+    FORCE = "line of force"
+    AXIS = "axis"
+    MEMBER = "member"
+    JOINT = "joint"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+@dataclass(frozen=True, eq=False)
+class Relation(Frozen):
+    """What makes a geometry special.
+
+    Attributes:
+        kind: What the lines or points have in common.
+        of: What they are.
+        parts: The parts whose lines they are, by name.
+        nodes: Of joints the indices of their position nodes in the model as given.
+        direction: (3,) of the line, or of parallel lines; across a plane; of the axis of a
+            rotation; across the mirror of a reflection; zero where there is none.
+        point: (3,) on the line, in the plane, or where lines meet [m]; zero where there is none.
+        fold: How many times a rotation brings all back in one turn.
+        is_sufficient: Whether other geometries with the same relation were tried and have what
+            this one has.
+    """
+
+    kind: RelationKind
+    of: LineKind
+    parts: tuple[Part, ...]
+    nodes: tuple[int, ...]
+    direction: FloatArray
+    point: FloatArray
+    fold: int = 1
+    is_sufficient: bool = False
+
+
+@dataclass(frozen=True)
+class Cause(Frozen):
+    """Why a motion or a self-stress is there.
+
+    Attributes:
+        kind: Generic or special.
+        together: Indices of the motions, or self-stresses, among which the choice which of them
+            are special is free: a misalignment lifts so many of them, and which depends on it.
+            Empty where it is this one whatever the misalignment.
+        special: How many of them are special.
+        lift: How fast a misalignment lifts it; None of what nothing lifts, or where that was
+            not looked at.
+        is_first_order: Whether some misalignment lifts it to first order; else, of what is
+            special, some misalignment lifts it to a higher order alone.
+        relations: What makes this geometry special, the most telling first.
+    """
+
+    kind: CauseKind
+    together: tuple[int, ...] = ()
+    special: int = 0
+    lift: Lift | None = None
+    is_first_order: bool = False
+    relations: tuple[Relation, ...] = ()
+
+
+@dataclass(frozen=True)
+class Causes(Frozen):
+    """Why the motions and self-stresses of a result are there, and the mend of both.
+
+    Attributes:
+        motions: One for each of the result's motions.
+        self_stresses: One for each of its self-stresses.
+        mends: Flexures turned so that they stop what is free, tried; the best first.
+        generic_rank: The rank of D(c) in almost every other geometry of the same topology, of
+            divided sheets and wires as one beam each; None where none could be analysed.
+        trials: How many geometries were tried; 0 where none was needed.
+    """
+
+    motions: tuple[Cause, ...]
+    self_stresses: tuple[Cause, ...]
+    mends: tuple[Proposal, ...] = ()
+    generic_rank: int | None = None
+    trials: int = 0
