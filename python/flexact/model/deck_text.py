@@ -45,7 +45,7 @@ def deck_of(data: ModelData) -> str:
     # What a file is called does not stand in it.
     title = one_line(data.name) if origin is None else ""
     appearance, numbers = data.given_appearance, data.arrays.element_number
-    dynamics = _dynamics(data, comments)
+    dynamics = dynamics_of(data, comments)
     blocks = (
         [f"% {title}"] if title else comments.top,
         beside(ELEMENT, _elements(data)),
@@ -61,6 +61,20 @@ def deck_of(data: ModelData) -> str:
         [] if appearance is None else _picture(appearance, numbers),
     )
     return "\n".join(line for block in blocks for line in block) + "\n"
+
+
+def statements_of(data: ModelData) -> Iterator[tuple[tuple[str, int], str]]:
+    """What a deck says of the kinematics: keyword and number, and the statement."""
+    for keyword, statements in (
+        (ELEMENT, _elements(data)),
+        ("X", _values(data, DeckComments())),
+        ("FIX", _coordinates(data, Class.FIXED, "FIX")),
+        ("DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")),
+        ("RLSE", _deformations(data, Class.DEPENDENT, "RLSE")),
+        ("DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")),
+    ):
+        for number, statement in statements:
+            yield (keyword, number), statement
 
 
 #: A line of a statement, and the number of its element or node.
@@ -125,8 +139,8 @@ def _deformations(data: ModelData, wanted: Class, keyword: str) -> _Statements:
         yield number, " ".join(words)
 
 
-def _dynamics(data: ModelData, comments: DeckComments) -> list[str]:
-    """Stiffness and mass."""
+def dynamics_of(data: ModelData, comments: DeckComments) -> list[str]:
+    """The statements of stiffness and mass, with their comments."""
     given = data.properties
     if given is None:
         return []
