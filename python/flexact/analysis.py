@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .advising import Advice, advice_of
 from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.models import read
@@ -109,6 +111,19 @@ class Analysis(Result):
             "view": view,
         }
         save(self, Path(path), choice)
+
+    def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
+        """What is wrong and why, and steps that mend it, each analysed before it is shown.
+
+        Args:
+            body: The body whose freedom and constraint are looked at, by name.
+            wanted: Motions that are meant to be free, such as "stage: translation z"; what else
+                moves is unwanted.
+
+        Raises:
+            ModelError: no body has this name, or a text is not understood.
+        """
+        return advice_of(self, body, wanted)
 
     def describe(self) -> str:
         """The result in plain English: verdict, counts, decision, motions and self-stresses."""

@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("saving", "variants"),
+    ("advising", "saving", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )

@@ -63,14 +63,19 @@ class Bar:
 
     def show_frames(self, done: float) -> None:
         """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
+        self.show_work("drawing", done)
+
+    def show_work(self, what: str, done: float) -> None:
+        """Draw the bar of other work, of which a part from 0 to 1 is done; always wanted."""
         self._wanted = True
         if not is_watched():
             return
+        text = f"{self._deck}: {what}"
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None or done <= self._bar.n:
                 self.clear()
-                self._bar = _drawn(f"{self._deck}: drawing")
-            self._bar.set_description_str(f"{self._deck}: drawing", refresh=False)
+                self._bar = _drawn(text)
+            self._bar.set_description_str(text, refresh=False)
             self._bar.n = done
             self._bar.refresh()
 

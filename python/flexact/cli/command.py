@@ -31,6 +31,7 @@ DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
 #: The verbs, each in a module of its name.
 VERBS = {
     "analyse": "verdict, counts, motions and self-stresses of decks",
+    "advise": "what is wrong with decks and why, and steps that mend it",
     "check": "the diagnostics of decks, without analysing them",
     "batch": "a table of many decks, by all processors",
     "declare": "a deck in which every divided sheet or wire counts as one beam",

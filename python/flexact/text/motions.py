@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..core.arrays import FloatArray
@@ -37,13 +39,18 @@ def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
             for node, name, value in motion.largest(most + 1)
         )
     if motion.is_internal:
-        return (("inside ", *_parts(outcome, motion.internal_to)),)
-    length = outcome.characteristic_length
-    groups = sorted(
+        return (("inside ", *parts_in_words(outcome, motion.internal_to)),)
+    groups = largest_first(motion)
+    alone = len(groups) == 1
+    return tuple(group_in_words(outcome, group, alone) for group in groups[: most + 1])
+
+
+def largest_first(motion: Motion) -> list[BodyMotion]:
+    """Bodies that move as one, the largest motion first, then joints."""
+    length = motion.analysis.characteristic_length
+    return sorted(
         motion.bodies, key=lambda one: (one.is_joint, -round(_size(one.screw, length), 9))
     )
-    alone = len(groups) == 1
-    return tuple(_group(outcome, group, alone) for group in groups[: most + 1])
 
 
 def internal_in_words(result: Result) -> str:
@@ -68,10 +75,10 @@ def _size(screw: Screw, length: float) -> float:
     )
 
 
-def _group(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
-    """Bodies or joints and how they move."""
+def group_in_words(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
+    """Bodies or joints and how they move; without sizes where nothing else does."""
     if group.bodies:
-        names = _parts(outcome, group.bodies)
+        names = parts_in_words(outcome, group.bodies)
     else:
         numbers = outcome.given.arrays.node_number
         nodes = [
@@ -80,7 +87,7 @@ def _group(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
             if (node := joint.position if joint.position is not None else joint.orientation)
             is not None
         ]
-        names = _row([(named_node(outcome, number),) for number in nodes])
+        names = joined([(named_node(outcome, number),) for number in nodes])
     many = len(group.bodies or group.joints) > 1
     together = " together" if many else ""
     return (*names, f" {_verb(outcome, group.screw, many, alone)}{together}")
@@ -118,12 +125,13 @@ def _number(outcome: Outcome, value: float) -> str:
     return "0" if small else f"{value:.4g}"
 
 
-def _parts(outcome: Outcome, parts: tuple[Part, ...]) -> Pieces:
+def parts_in_words(outcome: Outcome, parts: tuple[Part, ...]) -> Pieces:
+    """Names of parts in a row."""
     numbers = outcome.given.arrays.element_number
-    return _row([(named_element(outcome, int(numbers[part.elements[0]])),) for part in parts])
+    return joined([(named_element(outcome, int(numbers[part.elements[0]])),) for part in parts])
 
 
-def _row(names: list[Pieces]) -> Pieces:
+def joined(names: Sequence[Pieces]) -> Pieces:
     """Such as "a, b and c"; of many the first, and how many more."""
     rest = len(names) - _MOST_NAMES
     shown = names if rest <= 0 else [*names[: _MOST_NAMES - 1], (f"{rest + 1} more",)]

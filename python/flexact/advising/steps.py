@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbered steps: changes that were tried, in words, and as models that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+from ..advice.change import Change
+from ..advice.proposal import After, Proposal, Purpose
+from ..base.frozen import Frozen
+from ..diagnostics.errors import model_error
+from ..model.model import Model
+from ..result.result import Result
+from ..text.advising.causes import mend_in_words
+from ..text.advising.releases import declaration_in_words, release_in_words
+from ..text.advising.sentences import begun, ended
+from ..text.advising.spaces import wire_in_words
+from ..text.naming import counts_in_words
+from ..text.sentences import Pieces, plain
+
+_WORDS: dict[Purpose, Callable[[Result, Proposal], Pieces]] = {
+    Purpose.MEND: mend_in_words,
+    Purpose.RELEASE: release_in_words,
+    Purpose.DECLARE: declaration_in_words,
+    Purpose.HOLD: declaration_in_words,
+    Purpose.ADD_WIRE: wire_in_words,
+}
+
+
+@dataclass(frozen=True, repr=False)
+class Step(Frozen):
+    """One way to mend a mechanism, which was analysed before it is shown.
+
+    Attributes:
+        analysis: The analysis of the mechanism as it is.
+        number: Its number, from 1, as the advice shows it.
+        proposal: What is done, and what comes of it.
+    """
+
+    analysis: Result
+    number: int
+    proposal: Proposal
+
+    @property
+    def purpose(self) -> Purpose:
+        """What it is to do."""
+        return self.proposal.purpose
+
+    @property
+    def change(self) -> Change:
+        """What is done."""
+        return self.proposal.change
+
+    @property
+    def alternatives(self) -> tuple[Change, ...]:
+        """Other changes that symmetry makes equal to this one."""
+        return self.proposal.alternatives
+
+    @property
+    def condition(self) -> float:
+        """By how much it may amplify what is off: 1 is the best [1]."""
+        return self.proposal.condition
+
+    @property
+    def after(self) -> After:
+        """What the analysis of the changed mechanism said."""
+        return self.proposal.after
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """What is done, and what the verdict is then."""
+        words = ended(begun(_WORDS[self.purpose](self.analysis, self.proposal)), "")
+        after = counts_in_words(self.after.under_constrained, self.after.over_constrained)
+        return (*words, f": then {after}.")
+
+    @property
+    def statement(self) -> str:
+        """The same as text."""
+        return plain(self.pieces)
+
+    def apply(self, choice: int = 1) -> Model:
+        """The changed model; of a deck names and comments stay.
+
+        Args:
+            choice: 1 for the step itself, from 2 on for one of the `alternatives`.
+
+        Raises:
+            ModelError: there is no such choice.
+        """
+        choices = (self.change, *self.alternatives)
+        if isinstance(choice, bool) or not isinstance(choice, int):
+            raise TypeError(f"a choice is a whole number from 1, not {type(choice).__name__}")
+        if not 1 <= choice <= len(choices):
+            there = f"choices 1 to {len(choices)}" if len(choices) > 1 else "no other choice"
+            raise model_error(
+                "no-such-choice", f"there is no choice {choice} of step {self.number}: it has {there}"
+            )
+        return choices[choice - 1].apply(self.analysis.given)
+
+    def __repr__(self) -> str:
+        """Number and words."""
+        return f"<Step {self.number}: {self.statement}>"
