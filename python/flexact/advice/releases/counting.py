@@ -10,9 +10,9 @@ import numpy as np
 from ...base.errors import FlexactError
 from ...result.result import Result
 from ..change import Change
-from ..proposal import After, tried
 from .bases import Rows, TooManyError, count_bases
 from .reach import Reach
+from .stands import standing
 
 #: Rows times vectors squared beyond which a count is not begun.
 _MOST_WORK = 2.0e9
@@ -22,13 +22,12 @@ _MOST_ROWS_ASKED = 60_000
 _OF_NOISE = 10.0
 
 
-def counted(result: Result, stands: Result, reach: Reach, left: Callable[[After], int]) -> int | None:
+def counted(stands: Result, reach: Reach, left: Callable[[Result], int]) -> int | None:
     """How many sets of rows span their space; None where there are too many to be counted.
 
     A block that the numbers leave in doubt is tried: the mechanism is changed so and analysed.
 
     Args:
-        result: The result that is asked about.
         stands: That of the deck as it stands, whose rows they are.
         reach: The rows over the null space.
         left: What is left of what is to be removed.
@@ -46,7 +45,7 @@ def counted(result: Result, stands: Result, reach: Reach, left: Callable[[After]
                 raise TooManyError
             change = joined([reach.change(int(reach.index[i])) for i in sorted(chosen)])
             try:
-                known[chosen] = left(tried(result, change)) == 0
+                known[chosen] = left(standing(stands, change.apply(stands.given).data)) == 0
             except FlexactError:
                 known[chosen] = False
         return known[chosen]

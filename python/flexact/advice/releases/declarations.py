@@ -64,7 +64,7 @@ def declarations_of(result: Result) -> Declarations:
     if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
         return Declarations(size, None, left_out=LeftOut(is_too_large=True))
     reach = reaches.of_columns(stands)
-    count = counted(result, stands, reach, lambda after: after.under_constrained)
+    count = counted(stands, reach, lambda after: after.under_constrained)
     sources = [one for one in (result, stands) if one.under_constrained == size]
     tried = Outcome((), 0, 0)
     for source in sources if stands is not result else sources[:1]:

@@ -70,7 +70,7 @@ def releases_of(result: Result) -> Releases:
     if stands.stress_space.vectors < size or not reaches.fits(stands.stress_space):
         return Releases(size, None, left_out=LeftOut(is_too_large=True))
     reach = reaches.of_rows(stands)
-    count = counted(result, stands, reach, lambda after: after.over_constrained)
+    count = counted(stands, reach, lambda after: after.over_constrained)
     tried = Outcome((), 0, 0)
     for source in _sources(result, stands):
         tried = _listed(result, source) if count != 0 else tried

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 
+from ...model.data import ModelData
 from ...model.parts.condensing import as_given
 from ...result.decompose import decompose
+from ...result.outcome import Asked
 from ...result.result import Result
 
 
@@ -17,8 +19,14 @@ def as_it_stands(result: Result) -> Result:
     Raises:
         AnalysisError: the model cannot be analysed so.
     """
-    if not result.condensed.chains:
-        return result
-    asked = result.asked._replace(prove=None)
-    raw = decompose(result.given, asked)
-    return Result(result.name, as_given(result.given), raw, asked)
+    return result if not result.condensed.chains else standing(result, result.given)
+
+
+def standing(result: Result, data: ModelData) -> Result:
+    """The result of another sound model as it stands, analysed as another one was.
+
+    Raises:
+        AnalysisError: the model cannot be analysed.
+    """
+    asked = Asked(result.asked.method, result.asked.tolerance)
+    return Result(result.name, as_given(data), decompose(data, asked), asked)
