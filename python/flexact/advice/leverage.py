@@ -49,13 +49,13 @@ def releases(result: Result) -> list[int]:
     Rows of independent deformations are not among them; see `driven_deformations`.
     """
     leverage = _leverage_of_class(result, Class.FIXED)
-    leverage = np.where(_is_releasable(result), leverage, 0.0)
+    leverage = np.where(is_releasable(result), leverage, 0.0)
     return _largest(leverage, lambda row: row_key(result, row))
 
 
 def release_set(result: Result) -> list[int]:
     """Rows of D(c) that remove all self-stresses when all of them are released."""
-    able = _is_of_class(result, Class.FIXED) & _is_releasable(result)
+    able = is_of_class(result, Class.FIXED) & is_releasable(result)
     return _independent_rows(result.stress_space, lambda row: row_key(result, row), able)
 
 
@@ -112,7 +112,7 @@ def deformations(result: Result) -> Deformations:
     return [(row // 6, row % 6 + 1) for row in order]
 
 
-def _is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
+def is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
     """(m,) whether the deformation of a row is of a class."""
     element, deformation = result.raw.row_label - 1
     is_wanted: NDArray[np.bool_] = (
@@ -121,7 +121,7 @@ def _is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
     return is_wanted
 
 
-def _is_releasable(result: Result) -> NDArray[np.bool_]:
+def is_releasable(result: Result) -> NDArray[np.bool_]:
     """(m,) whether a row is of a part that can be made soft: not of a link inside a body.
 
     Where there is nothing else, all are.
@@ -136,7 +136,7 @@ def _is_releasable(result: Result) -> NDArray[np.bool_]:
 
 def _leverage_of_class(result: Result, wanted: Class) -> FloatArray:
     """(m,) leverage in the self-stresses, zero where the deformation is of another class."""
-    return np.where(_is_of_class(result, wanted), row_norms(result.stress_space), 0.0)
+    return np.where(is_of_class(result, wanted), row_norms(result.stress_space), 0.0)
 
 
 def _with_reaction(result: Result, wanted: Class) -> Coordinates:
@@ -193,13 +193,21 @@ def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = N
     there = place >= 0
     rest = np.zeros((support.size, basis.vectors))
     rest[place[there], basis.of_entries()[there]] = basis.value[there]
-    chosen: list[int] = []
-    for _ in range(basis.vectors):
+    return [int(support[i]) for i in spanning(rest, lambda i: key(int(support[i])))]
+
+
+def spanning(rows: FloatArray, key: Key) -> list[int]:
+    """Rows of (n, k) that span the space together, each as far from those before as can be.
+
+    Fewer than k where there are not so many.
+    """
+    rest, chosen = rows.copy(), []
+    for _ in range(rows.shape[1]):
         norms = np.sqrt(np.einsum("ij,ij->i", rest, rest))
-        first = ranked(norms, 1, lambda i: key(int(support[i])))
+        first = ranked(norms, 1, key)
         if not first or norms[first[0]] < _NOTHING:
             break
         direction = rest[first[0]] / norms[first[0]]
         rest -= np.outer(rest @ direction, direction)
-        chosen.append(int(support[first[0]]))
+        chosen.append(first[0])
     return chosen

@@ -60,8 +60,19 @@ def tried(result: Result, change: Change) -> After:
         KeyError: it has no such element, deformation, node or coordinate.
         FlexactError: the changed mechanism cannot be analysed.
     """
+    return after(analysed(result, change))
+
+
+def analysed(result: Result, change: Change) -> Result:
+    """The analysis of the mechanism once it is changed so; raises as `tried`."""
     model = change.apply(result.given)
-    after: Result = result_of(model.data, Asked(result.asked.method, result.asked.tolerance))
+    made: Result = result_of(model.data, Asked(result.asked.method, result.asked.tolerance))
+    return made
+
+
+def after(result: Result) -> After:
+    """What an analysis says, in short."""
     return After(
-        after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
+        *(result.verdict, result.under_constrained, result.over_constrained),
+        result.gap.smallest_nonzero,
     )

@@ -202,14 +202,20 @@ def _inner_nodes(arrays: ModelArrays, chain: Chain) -> InnerNodes:
     )
 
 
+def as_given(data: ModelData) -> Condensed:
+    """A model in which no chain is taken for one beam."""
+    nodes, elements = data.arrays.node_number.size, data.arrays.element_number.size
+    every_node = np.arange(nodes, dtype=np.int32)
+    return Condensed(data, data, (), every_node, np.arange(elements, dtype=np.int32))
+
+
 def condensed(data: ModelData) -> Condensed:
     """The sound model in which each chain that is declared as one beam is one beam."""
-    arrays = data.arrays
-    every_node = np.arange(arrays.node_number.size, dtype=np.int32)
-    every_element = np.arange(arrays.element_number.size, dtype=np.int32)
+    whole = as_given(data)
     chains = tuple(chain for chain in data.chains if chain.condensed_classes is not None)
     if not chains:
-        return Condensed(data, data, (), every_node, every_element)
+        return whole
+    arrays, every_node, every_element = data.arrays, whole.nodes, whole.elements
     left_nodes, left_elements = every_node >= 0, every_element >= 0
     element_node, classes = arrays.element_node.copy(), arrays.deformation_class.copy()
     vector, names = arrays.element_vector.copy(), list(data.element_names)

@@ -1,0 +1,387 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How many sets of rows of a matrix are bases: sets of k rows whose k x k block is regular.
+
+The rows are taken as a matroid. It is brought to echelon form on a well-conditioned set of rows;
+what is in parallel or in series is put together, what does not hang together is counted apart,
+and the rest is divided into the bases that hold a row and those that do not (deletion and
+contraction; Oxley, Matroid Theory, 2011, ch. 3 and 5). Each leaf of that tree is a basis at
+least, so that the work is bounded by the count.
+
+An entry is taken for zero where rounding explains it, and for another number where it is far
+above that; in between somebody else is asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arrays import FloatArray
+from ...model.parts.bodies import groups_of
+
+#: Rows, by their numbers.
+Rows = frozenset[int]
+#: Whether the block of a set of k rows is regular, of which the numbers here do not tell.
+Judge = Callable[[Rows], bool]
+
+#: Up to this multiple of its error, and below this part of what it is the difference of, an
+#: entry is zero.
+_ZERO, _TINY = 10.0, 1.0e-9
+#: From this multiple of its error, and this part of what it is the difference of, it is not.
+_CLEAR, _LARGE = 1.0e3, 1.0e-4
+#: How many times a matroid that hangs together is divided.
+_MOST_DIVISIONS = 6_000
+#: Entries of an echelon form beyond which the rows are better exchanged.
+_EXCHANGED = 1.01
+_MOST_EXCHANGES = 10_000
+
+
+class TooManyError(Exception):
+    """There are more bases than can be counted."""
+
+
+class Piece(NamedTuple):
+    """Rows that count as one: how often it is in a basis or not, and rows of one such choice."""
+
+    inside: int
+    outside: int
+    taken: Rows
+    left: Rows
+
+
+@dataclass(frozen=True)
+class Echelon:
+    """Rows of a matrix in terms of some of them.
+
+    Attributes:
+        basis: (k,) numbers of the rows of the basis.
+        others: (n - k,) numbers of the others.
+        factor: (k, n - k) of each other row the multiples of the rows of the basis that it is.
+        smallest: Smallest singular value of the block of the basis.
+    """
+
+    basis: NDArray[np.integer]
+    others: NDArray[np.integer]
+    factor: FloatArray
+    smallest: float
+
+
+def echelon_of(matrix: FloatArray) -> Echelon | None:
+    """The rows of a matrix (n, k) in terms of k of them, whose block is well-conditioned.
+
+    No factor is larger than 1.01: no exchange of one row makes the block much larger. None where
+    there are no k independent rows.
+    """
+    rows, count = matrix.shape
+    rest, chosen = matrix.copy(), []
+    for _ in range(count):
+        row, column = np.unravel_index(int(np.argmax(np.abs(rest))), rest.shape) if rows else (0, 0)
+        if not rows or not abs(rest[row, column]) > 0.0:
+            return None
+        chosen.append(int(row))
+        direction = rest[row] / rest[row, column]
+        rest -= np.outer(rest[:, column], direction)
+        rest[row] = 0.0
+        rest[:, column] = 0.0
+    basis = np.array(chosen, np.int64)
+    others = np.setdiff1d(np.arange(rows), basis)
+    smallest = float(np.linalg.svd(matrix[basis], compute_uv=False)[-1]) if count else 1.0
+    if not smallest > 0.0:
+        return None
+    factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
+    for _ in range(_MOST_EXCHANGES):
+        if not factor.size:
+            break
+        i, j = np.unravel_index(int(np.argmax(np.abs(factor))), factor.shape)
+        if abs(factor[i, j]) <= _EXCHANGED:
+            break
+        basis[i], others[j] = others[j], basis[i]
+        factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
+    smallest = float(np.linalg.svd(matrix[basis], compute_uv=False)[-1]) if count else 1.0
+    return Echelon(basis, others, factor, smallest)
+
+
+def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
+    """How many sets of k rows of a matrix (n, k) have a regular block.
+
+    Args:
+        matrix: Rows of an orthonormal basis of a space.
+        error: By how much its entries may be off.
+        judge: Asked about the sets of which the numbers do not tell.
+
+    Raises:
+        TooManyError: there are more than can be counted.
+    """
+    form = echelon_of(matrix)
+    if form is None:
+        return 0
+    error /= form.smallest
+    basis = [Piece(1, 1, frozenset((i,)), frozenset()) for i in form.basis.tolist()]
+    others = [Piece(1, 1, frozenset((i,)), frozenset()) for i in form.others.tolist()]
+    if not _is_other_than_zero(form.smallest, error * form.smallest, 1.0) and not (
+        form.smallest > _ZERO * error * form.smallest
+        and judge(frozenset(form.basis.tolist()))
+    ):
+        return 0
+    errors = np.full(form.factor.shape, error)
+    start = _Minor(form.factor, errors, basis, others, frozenset())
+    return _Counter(judge).count(start.cleared(judge))
+
+
+def _is_other_than_zero(value: float, error: float, size: float) -> bool:
+    return abs(value) >= max(_CLEAR * error, _LARGE * size)
+
+
+@dataclass
+class _Minor:
+    """A matroid on pieces: those of a basis, and the others in terms of them.
+
+    Attributes:
+        factor: (k, n) as of an `Echelon`, exactly zero where it is decided so.
+        error: (k, n) by how much each may be off.
+        basis: The k pieces of the basis.
+        others: The n other pieces.
+        chosen: Rows that are in the set besides.
+    """
+
+    factor: FloatArray
+    error: FloatArray
+    basis: list[Piece]
+    others: list[Piece]
+    chosen: Rows
+
+    def exchanged(self, out: tuple[int, ...], into: tuple[int, ...]) -> Rows:
+        """The rows of the basis with some of its pieces exchanged."""
+        rows = set(self.chosen)
+        for k, piece in enumerate(self.basis):
+            rows |= piece.left if k in out else piece.taken
+        for k, piece in enumerate(self.others):
+            rows |= piece.taken if k in into else piece.left
+        return frozenset(rows)
+
+    def cleared(self, judge: Judge) -> _Minor:
+        """With zeros where entries are none."""
+        self._decide(np.ones(self.factor.shape), self.factor != 0.0, judge)
+        return self
+
+    def _decide(self, size: FloatArray, looked_at: NDArray[np.bool_], judge: Judge) -> None:
+        """Put zeros where entries are zero; they are differences of numbers of a size."""
+        value = np.abs(self.factor)
+        limit = np.minimum(_ZERO * self.error, _TINY * size)
+        is_zero = looked_at & (value <= limit)
+        is_clear = value >= np.maximum(_CLEAR * self.error, _LARGE * size)
+        for i, j in np.argwhere(looked_at & ~is_zero & ~is_clear).tolist():
+            is_zero[i, j] = not judge(self.exchanged((i,), (j,)))
+        self.factor[is_zero] = 0.0
+
+    def without(self, rows: NDArray[np.integer], columns: NDArray[np.integer]) -> _Minor:
+        """Without some pieces, of the basis and of the others, that are decided elsewhere."""
+        gone = set(rows.tolist()), set(columns.tolist())
+        basis = [piece for k, piece in enumerate(self.basis) if k not in gone[0]]
+        others = [piece for k, piece in enumerate(self.others) if k not in gone[1]]
+        left_rows = np.setdiff1d(np.arange(len(self.basis)), rows)
+        left_columns = np.setdiff1d(np.arange(len(self.others)), columns)
+        chosen = self.chosen.union(
+            *(self.basis[k].taken for k in gone[0]), *(self.others[k].left for k in gone[1])
+        )
+        some = np.ix_(left_rows, left_columns)
+        return _Minor(self.factor[some], self.error[some], basis, others, chosen)
+
+    def deleted(self, i: int, judge: Judge) -> _Minor:
+        """Without piece i of the basis, in none of the sets: another takes its place."""
+        j = int(np.argmax(np.abs(self.factor[i])))
+        pivot, off = self.factor[i, j], self.error[i, j]
+        row, column = self.factor[i] / pivot, self.factor[:, j].copy()
+        column[i] = 0.0
+        row_error = (self.error[i] + np.abs(row) * off) / abs(pivot)
+        row_error[self.factor[i] == 0.0] = 0.0
+        column_error = np.where(column != 0.0, self.error[:, j], 0.0)
+        product = np.outer(column, row)
+        made = self.factor - product
+        error = self.error + np.outer(np.abs(column), row_error)
+        error += np.outer(column_error, np.abs(row))
+        made[i], error[i] = row, row_error
+        size = np.maximum(np.abs(self.factor), np.abs(product))
+        both = (self.factor != 0.0) & (product != 0.0)
+        both[i] = False
+        basis, others = list(self.basis), list(self.others)
+        basis[i], others[j] = others[j], basis[i]
+        minor = _Minor(made, np.where(made != 0.0, error, 0.0), basis, others, self.chosen)
+        minor.error = np.maximum(minor.error, _EPSILON * size)
+        minor._decide(size, both, judge)
+        return minor.without(np.array([], np.int64), np.array([j]))
+
+
+_EPSILON = float(np.finfo(np.float64).eps)
+
+
+class _Counter:
+    """Counts the bases of minors, within a number of divisions."""
+
+    def __init__(self, judge: Judge) -> None:
+        self.judge = judge
+
+    def count(self, minor: _Minor) -> int:
+        """The weighted number of bases."""
+        product = 1
+        factor, parts = _components(minor)
+        product *= factor
+        for part in parts:
+            if product == 0:
+                break
+            self.left = _MOST_DIVISIONS
+            product *= self._connected(part)
+        return product
+
+    def _any(self, minor: _Minor) -> int:
+        product, parts = _components(minor)
+        for part in parts:
+            product *= self._connected(part)
+        return product
+
+    def _connected(self, minor: _Minor) -> int:
+        factor, minor, is_changed = self._reduced(minor)
+        if is_changed:
+            return factor * self._any(minor)
+        pieces = minor.basis + minor.others
+        held = min(minor.factor.shape)
+        if held <= 2:
+            # All pairs are independent, of the rows or of what is left out.
+            return factor * _uniform(pieces, len(minor.basis))
+        self.left -= 1
+        if self.left < 0:
+            raise TooManyError
+        i = int(np.argmin(np.count_nonzero(minor.factor, axis=1)))
+        piece = minor.basis[i]
+        with_it = piece.inside * self._any(minor.without(np.array([i]), np.array([], np.int64)))
+        without = piece.outside * self._any(minor.deleted(i, self.judge)) if piece.outside else 0
+        return factor * (with_it + without)
+
+    def _reduced(self, minor: _Minor) -> tuple[int, _Minor, bool]:
+        """With pieces in parallel and in series put together, if there are any."""
+        for is_row, merge in ((False, _in_parallel), (True, _in_series)):
+            pieces = minor.basis if is_row else minor.others
+            gone = set()
+            for i, j in self._alike(minor, is_row):
+                if i not in gone and j not in gone:
+                    pieces[i] = merge(pieces[i], pieces[j])
+                    gone.add(j)
+            if gone:
+                return 1, _merged(minor, gone, is_row), True
+        single = np.argwhere(np.count_nonzero(minor.factor, axis=0) == 1).ravel()
+        if single.size and minor.factor.size:
+            gone = set()
+            for j in single.tolist():
+                i = int(np.argmax(np.abs(minor.factor[:, j])))
+                minor.basis[i] = _in_parallel(minor.basis[i], minor.others[j])
+                gone.add(j)
+            return 1, _merged(minor, gone, False), True
+        single = np.argwhere(np.count_nonzero(minor.factor, axis=1) == 1).ravel()
+        if single.size and minor.factor.size:
+            gone = set()
+            for i in single.tolist():
+                j = int(np.argmax(np.abs(minor.factor[i])))
+                minor.others[j] = _in_series(minor.others[j], minor.basis[i])
+                gone.add(i)
+            return 1, _merged(minor, gone, True), True
+        return 1, minor, False
+
+    def _alike(self, minor: _Minor, is_row: bool) -> Iterator[tuple[int, int]]:
+        """Pairs of rows or of columns of the factors that are multiples of each other."""
+        factor = minor.factor if is_row else minor.factor.T
+        error = minor.error if is_row else minor.error.T
+        by_support: dict[bytes, list[int]] = {}
+        for k in range(len(factor)):
+            by_support.setdefault((factor[k] != 0.0).tobytes(), []).append(k)
+        for same in by_support.values():
+            for a, b in combinations(same, 2):
+                if self._is_multiple(minor, factor, error, a, b, is_row):
+                    yield a, b
+
+    def _is_multiple(
+        self, minor: _Minor, factor: FloatArray, error: FloatArray, a: int, b: int, is_row: bool
+    ) -> bool:
+        p = int(np.argmax(np.abs(factor[a]) * np.abs(factor[b])))
+        if factor[b, p] == 0.0:
+            return False
+        ratio = factor[a, p] / factor[b, p]
+        rest = np.abs(factor[a] - ratio * factor[b])
+        size = np.maximum(np.abs(factor[a]), np.abs(ratio * factor[b]))
+        ratio_error = (error[a, p] + abs(ratio) * error[b, p]) / abs(factor[b, p])
+        off = error[a] + abs(ratio) * error[b] + np.abs(factor[b]) * ratio_error
+        off = np.maximum(off, _EPSILON * size)
+        rest[p] = 0.0
+        if np.any(rest >= np.maximum(_CLEAR * off, _LARGE * size) + (size == 0.0)):
+            return False
+        doubtful = rest > np.minimum(_ZERO * off, _TINY * size)
+        for q in np.flatnonzero(doubtful).tolist():
+            out, into = ((a, b), (p, q)) if is_row else ((p, q), (a, b))
+            if self.judge(minor.exchanged(out, into)):
+                return False
+        return True
+
+
+def _in_parallel(one: Piece, other: Piece) -> Piece:
+    """Two of which a basis holds one at most."""
+    return Piece(
+        one.inside * other.outside + one.outside * other.inside,
+        one.outside * other.outside,
+        one.taken | other.left,
+        one.left | other.left,
+    )
+
+
+def _in_series(one: Piece, other: Piece) -> Piece:
+    """Two of which a basis holds one at least."""
+    return Piece(
+        one.inside * other.inside,
+        one.inside * other.outside + one.outside * other.inside,
+        one.taken | other.taken,
+        one.taken | other.left,
+    )
+
+
+def _merged(minor: _Minor, gone: set[int], is_row: bool) -> _Minor:
+    """Without pieces that were put into others."""
+    pieces = minor.basis if is_row else minor.others
+    kept = [k for k in range(len(pieces)) if k not in gone]
+    left = [pieces[k] for k in kept]
+    if is_row:
+        return _Minor(minor.factor[kept], minor.error[kept], left, minor.others, minor.chosen)
+    return _Minor(minor.factor[:, kept], minor.error[:, kept], minor.basis, left, minor.chosen)
+
+
+def _components(minor: _Minor) -> tuple[int, list[_Minor]]:
+    """What lies in every basis or in none, as a factor, and the parts that hang together."""
+    rows, columns = len(minor.basis), len(minor.others)
+    pairs = np.argwhere(minor.factor != 0.0)
+    group = groups_of(rows + columns, ((i, rows + j) for i, j in pairs.tolist()))
+    factor, parts = 1, []
+    sizes = np.bincount(group, minlength=rows + columns)
+    for k, piece in enumerate(minor.basis):
+        if sizes[group[k]] == 1:
+            factor *= piece.inside
+    for k, piece in enumerate(minor.others):
+        if sizes[group[rows + k]] == 1:
+            factor *= piece.outside
+    for one in np.flatnonzero(sizes > 1).tolist():
+        mine = group == one
+        parts.append(
+            minor.without(np.flatnonzero(~mine[:rows]), np.flatnonzero(~mine[rows:]))
+        )
+    return factor, parts
+
+
+def _uniform(pieces: list[Piece], size: int) -> int:
+    """The weighted number of sets of a size."""
+    sums = [1] + [0] * size
+    for piece in pieces:
+        for k in range(size, 0, -1):
+            sums[k] = sums[k] * piece.outside + sums[k - 1] * piece.inside
+        sums[0] *= piece.outside
+    return sums[size]

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which sets of coordinates, declared independent or held, leave no motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.frozen import Frozen
+from ...core.arrays import FloatArray, IntArray
+from ...core.elements import NodeKind
+from ...result.result import Result
+from ..proposal import Proposal, Purpose
+from . import reach as reaches
+from .candidates import candidates
+from .counting import counted
+from .kinds import tier_of_node
+from .stands import as_it_stands
+from .trying import LeftOut, Outcome, decades, listed
+
+#: How many sets of released deformations that may be held are listed.
+_MOST_HELD = 4
+
+
+@dataclass(frozen=True)
+class Declarations(Frozen):
+    """What may be declared independent, or held, so that no motion is left.
+
+    Attributes:
+        size: How many motions the deck as it stands has that nothing determines, and so how
+            many coordinates must be declared at least.
+        count: How many sets of so many columns of D(c) leave no motion when they are held;
+            None where they are too many to be counted. It is 0 where there is no motion.
+        sets: The best of them, each tried; see `declarations_of`.
+        holds: The same of released deformations that may be held, not in `count`.
+        left_out: What was not looked at.
+    """
+
+    size: int
+    count: int | None
+    sets: tuple[Proposal, ...] = ()
+    holds: tuple[Proposal, ...] = ()
+    left_out: LeftOut = LeftOut()
+
+
+def declarations_of(result: Result) -> Declarations:
+    """What may be declared independent, or held, so that no motion is left, the best first.
+
+    A set of m coordinates works exactly when the m x m block of their rows in the null space of
+    D(c) is regular. They are counted on the deck as it stands, where each beam of a divided
+    sheet is one of its own. `condition` of a proposal is the inverse of the smallest singular
+    value of its block in an orthonormal basis, with rotations compared by the characteristic
+    length. Sets of a condition within ten times the best come first, of these such of bodies,
+    then of joints, then of what is inside of sheets; displacements before rotations.
+
+    Raises:
+        AnalysisError: the deck as it stands cannot be analysed.
+    """
+    stands = as_it_stands(result)
+    size = stands.under_constrained
+    if not size:
+        return Declarations(0, 0)
+    if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
+        return Declarations(size, None, left_out=LeftOut(is_too_large=True))
+    reach = reaches.of_columns(stands)
+    count = counted(stands, reach, lambda after: after.under_constrained)
+    sources = [one for one in (result, stands) if one.under_constrained == size]
+    tried = Outcome((), 0, 0)
+    for source in sources if stands is not result else sources[:1]:
+        tried = _listed(result, source)
+        if tried.proposals:
+            break
+    holds = _holds(result) if result.under_constrained == size else Outcome((), 0, 0)
+    return Declarations(
+        *(size, count, tried.proposals, holds.proposals),
+        LeftOut(tried.untried, tried.failed),
+    )
+
+
+def _listed(result: Result, source: Result) -> Outcome:
+    reach = reaches.of_columns(source)
+    nodes = source.raw.column_label[0, reach.index] - 1
+    given = source.condensed.nodes[nodes]
+    tiers = np.array([tier_of_node(source, int(i)) for i in given], float)
+    turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
+
+    def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
+        of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
+        turning = turns[sets].sum(axis=1)[:, None]
+        return np.concatenate([decades(condition), of_sets, turning], axis=1)
+
+    return listed(result, reach, Purpose.DECLARE, candidates(reach, ranking, tiers))
+
+
+def _holds(result: Result) -> Outcome:
+    reach = reaches.of_released(result)
+    found = candidates(reach, lambda _, condition: decades(condition), np.zeros(len(reach.index)))
+    return listed(result, reach, Purpose.HOLD, found, _MOST_HELD)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which sets of deformations, released, leave no self-stress."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.frozen import Frozen
+from ...core.arrays import FloatArray, IntArray
+from ...result.result import Result
+from ..proposal import Proposal, Purpose
+from . import reach as reaches
+from .candidates import candidates
+from .cost import cost_of
+from .counting import counted
+from .kinds import tier_of_element
+from .stands import as_it_stands
+from .trying import LeftOut, Outcome, decades, listed
+
+#: How many supports that may be freed are listed.
+_MOST_SUPPORTS = 4
+
+
+@dataclass(frozen=True)
+class Releases(Frozen):
+    """What may be released so that no self-stress is left.
+
+    Attributes:
+        size: How many self-stresses the deck as it stands has, and so how many deformations
+            must be released at least.
+        count: How many sets of so many deformations of class fixed leave no self-stress when
+            they are released; None where they are too many to be counted. It is 0 where there
+            is no self-stress: nothing is to be released then, and that is no set.
+        sets: The best of them, each tried; see `releases_of`.
+        supports: The same of supports: fixed coordinates that may be freed, not in `count`.
+        left_out: What was not looked at.
+    """
+
+    size: int
+    count: int | None
+    sets: tuple[Proposal, ...] = ()
+    supports: tuple[Proposal, ...] = ()
+    left_out: LeftOut = LeftOut()
+
+
+def releases_of(result: Result) -> Releases:
+    """What may be released so that no self-stress is left, the best first.
+
+    A set of s deformations works exactly when the s x s block of their rows in the left null
+    space of D(c) is regular; they are counted on the deck as it stands, where each beam of a
+    divided sheet is one of its own. What is listed are deformations of whole sheets, at their
+    ends, as a designer would release them. `condition` of a proposal is the inverse of the
+    smallest singular value of its block in an orthonormal basis, with moments compared by the
+    characteristic length: by so much the largest self-stress can exceed what the released
+    deformations carry of it.
+
+    Where the stiffness of what is stressed is known, sets come first that cost little of it
+    (`flexact.advice.releases.cost`); else those of a condition within ten times the best,
+    flexures before bodies, and links inside of bodies last; ties go by names and places.
+
+    Raises:
+        AnalysisError: the deck as it stands cannot be analysed.
+    """
+    stands = as_it_stands(result)
+    size = stands.over_constrained
+    if not size:
+        return Releases(0, 0)
+    if stands.stress_space.vectors < size or not reaches.fits(stands.stress_space):
+        return Releases(size, None, left_out=LeftOut(is_too_large=True))
+    reach = reaches.of_rows(stands)
+    count = counted(stands, reach, lambda after: after.over_constrained)
+    tried = Outcome((), 0, 0)
+    for source in _sources(result, stands):
+        tried = _listed(result, source) if count != 0 else tried
+        if tried.proposals:
+            break
+    supports = _supports(result)
+    return Releases(
+        *(size, count, tried.proposals, supports.proposals),
+        LeftOut(tried.untried, tried.failed),
+    )
+
+
+def _sources(result: Result, stands: Result) -> list[Result]:
+    """Results whose rows are listed: of whole sheets, where they have as many self-stresses."""
+    whole = result.with_internal_declared or result
+    same = [whole] if whole.over_constrained == stands.over_constrained else []
+    return same if whole is stands else [*same, stands]
+
+
+def _listed(result: Result, source: Result) -> Outcome:
+    reach = reaches.of_rows(source)
+    elements = source.condensed.elements[source.raw.row_label[0, reach.index] - 1]
+    tiers = np.array([tier_of_element(source, int(i)) for i in elements], float)
+    cost = cost_of(source, reach)
+
+    def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
+        if cost is not None:
+            return cost(sets)[:, None]
+        of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
+        return np.concatenate([decades(condition), of_sets], axis=1)
+
+    return listed(result, reach, Purpose.RELEASE, candidates(reach, ranking, tiers))
+
+
+def _supports(result: Result) -> Outcome:
+    source = result.with_internal_declared or result
+    if source.over_constrained == 0 or not reaches.fits(source.stress_space):
+        return Outcome((), 0, 0)
+    reach = reaches.of_supports(source)
+    found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))
+    return listed(result, reach, Purpose.RELEASE, found, _MOST_SUPPORTS)

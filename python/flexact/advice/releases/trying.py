@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Candidates are tried before they are said; those that symmetry makes equal are one proposal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base.errors import FlexactError
+from ...core.arrays import FloatArray
+from ...result.result import Result
+from ..change import Change
+from ..proposal import After, Proposal, Purpose, after, analysed
+from .candidates import Candidate
+from .counting import joined
+from .kinds import kind_of
+from .reach import Reach
+
+#: How many proposals there are at most.
+MOST_SETS = 12
+#: How many others one has at most.
+_MOST_ALTERNATIVES = 11
+#: How many analyses are made of a small mechanism, and of any; and operations in all.
+_MOST_TRIES, _FEWEST_TRIES, _MOST_OPERATIONS = 60, 4, 6.0e10
+#: Singular values that differ by less than this part, or by this, are equal.
+_EQUAL, _TINY = 1.0e-6, 1.0e-9
+
+
+class Outcome(NamedTuple):
+    """What came of trying candidates."""
+
+    proposals: tuple[Proposal, ...]
+    failed: int
+    """How many did not do what they were to do."""
+    untried: int
+    """How many were left."""
+
+
+class LeftOut(NamedTuple):
+    """What was not looked at, or did not work."""
+
+    untried: int = 0
+    """Sets that look right and were not tried, of those that were looked at."""
+    failed: int = 0
+    """Sets that were tried and did not work."""
+    is_too_large: bool = False
+    """Whether there are so many self-stresses, or motions, that no sets were looked for."""
+
+
+class _Try(NamedTuple):
+    candidate: Candidate
+    change: Change
+    after: After
+    spectrum: FloatArray
+
+
+def tries_of(result: Result) -> int:
+    """How many analyses may be made."""
+    operations = float(result.rows) * result.columns * min(result.rows, result.columns)
+    return int(np.clip(_MOST_OPERATIONS / max(operations, 1.0), _FEWEST_TRIES, _MOST_TRIES))
+
+
+def decades(condition: FloatArray) -> FloatArray:
+    """(sets, 1) how many times ten each condition is worse than the best."""
+    made: FloatArray = np.floor(np.log10(condition / condition.min()) + 1.0e-6)[:, None]
+    return made
+
+
+def listed(
+    result: Result, reach: Reach, purpose: Purpose, found: list[Candidate], most: int = MOST_SETS
+) -> Outcome:
+    """The best sets of rows that work, each tried; see `proposals_of`."""
+    changes: dict[tuple[int, ...], Change] = {}
+
+    def change(candidate: Candidate) -> Change:
+        if candidate.members not in changes:
+            rows = reach.index[list(candidate.members)].tolist()
+            changes[candidate.members] = joined([reach.change(row) for row in rows])
+        return changes[candidate.members]
+
+    def kinds(candidate: Candidate) -> Hashable:
+        return kind_of(result, change(candidate))
+
+    return proposals_of(result, purpose, found, change, kinds, most)
+
+
+def proposals_of(
+    result: Result,
+    purpose: Purpose,
+    found: Sequence[Candidate],
+    change: Callable[[Candidate], Change],
+    kinds: Callable[[Candidate], Hashable],
+    most: int = MOST_SETS,
+) -> Outcome:
+    """The best candidates that work, each tried.
+
+    First one of each group that may be equal is tried, then the others of these groups: those
+    of which the singular values of the changed D(c) are equal are one proposal.
+
+    Args:
+        result: The result.
+        purpose: What they are to do.
+        found: The best first.
+        change: What a candidate is.
+        kinds: Of what kinds a candidate is; equal for those that symmetry may make equal.
+        most: How many proposals there are at most.
+    """
+    groups: dict[Hashable, list[Candidate]] = {}
+    for candidate in found:
+        groups.setdefault((candidate.rank, kinds(candidate)), []).append(candidate)
+    left, failed = tries_of(result), 0
+    works: list[_Try] = []
+    for turn in range(1 + _MOST_ALTERNATIVES):
+        for group in list(groups.values())[:most]:
+            if turn >= len(group) or left <= 0:
+                continue
+            left -= 1
+            one = _tried(result, group[turn], change(group[turn]))
+            if one is not None and _does(result, purpose, one.after):
+                works.append(one)
+            else:
+                failed += 1
+    place = {candidate.members: i for i, candidate in enumerate(found)}
+    works.sort(key=lambda one: place[one.candidate.members])
+    made = _together(purpose, works, kinds)[:most]
+    return Outcome(tuple(made), failed, len(found) - len(works) - failed)
+
+
+def _tried(result: Result, candidate: Candidate, change: Change) -> _Try | None:
+    try:
+        made = analysed(result, change)
+    except FlexactError:
+        return None
+    return _Try(candidate, change, after(made), made.scaled_singular_values)
+
+
+def _does(result: Result, purpose: Purpose, then: After) -> bool:
+    """Whether a change does all that it is to do, and no harm."""
+    if purpose is Purpose.RELEASE:
+        return then.over_constrained == 0 and then.under_constrained <= result.under_constrained
+    return then.under_constrained == 0 and then.over_constrained <= result.over_constrained
+
+
+def _together(
+    purpose: Purpose, works: Sequence[_Try], kinds: Callable[[Candidate], Hashable]
+) -> list[Proposal]:
+    made: list[list[_Try]] = []
+    for one in works:
+        equal = next((group for group in made if _are_equal(group[0], one, kinds)), None)
+        if equal is None:
+            made.append([one])
+        else:
+            equal.append(one)
+    return [
+        Proposal(
+            *(purpose, first.change, first.candidate.condition, first.after),
+            tuple(other.change for other in others),
+        )
+        for first, *others in made
+    ]
+
+
+def _are_equal(one: _Try, other: _Try, kinds: Callable[[Candidate], Hashable]) -> bool:
+    """Whether symmetry may make two sets equal."""
+    return (
+        one.candidate.rank == other.candidate.rank
+        and kinds(one.candidate) == kinds(other.candidate)
+        and one.spectrum.shape == other.spectrum.shape
+        and np.allclose(one.spectrum, other.spectrum, _EQUAL, _TINY)
+    )
