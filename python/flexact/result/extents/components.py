@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What hangs together through held deformations, with its motions and self-stresses.
+
+Coordinates of two components have no held deformation in common, at any position: a motion of
+one feels the self-stresses of that one alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.frozen import Frozen
+from ...core.arrays import FloatArray
+from ...core.basis import Basis
+from ...core.elements import Class, NodeKind
+from ..spaces import Spaces
+
+#: Of more points the diameter is not computed exactly.
+_MOST_POINTS = 1_000
+
+
+@dataclass(frozen=True, eq=False)
+class Component(Frozen):
+    """Coordinates that hang together, with the null vectors that reach them.
+
+    Attributes:
+        columns: Of D(c), ascending.
+        motions: Vectors of the space of motions that belong to it.
+        stresses: Vectors of the space of self-stresses likewise.
+        size: Extent of its nodes [m]; one where they have none.
+    """
+
+    columns: NDArray[np.integer]
+    motions: tuple[int, ...]
+    stresses: tuple[int, ...]
+    size: float
+
+
+def components_of(spaces: Spaces) -> tuple[Component, ...]:
+    """The components that move."""
+    element_of_row = spaces.raw.row_label[0] - 1
+    columns = spaces.columns
+    groups = _Groups(columns + spaces.data.arrays.element_number.size)
+    nodes, elements = _incidence(spaces)
+    node, axis = spaces.raw.column_label - 1
+    column_at = np.full((spaces.data.arrays.node_kind.size, 3), -1)
+    column_at[node, axis] = np.arange(columns)
+    for k in range(3):
+        there = column_at[nodes, k]
+        groups.join(there[there >= 0], elements[there >= 0] + columns)
+    # A vector of a basis that reaches over several makes one of them.
+    for basis, place in (
+        (spaces.motion_space, np.arange(columns)),
+        (spaces.stress_space, element_of_row + columns),
+    ):
+        where = place[basis.place]
+        first = where[np.minimum(basis.start[:-1], max(where.size - 1, 0))]
+        groups.join(where, first[basis.of_entries()] if where.size else where)
+    group = groups.found()
+    return tuple(_made(spaces, group, each) for each in _moving(spaces, group))
+
+
+def _moving(spaces: Spaces, group: NDArray[np.integer]) -> NDArray[np.integer]:
+    """The groups that have a motion."""
+    basis = spaces.motion_space
+    return np.unique(group[basis.place])
+
+
+def _made(spaces: Spaces, group: NDArray[np.integer], mine: int) -> Component:
+    columns = spaces.columns
+    place = spaces.raw.row_label[0] - 1 + columns
+    motions, stresses = spaces.motion_space, spaces.stress_space
+    elements = np.flatnonzero(group[columns:] == mine)
+    return Component(
+        np.flatnonzero(group[:columns] == mine),
+        _vectors(motions, group[motions.place] == mine),
+        _vectors(stresses, group[place[stresses.place]] == mine),
+        _size(spaces, elements),
+    )
+
+
+def _vectors(basis: Basis, chosen: NDArray[np.bool_]) -> tuple[int, ...]:
+    return tuple(np.unique(basis.of_entries()[chosen]).tolist())
+
+
+def _size(spaces: Spaces, elements: NDArray[np.integer]) -> float:
+    arrays = spaces.data.arrays
+    nodes = np.unique(arrays.element_node[:, elements])
+    nodes = nodes[nodes > 0] - 1
+    nodes = nodes[arrays.node_kind[nodes] <= NodeKind.POSITION]
+    if not nodes.size:
+        return 1.0
+    return _diameter(arrays.node_value[:3, nodes].T) or 1.0
+
+
+def _diameter(points: FloatArray) -> float:
+    """The largest distance of two points; of many one within the factor of a root of three."""
+    if points.shape[0] <= _MOST_POINTS:
+        return max(float(np.linalg.norm(points - each, axis=1).max()) for each in points)
+    far = points[np.argmax(np.linalg.norm(points - points[0], axis=1))]
+    return float(np.linalg.norm(points - far, axis=1).max())
+
+
+def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """Nodes and elements that hold something, side by side."""
+    arrays = spaces.data.arrays
+    held = (arrays.deformation_class == Class.FIXED) | (
+        arrays.deformation_class == Class.INDEPENDENT
+    )
+    slot, element = np.nonzero((arrays.element_node > 0) & held.any(axis=0))
+    return arrays.element_node[slot, element] - 1, element
+
+
+class _Groups:
+    """Numbers that are joined."""
+
+    def __init__(self, size: int) -> None:
+        self._pairs: list[tuple[NDArray[np.integer], NDArray[np.integer]]] = []
+        self._size = size
+
+    def join(self, one: NDArray[np.integer], other: NDArray[np.integer]) -> None:
+        """Join each of some with each of others, side by side."""
+        self._pairs.append((one, other))
+
+    def found(self) -> NDArray[np.integer]:
+        """(size,) the least number of the group of each."""
+        one = np.concatenate([pair[0] for pair in self._pairs])
+        other = np.concatenate([pair[1] for pair in self._pairs])
+        group = np.arange(self._size)
+        while True:
+            before = group.copy()
+            least = np.minimum(group[one], group[other])
+            # The roots of both are joined, then the ways are shortened.
+            np.minimum.at(group, group[one], least)
+            np.minimum.at(group, group[other], least)
+            np.minimum.at(group, one, least)
+            np.minimum.at(group, other, least)
+            group = group[group]
+            if np.array_equal(group, before):
+                return group

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether a motion goes on or only begins, and what says so: values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple
+
+from ...base.frozen import Frozen
+
+
+class Kind(str, Enum):
+    """Whether a motion goes on."""
+
+    FINITE = "finite"
+    """It is the velocity of a path on which all that is held stays as it is."""
+    INFINITESIMAL = "infinitesimal"
+    """It only begins: what is held is strained, of second order or higher."""
+    UNDECIDED = "undecided"
+
+
+class EvidenceKind(str, Enum):
+    """What says so."""
+
+    CERTIFIED = "certified"
+    """A theorem, whose conditions hold with a margin over rounding."""
+    FOLLOWED = "followed"
+    """The path was followed over a tenth of the size both ways."""
+    FITTED = "fitted"
+    """The least strain was measured, and its order fitted."""
+    NONE = ""
+
+
+class Reason(str, Enum):
+    """What a decision rests on, or what kept it open."""
+
+    NO_SELF_STRESS = "no self-stress"
+    """None feels the motion: what is held is independent (implicit function theorem)."""
+    DEFINITE = "definite"
+    """A combination of the self-stresses has a definite second-order form: no motion goes on."""
+    STRAINED = "strained"
+    """The second-order form of a self-stress is not zero for this motion."""
+    INDEFINITE = "indefinite"
+    """The form of the only self-stress has both signs, and is zero for this motion."""
+    PATH = "path"
+    """It was followed."""
+    ORDER = "order"
+    """The order of the least strain was fitted."""
+    ONE_WAY = "one way"
+    """It goes on one way, but not the other."""
+    STOPPED = "stopped"
+    """It was followed, but not over a tenth of the size both ways."""
+    NO_ORDER = "no order"
+    """It was not followed, and no order fits the least strain."""
+    ASIDE = "aside"
+    """The least strain is met along another motion."""
+    TOO_LARGE = "too large"
+    """So many coordinates are not followed."""
+    NOT_GIVEN = "not given"
+    """Of so large a space not all vectors are known."""
+
+
+class Fit(NamedTuple):
+    """The order of the least strain along a motion, as it was fitted."""
+
+    order: float
+    """k of t^k."""
+    spread: float
+    """What of its logarithm the fit leaves, root of the mean square [1]."""
+    decades: float
+    """Powers of ten of the strain over which it was fitted, all above rounding."""
+
+
+@dataclass(frozen=True)
+class Extent(Frozen):
+    """Whether a motion goes on or only begins.
+
+    Attributes:
+        kind: "finite", "infinitesimal" or "undecided".
+        evidence: "certified", "followed", "fitted", or "" where it is undecided.
+        reason: What it rests on, or what kept it open.
+        reach: How far it was followed backwards and forwards, lengths of the path [m]: of the
+            largest displacement, or rotation times `size`; None where it was not tried.
+        residual: The largest deformation that is held on that path, or where it was least,
+            as a part of `size`; None where it was not tried.
+        size: Of what hangs together and moves [m].
+        curvature: Of its second-order form [1]: a unit of the motion strains what is held by
+            at least about half of this times its square; None where that is not known.
+        fit: The order of the least strain; None where it was not fitted.
+    """
+
+    kind: Kind
+    evidence: EvidenceKind
+    reason: Reason
+    reach: tuple[float, float] | None = None
+    residual: float | None = None
+    size: float = 0.0
+    curvature: float | None = None
+    fit: Fit | None = None
+
+
+@dataclass(frozen=True)
+class Branch(Frozen):
+    """A path, or a surface of paths, that motions together begin.
+
+    Attributes:
+        dimension: Of the positions that are reached.
+        shares: (motions,) of the told motions in the direction in which it was met.
+    """
+
+    dimension: int
+    shares: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Extents(Frozen):
+    """Which motions of an analysis go on.
+
+    Attributes:
+        motions: One for each of `Result.motions`.
+        finite_dimension: The dimension of the positions near the reference that can be reached
+            without strain; None where it was not decided.
+        branches: Where several motions go on together only, along which.
+    """
+
+    motions: tuple[Extent, ...]
+    finite_dimension: int | None
+    branches: tuple[Branch, ...] = ()

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Second-order forms of self-stresses on motions, and whether one of them is definite.
+
+The form of a self-stress u is q(v) = d/dt u' D(x + t v) v: along any path that begins with v,
+u' e begins with t**2 q(v) / 2, since u' D = 0. On a path of positions without strain it is zero.
+If a combination of the forms is definite on all motions, none of them goes on: prestress
+stability (Pellegrino and Calladine, Int. J. Solids Structures 22, 1986; Salerno, Int. J.
+Numer. Methods Eng. 35, 1992; Connelly and Whiteley, SIAM J. Discrete Math. 9, 1996).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+from .held import Held
+
+#: Steps of the central differences, in parts of the size; the best of their table is taken.
+_STEPS = 0.02 * 0.25 ** np.arange(5)
+#: A value is told from zero where it is this multiple of its error, and this part of the terms
+#: that it is the sum of.
+_CLEARLY, _PART = 1.0e3, 1.0e-9
+#: Steps of the search for a definite combination.
+_MOST_STEPS = 300
+
+
+class Forms(NamedTuple):
+    """The second-order forms of some self-stresses on some motions."""
+
+    matrix: FloatArray
+    """(s, N, N) symmetric."""
+    error: float
+    """Below this an entry may be error."""
+
+    def of(self, motion: FloatArray) -> FloatArray:
+        """(s,) of a motion, (N,)."""
+        return np.asarray(np.einsum("ijk,j,k->i", self.matrix, motion, motion))
+
+    def along(self, motion: FloatArray) -> FloatArray:
+        """(s, N) derivatives at a motion, halved."""
+        return np.asarray(self.matrix @ motion)
+
+
+def forms_of(held: Held, explained: float) -> Forms:
+    """The forms of all self-stresses on all motions.
+
+    Args:
+        held: The deformations that are held.
+        explained: What part of a form the rounding of the geometry may make.
+    """
+    many = held.motions.shape[1]
+    rates, errors = zip(*(_rate(held, held.motions[:, j]) for j in range(many)), strict=True)
+    matrix = np.stack(rates, axis=1)
+    skew = np.abs(matrix - np.swapaxes(matrix, 1, 2)).max(initial=0.0)
+    size = np.abs(matrix).max(initial=0.0)
+    error = _CLEARLY * max(*errors, float(skew)) + (_PART + explained) * max(float(size), 1.0)
+    return Forms((matrix + np.swapaxes(matrix, 1, 2)) / 2.0, error)
+
+
+def _rate(held: Held, motion: FloatArray) -> tuple[FloatArray, float]:
+    """(s, N) d/dt u' D(x + t v) v by differences, and their error (Ridders, Richardson)."""
+    best, error = None, np.inf
+    before: list[FloatArray] = []
+    for step in _STEPS.tolist():
+        ahead, behind = (
+            held.pressed(held.moved(held.reference, sign * step * motion)) for sign in (1.0, -1.0)
+        )
+        now = [(ahead - behind) / (2.0 * step)]
+        for k, other in enumerate(before):
+            factor = 16.0 ** (k + 1)
+            now.append((factor * now[-1] - other) / (factor - 1.0))
+            off = max(float(np.abs(now[-1] - now[-2]).max()), float(np.abs(now[-1] - other).max()))
+            if off < error:
+                best, error = now[-1], off
+        if best is None:
+            best = now[0]
+        before = now
+    return np.asarray(best), error
+
+
+class Combination(NamedTuple):
+    """A combination of forms, of unit norm."""
+
+    shares: FloatArray
+    """(s,)."""
+    eigenvalues: FloatArray
+    """(N,) ascending."""
+
+
+def most_definite(forms: Forms) -> Combination:
+    """The combination whose smallest eigenvalue is the largest that was found.
+
+    The smallest eigenvalue is a concave function of the shares, which steps along its
+    supergradients climb.
+    """
+    many = forms.matrix.shape[0]
+    traces = np.trace(forms.matrix, axis1=1, axis2=2)
+    best: Combination | None = None
+    starts = [traces, *np.eye(many), *-np.eye(many)] if many > 1 else [np.ones(1), -np.ones(1)]
+    for start in starts:
+        size = np.linalg.norm(start)
+        if not size > 0.0:
+            continue
+        found = _climbed(forms, start / size)
+        if best is None or found.eigenvalues[0] > best.eigenvalues[0]:
+            best = found
+        if best.eigenvalues[0] > forms.error:
+            break
+    assert best is not None
+    return best
+
+
+def _climbed(forms: Forms, shares: FloatArray) -> Combination:
+    best = _combined(forms, shares)[0]
+    if shares.size == 1:
+        return best
+    for k in range(_MOST_STEPS):
+        now, vectors = _combined(forms, shares)
+        if now.eigenvalues[0] > best.eigenvalues[0]:
+            best = now
+        # The mean over the lowest eigenvectors, weighted by how low they are.
+        spread = np.abs(now.eigenvalues).max() / (4.0 + k / 4.0)
+        weight = np.exp(-(now.eigenvalues - now.eigenvalues[0]) / max(spread, 1.0e-300))
+        slope = np.einsum("ijk,jl,kl,l->i", forms.matrix, vectors, vectors, weight / weight.sum())
+        size = np.linalg.norm(slope)
+        if not size > 0.0:
+            break
+        shares = shares + slope / size / (1.0 + k / 4.0)
+        shares = shares / np.linalg.norm(shares)
+    return best
+
+
+def _combined(forms: Forms, shares: FloatArray) -> tuple[Combination, FloatArray]:
+    values, vectors = np.linalg.eigh(np.tensordot(shares, forms.matrix, 1))
+    return Combination(shares, values), np.asarray(vectors)

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The held deformations of a model as functions of the coordinates that may change, eq. (5).
+
+Held are those that are fixed and those that are independent; the dependent coordinates change.
+Displacements and deformations that are lengths count by the model's size, so that rotations
+compare with them. Positions are about the model's middle where it is far from the origin: there
+too few digits are left for differences.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ...base.frozen import Frozen
+from ...core import calls
+from ...core.arrays import FloatArray, ModelArrays, packed
+from ...core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
+from ...core.raw import RawAssembly
+from ...model.configuration import Configuration
+from ...model.data import ModelData
+from ..velocities import Velocities
+
+#: More coordinates than these are not followed: each step solves a dense system.
+MOST_COORDINATES = 2_000
+#: A length below this part of its own at first is none; a sine above this is no bending.
+_NO_LENGTH = 1.0e-6
+_NO_BENDING = 0.999
+
+_BENDINGS = (
+    *(Role.BENDING_XZ_P, Role.BENDING_XZ_Q, Role.BENDING_XY_P, Role.BENDING_XY_Q),
+    *(Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
+)
+
+
+def is_followed(data: ModelData, most: int = MOST_COORDINATES) -> bool:
+    """Whether a model is small enough for its motions to be followed."""
+    return 0 < int(np.count_nonzero(data.arrays.coordinate_class == Class.DEPENDENT)) <= most
+
+
+@dataclass(frozen=True, eq=False)
+class Place(Frozen):
+    """Where the nodes are, and what is held there.
+
+    Attributes:
+        configuration: Of the nodes, as `Held` has them: in its unit, about its middle.
+        error: (m,) the held deformations, lengths by the size, angles in radians.
+        jacobian: (m, n) their derivatives with respect to what led here.
+    """
+
+    configuration: Configuration
+    error: FloatArray
+    jacobian: FloatArray
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether all is defined here."""
+        return bool(np.isfinite(self.error).all() and np.isfinite(self.jacobian).all())
+
+    @property
+    def residual(self) -> float:
+        """The largest held deformation."""
+        return float(np.abs(self.error).max(initial=0.0))
+
+
+class _Sizes(NamedTuple):
+    """What the model is measured by."""
+
+    size: float
+    """Diagonal of the box round all positions [m]; 1 where they are one point."""
+    unit: float
+    """The power of two next to it [m]: nothing is rounded when it is divided by."""
+    middle: FloatArray
+    """(3,) what is taken off all positions [m]."""
+
+
+class Held:
+    """The held deformations of a model."""
+
+    def __init__(self, data: ModelData) -> None:
+        """Take the classes of a sound model as they are."""
+        self.data = data
+        self.sizes = _sizes_of(data.arrays)
+        self.arrays = _within(data.arrays, self.sizes)
+        self._packed = packed(self.arrays)
+        classes = self.arrays.deformation_class
+        held = (classes == Class.FIXED) | (classes == Class.INDEPENDENT)
+        self.rows = np.flatnonzero(held.T.ravel())
+        self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
+        self._turning = np.flatnonzero(self.arrays.node_kind == NodeKind.ORIENTATION)
+        by_size = self.sizes.size / self.sizes.unit
+        turns = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
+        self._row_factor = np.where(turns, 1.0, 1.0 / by_size)
+        placed = self.arrays.node_kind[self.columns // 3] <= NodeKind.POSITION
+        self._column_factor = np.where(placed, by_size, 1.0)
+        place = np.full(classes.size, -1)
+        place[self.rows] = np.arange(self.rows.size)
+        self._row_place = place
+        place = np.full(self.arrays.coordinate_class.size, -1)
+        place[self.columns] = np.arange(self.columns.size)
+        self._column_place = place
+
+    @property
+    def size(self) -> float:
+        """Diagonal of the box round all positions [m]; 1 where they are one point."""
+        return self.sizes.size
+
+    @property
+    def reference(self) -> Configuration:
+        """Where the model was analysed."""
+        return Configuration(self.arrays.node_kind, self.arrays.node_value.T)
+
+    def outside(self, here: Configuration) -> Configuration:
+        """A configuration where the model stands, in metres."""
+        value = here.value.copy()
+        placed = here.kinds <= NodeKind.POSITION
+        axes = 2 if self.data.planar else 3
+        value[placed, :3] *= self.sizes.unit
+        value[placed, :axes] += self.sizes.middle[:axes]
+        return Configuration(here.kinds, value)
+
+    def inside(self, there: Configuration) -> Configuration:
+        """The other way round."""
+        value = there.value.copy()
+        placed = there.kinds <= NodeKind.POSITION
+        axes = 2 if self.data.planar else 3
+        value[placed, :axes] -= self.sizes.middle[:axes]
+        value[placed, :3] /= self.sizes.unit
+        return Configuration(there.kinds, value)
+
+    def direction(self, motion: Velocities) -> FloatArray:
+        """(n,) a motion: displacements by the size, rotations in radians."""
+        both = (motion.displacement / self.size + motion.rotation).ravel()
+        return np.asarray(both[self.columns])
+
+    def at(self, here: Configuration, change: FloatArray | None = None) -> Place:
+        """The held deformations after a change (n,) of the coordinates, as a `direction`.
+
+        The derivatives are with respect to the change.
+        """
+        if change is None or not change.any():
+            return Place(here, *self._assembled(here))
+        delta = np.zeros((self.arrays.node_kind.size, 3))
+        delta.ravel()[self.columns] = change * self._column_factor
+        there = here.moved(delta)
+        error, jacobian = self._assembled(there)
+        if self._turning.size:
+            jacobian = jacobian @ self._turn_of(delta)
+        return Place(there, error, jacobian)
+
+    def _turn_of(self, delta: FloatArray) -> FloatArray:
+        """(n, n) small rotations made by a change of rotation vectors, exp(T dv) exp(v)."""
+        made = np.eye(self.columns.size)
+        block = _left_jacobian(delta[self._turning])
+        for node, turn in zip(self._turning.tolist(), block, strict=True):
+            place = self._column_place[3 * node : 3 * node + 3]
+            there = place >= 0
+            made[np.ix_(place[there], place[there])] = turn[np.ix_(there, there)]
+        return made
+
+    def _assembled(self, here: Configuration) -> tuple[FloatArray, FloatArray]:
+        raw = self._raw(here)
+        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
+        there = (row >= 0) & (column >= 0)
+        m, n = self.rows.size, self.columns.size
+        place = row[there] * n + column[there]
+        flat = np.bincount(place, raw.value[there], m * n).astype(np.float64)
+        error = raw.deformation.T.ravel()[self.rows] * self._row_factor
+        return error, self._row_factor[:, None] * flat.reshape(m, n) * self._column_factor
+
+    def _raw(self, here: Configuration) -> RawAssembly:
+        return calls.assemble(self._packed, here.value.T, np.zeros(self.arrays.element_number.size))
+
+    def scaled(self, here: Configuration) -> FloatArray:
+        """(m, n) the matrix on which rank is decided, theory.md (2).
+
+        One length, the geometric mean of all that are not zero, for all connected components.
+        """
+        raw, many = self._raw(here), self.arrays.coordinate_class.size
+        row = self._row_place[raw.row_of]
+        there = row >= 0
+        flat = np.bincount(
+            row[there] * many + raw.column_of[there], raw.value[there], self.rows.size * many
+        )
+        full = flat.astype(np.float64).reshape(self.rows.size, many)
+        full[:, np.repeat(self.arrays.node_kind > NodeKind.POSITION, 3)] /= self._mean_length
+        norm = np.linalg.norm(full, axis=1, keepdims=True)
+        return np.asarray(full[:, self.columns] / np.where(norm > 0.0, norm, 1.0))
+
+    @cached_property
+    def _lengths(self) -> FloatArray:
+        return calls.find_frames(self._packed).length
+
+    @cached_property
+    def _mean_length(self) -> float:
+        positive = self._lengths[self._lengths > 0.0]
+        return math.exp(float(np.log(positive).mean())) if positive.size else 1.0
+
+    def beyond(self, here: Configuration) -> tuple[int, str] | None:
+        """An element that has left its range, from 0, and why; None where all are within.
+
+        "length": its ends are at one point. "bending": an end of a beam is turned at right
+        angles to the line between its ends.
+        """
+        value, nodes = here.value[:, :3], self.arrays.element_node - 1
+        apart = np.linalg.norm(value[nodes[2]] - value[nodes[0]], axis=1)
+        gone = (self._lengths > 0.0) & (apart < _NO_LENGTH * self._lengths) & (nodes[2] >= 0)
+        if gone.any():
+            return int(np.argmax(gone)), "length"
+        roles = role_table()[self.arrays.element_kind]
+        bends = np.isin(roles, _BENDINGS).T
+        bent = np.abs(self._raw(here).deformation) > _NO_BENDING * self._lengths
+        over = (bends & bent).any(axis=0)
+        return (int(np.argmax(over)), "bending") if over.any() else None
+
+
+def _left_jacobian(vector: FloatArray) -> FloatArray:
+    """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
+    angle = np.linalg.norm(vector, axis=1)[:, None, None]
+    cross = np.zeros((len(vector), 3, 3))
+    x, y, z = vector.T
+    cross[:, 0, 1], cross[:, 0, 2], cross[:, 1, 2] = -z, y, -x
+    cross -= np.swapaxes(cross, 1, 2)
+    small = angle < 1.0e-4
+    safe = np.where(small, 1.0, angle)
+    first = np.where(small, 0.5 - angle**2 / 24, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
+    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+
+
+def _sizes_of(arrays: ModelArrays) -> _Sizes:
+    placed = arrays.node_kind <= NodeKind.POSITION
+    there = arrays.node_value[:3, placed]
+    if not there.size:
+        return _Sizes(1.0, 1.0, np.zeros(3))
+    low, high = there.min(axis=1), there.max(axis=1)
+    size = float(np.linalg.norm(high - low)) or 1.0
+    unit = 2.0 ** round(math.log2(size))
+    middle = low / 2 + high / 2
+    # Near the origin the numbers are best left as they were typed.
+    return _Sizes(size, unit, np.where(np.abs(middle) > size, middle, 0.0))
+
+
+def _within(arrays: ModelArrays, sizes: _Sizes) -> ModelArrays:
+    placed = arrays.node_kind <= NodeKind.POSITION
+    value = arrays.node_value.copy(order="F")
+    value[:3, placed] = (value[:3, placed] - sizes.middle[:, None]) / sizes.unit
+    return arrays._replace(node_value=value)
