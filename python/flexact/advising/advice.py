@@ -11,11 +11,13 @@ from typing import Any, overload
 from ..advice.causes.cause import Causes
 from ..advice.causes.causes import causes_of
 from ..advice.proposal import Proposal, Purpose
-from ..advice.releases import Declarations, Releases, declarations_of, releases_of
-from ..advice.spaces import Spaces, spaces_of
+from ..advice.releases.declarations import Declarations, declarations_of
+from ..advice.releases.releases import Releases, releases_of
+from ..advice.spaces.spaces import Spaces, spaces_of
 from ..base.frozen import Frozen
 from ..core.progress import Progress
-from ..result.extents import Extents, extents_of
+from ..result.extents.decide import extents_of
+from ..result.extents.extent import Extents
 from ..result.result import Result
 from .describe import describe, html_of
 from .json_advice import dictionary_of
@@ -93,8 +95,8 @@ class Advice(Frozen, Sequence[Step]):
 
     def _proposals(self) -> Iterator[Proposal]:
         yield from self.causes.mends
-        yield from self.releases.sets
-        yield from self.declarations.sets
+        yield from (*self.releases.sets, *self.releases.supports)
+        yield from (*self.declarations.sets, *self.declarations.holds)
         if self.spaces is not None:
             yield from self.spaces.proposals
 

@@ -8,11 +8,14 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from ..base.plain_text import harmless
+from ..result.verdict import Verdict
 from ..text.advising.spaces import spaces_lines
 from ..text.describe import MOST_MODES, verdict_in_words
+from ..text.advising.motions import together_in_words
 from ..text.motions import internal_in_words
 from ..text.naming import counted
 from ..text.sentences import Line, Pieces, filled, sentence
+from .left_out import left_out
 from .steps import Step
 
 if TYPE_CHECKING:
@@ -29,7 +32,10 @@ def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
         advice: The advice.
         most: How many steps are given one by one; None: all.
     """
-    sections = (_verdict(advice), _motions(advice), _stresses(advice), _steps(advice, most), _spaces(advice))
+    sections = (
+        *(_verdict(advice), _motions(advice), _stresses(advice)),
+        *(_steps(advice, most), _spaces(advice)),
+    )
     blocks = ("\n".join(section) for section in map(list, sections) if section)
     return "\n\n".join(blocks)
 
@@ -52,39 +58,43 @@ def _verdict(advice: Advice) -> Iterator[str]:
 
 
 def _motions(advice: Advice) -> Iterator[str]:
-    result = advice.analysis
-    count = result.under_constrained
+    count = advice.analysis.under_constrained
     if not count:
         return
-    yield f"Motion{'s' * (count > 1)} that nothing stops" 
-    internal = internal_in_words(result)
-    if internal:
-        yield filled(sentence(f"  {internal}"))
+    yield "What nothing stops"
     told = [each for each in advice.motions if not each.motion.is_internal]
     yield from _numbered([(each.motion.index + 1, each.pieces) for each in told[:MOST_MODES]])
-    if len(told) > MOST_MODES:
-        yield f"  ... and {counted(len(told) - MOST_MODES, 'more motion', '', 's')}"
+    yield from _more(len(told) - MOST_MODES, "motion", "s")
+    if internal := internal_in_words(advice.analysis):
+        yield filled(sentence(f"  {internal}"))
+    if len(told) > 1 and (together := together_in_words(advice.analysis, advice.extents)):
+        yield filled(sentence(f"  {together}"))
 
 
 def _stresses(advice: Advice) -> Iterator[str]:
-    count = advice.analysis.over_constrained
-    if not count:
-        return
-    yield f"What is stopped twice: {counted(count, 'self-stress', '', 'es')}"
     told = advice.self_stresses
+    if not told:
+        return
+    yield "What is stopped twice"
     yield from _numbered([(each.stress.index + 1, each.pieces) for each in told[:MOST_MODES]])
-    if count > MOST_MODES:
-        yield f"  ... and {counted(count - MOST_MODES, 'more self-stress', '', 'es')}"
+    yield from _more(advice.analysis.over_constrained - MOST_MODES, "self-stress", "es")
+
+
+def _more(count: int, what: str, ending: str) -> Iterator[str]:
+    if count > 0:
+        yield f"  ... and {counted(count, f'more {what}', '', ending)}"
 
 
 def _steps(advice: Advice, most: int | None) -> Iterator[str]:
     shown: Sequence[Step] = advice.steps[:most]
-    if not shown:
-        return
-    yield f"Way{'s' * (len(advice) > 1)} to mend it, each of them analysed"
-    yield from _numbered([(step.number, step.pieces) for step in shown])
-    if len(advice) > len(shown):
-        yield f"  ... and {counted(len(advice) - len(shown), 'more', '', '')}"
+    if shown:
+        yield "What mends it, each analysed before it is said"
+        yield from _numbered([(step.number, step.pieces) for step in shown])
+        yield from _more(len(advice) - len(shown), "way", "s")
+    elif advice.analysis.verdict is Verdict.EXACT:
+        yield "There is nothing to mend."
+    if told := tuple(left_out(advice)):
+        yield filled(Line(("Left out: ",), tuple((each,) for each in told)))
 
 
 def _spaces(advice: Advice) -> Iterator[str]:
@@ -94,10 +104,4 @@ def _spaces(advice: Advice) -> Iterator[str]:
 
 def _numbered(items: Sequence[tuple[int, Pieces]]) -> Iterator[str]:
     for number, pieces in items:
-        # An item makes that what does not fit on the line is indented.
-        yield _indented(filled(Line((f"  {number}. ", *pieces))))
-
-
-def _indented(text: str) -> str:
-    first, *rest = text.split("\n")
-    return "\n".join([first, *(f"     {line}" for line in rest)])
+        yield filled(Line((f"  {number}. ", *pieces)), hanging=True)

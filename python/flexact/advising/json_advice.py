@@ -6,11 +6,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from ..advice.causes.cause import Cause, CauseKind
 from ..advice.change import Change
 from ..advice.proposal import Proposal
-from ..text.advising.spaces import spaces_lines
+from ..core.elements import Class
 from ..text.json_result import header
-from ..text.sentences import plain
+from .json_spaces import dictionary_of_spaces
+from .left_out import left_out
 from .motions import AdvisedMotion, dictionary_of_body
 from .steps import Step
 
@@ -61,11 +63,12 @@ def dictionary_of(advice: Advice) -> Entries:
         },
         "motions": [_motion(each) for each in advice.motions],
         "self_stresses": [
-            {"cause": each.cause.kind.value, "statement": each.statement}
+            {"cause": _cause(each.cause), "statement": each.statement}
             for each in advice.self_stresses
         ],
         "spaces": _spaces(advice),
         "steps": [_step(each) for each in advice.steps],
+        "left_out": list(left_out(advice)),
     }
 
 
@@ -79,27 +82,21 @@ def _motion(each: AdvisedMotion) -> Entries:
         "evidence": each.extent.evidence.value,
         "internal": each.internal,
         "bodies": [dictionary_of_body(body) for body in each.bodies],
-        "cause": each.cause.kind.value,
+        "cause": _cause(each.cause),
         "statement": each.statement,
     }
+
+
+def _cause(cause: Cause) -> str | None:
+    """Generic or special; None where it was not looked for."""
+    return None if cause.kind is CauseKind.UNKNOWN else cause.kind.value
 
 
 def _spaces(advice: Advice) -> Entries | None:
     spaces = advice.spaces
     if spaces is None:
         return None
-    return {
-        "body": spaces.body.name,
-        "wanted": list(advice.wanted),
-        "freedom": _finite_rows(spaces.freedom.basis),
-        "constraint": _finite_rows(spaces.constraint.basis),
-        "lines": [plain(line.head) for line in spaces_lines(advice.analysis, spaces)],
-    }
-
-
-def _finite_rows(basis: Any) -> list[list[float]]:
-    rows: list[list[float]] = basis.tolist()
-    return rows
+    return dictionary_of_spaces(advice.analysis, spaces, advice.wanted)
 
 
 def _step(step: Step) -> Entries:
@@ -121,10 +118,19 @@ def _step(step: Step) -> Entries:
 
 def _change(change: Change) -> Entries:
     return {
-        "deformations": [[e, number, given.name.lower()] for e, number, given in change.deformations],
-        "coordinates": [[node, name, given.name.lower()] for node, name, given in change.coordinates],
+        "deformations": [[e, number, _class(given)] for e, number, given in change.deformations],
+        "coordinates": [[node, name, _class(given)] for node, name, given in change.coordinates],
         "places": [[node, list(place)] for node, place in change.places],
+        "vectors": [[element, list(vector)] for element, vector in change.vectors],
+        "wires": [
+            {"node": wire.position, "end": list(wire.end), "ground": list(wire.ground)}
+            for wire in change.wires
+        ],
     }
+
+
+def _class(given: Class) -> str:
+    return given.name.lower()
 
 
 def _finite(value: float) -> float | None:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ..advice.causes.cause import Cause, Causes
 from ..base.frozen import Frozen
-from ..result.extents import Extent
+from ..result.extents.extent import Extent
 from ..result.modes import Motion, SelfStress
 from ..result.result import Result
 from ..result.screws import Screw, ScrewKind

@@ -71,9 +71,13 @@ class Step(Frozen):
     @cached_property
     def pieces(self) -> Pieces:
         """What is done, and what the verdict is then."""
-        words = ended(begun(_WORDS[self.purpose](self.analysis, self.proposal)), "")
-        after = counts_in_words(self.after.under_constrained, self.after.over_constrained)
-        return (*words, f": then {after}.")
+        words = ended(begun(_WORDS[self.purpose](self.analysis, self.proposal)))
+        return (*words, f" Then it is {self.outcome}.")
+
+    @property
+    def outcome(self) -> str:
+        """What the mechanism is then, such as "exactly constrained"."""
+        return counts_in_words(self.after.under_constrained, self.after.over_constrained)
 
     @property
     def statement(self) -> str:

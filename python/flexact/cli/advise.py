@@ -26,7 +26,6 @@ from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import plan_file, write_together
 from flexact.saving import PAGES
 from flexact.text.margin import verdict_word
-from flexact.text.naming import counts_in_words
 
 
 class AskedError(BatchError):
@@ -168,8 +167,8 @@ class _Work:
         assert step is not None
         model = step.apply(self.chosen.apply.choice)
         write_together({self.target: edited_deck(advice.analysis.given, model.data)})
-        after = counts_in_words(step.after.under_constrained, step.after.over_constrained)
-        return f"{harmless(advice.analysis.name)}: step {step.number} written to {name}, {after}"
+        deck = harmless(advice.analysis.name)
+        return f"{deck}: step {step.number} written to {name}, {step.outcome}"
 
 
 def _in_short(error: ModelError) -> AskedError:

@@ -68,11 +68,14 @@ def _tied(words: str) -> str:
     return words.replace(" ", _TIE) if len(words) < _WIDTH - 2 * len(_INDENT) else words
 
 
-def filled(line: Line) -> str:
-    """A line as text of at most a hundred characters a row; items are not torn apart."""
+def filled(line: Line, *, hanging: bool = False) -> str:
+    """A line as text of at most a hundred characters a row; items are not torn apart.
+
+    Further rows are indented where there are items, or where they are to hang.
+    """
     items = [_tied(plain(item)) + note[:1] + _tied(note[1:]) for item, note in line.listed()]
     text = plain(line.head) + "; ".join(items + ["..."] * line.more)
-    indent = _INDENT if line.items else ""
+    indent = _INDENT if line.items or hanging else ""
     return textwrap.fill(
         text,
         _WIDTH,
