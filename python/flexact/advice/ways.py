@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from ..core.elements import AXES, NodeKind, coordinate_name
 from ..model.parts.declaring import surplus_of
+from ..result.outcome import Outcome
 from ..result.result import Result
 from . import leverage
 
@@ -140,7 +141,7 @@ def _coordinates(result: Result, places: leverage.Coordinates) -> Iterator[Coord
     return (coordinate_of(result, *place) for place in places)
 
 
-def coordinate_of(result: Result, node: int, axis: int) -> Coordinate:
+def coordinate_of(result: Outcome, node: int, axis: int) -> Coordinate:
     """The coordinate of a node along or about an axis, both by their index from 0."""
     arrays = result.data.arrays
     kind, number = int(arrays.node_kind[node]), int(arrays.node_number[node])

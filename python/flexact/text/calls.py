@@ -11,6 +11,8 @@ from .deformation import bending_of, part_of, role_of
 
 #: What a method of a model is, by the statement of a deck that does the same.
 _METHODS = {"DYNX": "independent", "FIX": "fix", "RLSE": "release", "DYNE": "independent"}
+#: The word for holding what is released, which a deck does without a statement.
+HOLD = "hold"
 
 
 def call_in_words(result: Outcome, advice: Way, part: Part) -> str:
@@ -18,7 +20,12 @@ def call_in_words(result: Outcome, advice: Way, part: Part) -> str:
 
     Empty where no word says it without local axes.
     """
-    method = _METHODS[advice.keywords[0]]
+    return call_of(result, advice.keywords[0], part)
+
+
+def call_of(result: Outcome, keyword: str, part: Part) -> str:
+    """The call that does with a part what a statement of a deck does, or `HOLD`."""
+    method = _METHODS.get(keyword, keyword)
     if isinstance(part, Coordinate):
         position = result.parts.place_of(result.given.node_index[part.node])
         where = str(part.node) if position is None else _point(result, position)

@@ -34,8 +34,9 @@ Judge = Callable[[Rows], bool]
 _ZERO, _TINY = 10.0, 1.0e-9
 #: From this multiple of its error, and this part of what it is the difference of, it is not.
 _CLEAR, _LARGE = 1.0e3, 1.0e-4
-#: How many times a matroid that hangs together is divided.
-_MOST_DIVISIONS = 6_000
+#: How many times a matroid that hangs together is divided; fewer times where so many bases have
+#: been found on the way.
+_MOST_DIVISIONS, _FEWER_DIVISIONS, _FOUND = 6_000, 600, 20_000
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01
 _MOST_EXCHANGES = 10_000
@@ -225,6 +226,7 @@ class _Counter:
 
     def __init__(self, judge: Judge) -> None:
         self.judge = judge
+        self.divisions = self.found = 0
 
     def count(self, minor: _Minor) -> int:
         """The weighted number of bases."""
@@ -234,7 +236,7 @@ class _Counter:
         for part in parts:
             if product == 0:
                 break
-            self.left = _MOST_DIVISIONS
+            self.divisions = self.found = 0
             product *= self._connected(part)
         return product
 
@@ -252,9 +254,11 @@ class _Counter:
         held = min(minor.factor.shape)
         if held <= 2:
             # All pairs are independent, of the rows or of what is left out.
-            return factor * _uniform(pieces, len(minor.basis))
-        self.left -= 1
-        if self.left < 0:
+            count = _uniform(pieces, len(minor.basis))
+            self.found += count
+            return factor * count
+        self.divisions += 1
+        if self.divisions > (_FEWER_DIVISIONS if self.found > _FOUND else _MOST_DIVISIONS):
             raise TooManyError
         i = int(np.argmin(np.count_nonzero(minor.factor, axis=1)))
         piece = minor.basis[i]

@@ -109,7 +109,7 @@ def _sets(
         chosen = spanning(reach.rows[some], lambda i, some=some: int(place[some[i]]))  # type: ignore[misc]
         if len(chosen) == count:
             known[tuple(sorted(some[chosen].tolist()))] = None
-    for _ in range(_ROUNDS):
+    for _ in range(_ROUNDS if known else 0):
         sets = list(known)
         best = np.argsort(np.round(_conditions(reach.rows, np.array(sets)), 9), kind="stable")
         near = (_exchanges(sets[i], able.tolist()) for i in best[:_NEAR].tolist())

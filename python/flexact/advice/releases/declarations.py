@@ -16,11 +16,14 @@ from . import reach as reaches
 from .candidates import candidates
 from .counting import counted
 from .kinds import tier_of_node
+from .reach import Reach
 from .stands import as_it_stands
 from .trying import LeftOut, Outcome, decades, listed
 
 #: How many sets of released deformations that may be held are listed.
 _MOST_HELD = 4
+#: Motions of points of a body that agree to so many digits are one.
+_DIGITS = 9
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,7 @@ def declarations_of(result: Result) -> Declarations:
 
 
 def _listed(result: Result, source: Result) -> Outcome:
-    reach = reaches.of_columns(source)
+    reach = _without_repeats(source, reaches.of_columns(source))
     nodes = source.raw.column_label[0, reach.index] - 1
     given = source.condensed.nodes[nodes]
     tiers = np.array([tier_of_node(source, int(i)) for i in given], float)
@@ -91,6 +94,19 @@ def _listed(result: Result, source: Result) -> Outcome:
         return np.concatenate([decades(condition), of_sets, turning], axis=1)
 
     return listed(result, reach, Purpose.DECLARE, candidates(reach, ranking, tiers))
+
+
+def _without_repeats(source: Result, reach: Reach) -> Reach:
+    """Of points of one body that move in the same way along an axis the first by name."""
+    first: dict[tuple[int, int, bool, bytes], int] = {}
+    for i in sorted(range(len(reach.index)), key=lambda i: reach.key(int(reach.index[i]))):
+        node, axis = (source.raw.column_label[:, reach.index[i]] - 1).tolist()
+        given = int(source.condensed.nodes[node])
+        turns = bool(source.data.arrays.node_kind[node] > NodeKind.POSITION)
+        body = source.parts.body_at.get(given, -1 - given)
+        way = (np.round(reach.rows[i], _DIGITS) + 0.0).tobytes()
+        first.setdefault((body, axis, turns, way), i)
+    return reach.only(np.array(sorted(first.values()), np.int64))
 
 
 def _holds(result: Result) -> Outcome:

@@ -7,7 +7,7 @@ To release or to hold some of them works exactly when their rows span the space.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,10 @@ class Reach(Frozen):
     def vectors(self) -> int:
         """k."""
         return self.rows.shape[1]
+
+    def only(self, chosen: NDArray[np.integer]) -> Reach:
+        """Some of the rows."""
+        return replace(self, rows=self.rows[chosen], index=self.index[chosen])
 
 
 def fits(basis: Basis) -> bool:

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Releases, holdings and declarations that were tried, in words that a designer uses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...advice.change import Change
+from ...advice.proposal import Proposal, Purpose
+from ...advice.ways import Coordinate, Deformation, coordinate_of
+from ...core.elements import AXES, coordinate_name
+from ...model.parts.parts import PartKind
+from ...result.outcome import Outcome
+from ...result.result import Result
+from ..calls import HOLD, call_of
+from ..naming import coordinate_in_words
+from ..sentences import Named, Piece, Pieces, plain
+from .hardware import Phrase, held, outcome_as_given, released
+
+#: How many alternatives of several parts each are named, and how many of one part.
+_MOST_SETS, _MOST_NAMED = 3, 11
+#: Parts that are counted in the plural.
+_PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
+
+
+def release_in_words(result: Result, proposal: Proposal) -> Pieces:
+    """What is done to release, free or hold, how, and where else symmetry makes it the same.
+
+    Such as "cut sheet 1 to a waist at its clamp (in-plane bending free there) (RLSE 1 3);
+    likewise sheet 2".
+    """
+    outcome = outcome_as_given(result)
+    phrases = _phrases(outcome, proposal.purpose, proposal.change)
+    others = [_phrases(outcome, proposal.purpose, each) for each in proposal.alternatives]
+    note = _note(outcome, proposal.purpose, proposal.change)
+    joined = _listed([phrase.pieces for phrase in phrases])
+    return (*joined, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
+
+
+def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
+    """What is declared or held, how, and what else symmetry makes the same.
+
+    Such as "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2); likewise F along x".
+    A proposal that holds deformations is told by `release_in_words`.
+    """
+    if proposal.change.deformations:
+        return release_in_words(result, proposal)
+    outcome = outcome_as_given(result)
+    declared, fixed = (_statements(outcome, proposal.change, word) for word in ("DYNX", "FIX"))
+    it = "it" if len(proposal.change.coordinates) == 1 else "them"
+    own = _coordinates(outcome, proposal.change)
+    others = [_coordinates(outcome, each) for each in proposal.alternatives]
+    more = [each for each in others if plain(each) != plain(own)]
+    pieces: list[Piece] = ["declare ", *own, " independent"]
+    pieces.append(f" ({declared})" if declared else "")
+    pieces.append(f", or hold {it}")
+    pieces.append(f" ({fixed})" if fixed else "")
+    if more:
+        pieces += ["; likewise ", *_shortened(more, len(proposal.change.coordinates))]
+    return tuple(piece for piece in pieces if piece)
+
+
+def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> tuple[Phrase, ...]:
+    deformations = [(element, number) for element, number, _ in change.deformations]
+    made = (held if purpose is Purpose.HOLD else released)(outcome, deformations)
+    return made + tuple(_freed(outcome, node, name) for node, name, _ in change.coordinates)
+
+
+def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
+    """A support that lets a coordinate go."""
+    where = coordinate_in_words(outcome, node, name)[0]
+    assert isinstance(where, Named)
+    turn = f" turn about {name[1:]}" if name.startswith("r") else f" slide along {name}"
+    return Phrase("let ", where, turn)
+
+
+def _coordinates(outcome: Outcome, change: Change) -> Pieces:
+    return _listed(
+        [coordinate_in_words(outcome, node, name) for node, name, _ in change.coordinates]
+    )
+
+
+def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:
+    """Where the same may be done."""
+    own = plain(_listed([phrase.pieces for phrase in phrases]))
+    others = [each for each in others if plain(_listed([one.pieces for one in each])) != own]
+    if not others:
+        return ()
+    frames = sorted(phrase.frame for phrase in phrases)
+    if all(sorted(phrase.frame for phrase in each) == frames for each in others):
+        at = " at" if phrases[0].before in ("cut ", "give ") else ""
+        if len(phrases) == 1:
+            return (f"; likewise{at} ", *_named([each[0].part for each in others]))
+        sets = [_named([phrase.part for phrase in each]) for each in others]
+        return (f"; likewise{at} ", *_shortened(sets, len(phrases)))
+    sets = [_listed([phrase.pieces for phrase in each]) for each in others]
+    return ("; just as well ", *_shortened(sets, 2))
+
+
+def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
+    """Alternatives, one behind the other; of many the first."""
+    if size == 1:
+        return _listed(sets[:_MOST_NAMED], len(sets) - _MOST_NAMED)
+    made: list[Piece] = []
+    for k, each in enumerate(sets[:_MOST_SETS]):
+        made += ["; or " if k else "", *each]
+    more = len(sets) - _MOST_SETS
+    return (*(piece for piece in made if piece), *((f"; or {more} more",) if more > 0 else ()))
+
+
+def _named(parts: Sequence[Named]) -> Pieces:
+    """Names, such as "sheets 2, 4 and 6"."""
+    heads = {part.words.rpartition(" ")[0] for part in parts}
+    numbers = [part.words.rpartition(" ")[2] for part in parts]
+    head = heads.pop() if len(heads) == 1 else ""
+    if len(parts) > 1 and head in _PLURALS and all(map(str.isdigit, numbers)):
+        short = [(Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)]
+        return (f"{_PLURALS[head]} ", *_listed(short))
+    return _listed([(part,) for part in parts])
+
+
+def _listed(items: Sequence[Pieces], more: int = 0) -> Pieces:
+    """Such as a, b and c."""
+    if more > 0:
+        items = [*items, (f"{more} more",)]
+    made: list[Piece] = []
+    for k, item in enumerate(items):
+        made += [""] if not k else [" and "] if k == len(items) - 1 else [", "]
+        made += item
+    return tuple(piece for piece in made if piece)
+
+
+def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
+    """How it is done: in a deck by statements, in Python by calls."""
+    if purpose is not Purpose.HOLD:
+        statements = [_statements(outcome, change, "RLSE")] if change.deformations else []
+        return ", ".join(filter(None, statements))
+    if outcome.given.source is not None:
+        return f"without {_statements(outcome, change, 'RLSE')}"
+    return _statements(outcome, change, HOLD)
+
+
+def _statements(outcome: Outcome, change: Change, keyword: str) -> str:
+    """Statements of a deck, or calls; empty where there is no call for one of them."""
+    if outcome.given.source is not None:
+        return ", ".join(f"{keyword} {operands}" for operands in _operands(outcome, change))
+    parts = [
+        *(Deformation(element, number, "") for element, number, _ in change.deformations),
+        *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
+    ]
+    calls = [call_of(outcome, keyword, part) for part in parts]
+    return ", ".join(calls) if all(calls) else ""
+
+
+def _operands(outcome: Outcome, change: Change) -> list[str]:
+    """Numbers of elements and their deformations, and of nodes and their components."""
+    of_element: dict[int, list[int]] = {}
+    for element, number, _ in change.deformations:
+        of_element.setdefault(element, []).append(number)
+    made = [" ".join(map(str, (e, *sorted(mine)))) for e, mine in of_element.items()]
+    of_node: dict[str, list[str]] = {}
+    for node, name, _ in change.coordinates:
+        number, component = _coordinate(outcome, node, name).operands.split()
+        of_node.setdefault(number, []).append(component)
+    return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
+
+
+def _coordinate(outcome: Outcome, node: int, name: str) -> Coordinate:
+    index = outcome.data.node_index[node]
+    kind = int(outcome.data.arrays.node_kind[index])
+    axis = next(axis for axis in AXES[kind] if coordinate_name(kind, axis) == name)
+    return coordinate_of(outcome, index, axis)
