@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from html import escape
+from itertools import groupby
 from typing import TYPE_CHECKING
 
+from ..advice.proposal import Purpose
 from ..base.plain_text import harmless
 from ..result.verdict import Verdict
 from ..text.advising.spaces import spaces_lines
@@ -16,13 +18,20 @@ from ..text.motions import internal_in_words
 from ..text.naming import counted
 from ..text.sentences import Line, Pieces, filled, sentence
 from .left_out import left_out
-from .steps import Step
 
 if TYPE_CHECKING:
     from .advice import Advice
 
-#: How many steps stand on a screen.
-MOST_STEPS = 12
+#: How many steps of one aim and outcome stand on a screen.
+MOST_STEPS = 6
+#: What steps are for.
+_AIMS = {
+    Purpose.MEND: "To stop with what is stopped twice what nothing stops",
+    Purpose.RELEASE: "To stop nothing twice",
+    Purpose.DECLARE: "To leave nothing free that is not declared",
+    Purpose.HOLD: "To leave nothing free that is not declared",
+    Purpose.ADD_WIRE: "To stop what is not wanted with a wire",
+}
 
 
 def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
@@ -30,7 +39,7 @@ def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
 
     Args:
         advice: The advice.
-        most: How many steps are given one by one; None: all.
+        most: How many steps of one aim and outcome are given; None: all.
     """
     sections = (
         *(_verdict(advice), _motions(advice), _stresses(advice)),
@@ -86,15 +95,18 @@ def _more(count: int, what: str, ending: str) -> Iterator[str]:
 
 
 def _steps(advice: Advice, most: int | None) -> Iterator[str]:
-    shown: Sequence[Step] = advice.steps[:most]
-    if shown:
-        yield "What mends it, each analysed before it is said"
-        yield from _numbered([(step.number, step.pieces) for step in shown])
-        yield from _more(len(advice) - len(shown), "way", "s")
-    elif advice.analysis.verdict is Verdict.EXACT:
+    if not advice.steps and advice.analysis.verdict is Verdict.EXACT:
         yield "There is nothing to mend."
-    if told := tuple(left_out(advice)):
-        yield filled(Line(("Left out: ",), tuple((each,) for each in told)))
+    kinds = groupby(advice.steps, lambda one: (_AIMS[one.purpose], one.outcome))
+    for place, ((aim, outcome), steps) in enumerate(kinds):
+        if place:
+            yield ""
+        told = tuple(steps)
+        yield filled(sentence(f"{aim}; then it is {outcome}"))
+        yield from _numbered([(step.number, step.pieces) for step in told[:most]])
+        yield from _more(len(told) - len(told[:most]), "such way", "s")
+    if missing := tuple(left_out(advice)):
+        yield filled(Line(("Left out: ",), tuple((each,) for each in missing)))
 
 
 def _spaces(advice: Advice) -> Iterator[str]:

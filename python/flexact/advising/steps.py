@@ -70,9 +70,8 @@ class Step(Frozen):
 
     @cached_property
     def pieces(self) -> Pieces:
-        """What is done, and what the verdict is then."""
-        words = ended(begun(_WORDS[self.purpose](self.analysis, self.proposal)))
-        return (*words, f" Then it is {self.outcome}.")
+        """What is done."""
+        return ended(begun(_WORDS[self.purpose](self.analysis, self.proposal)))
 
     @property
     def outcome(self) -> str:
@@ -81,8 +80,8 @@ class Step(Frozen):
 
     @property
     def statement(self) -> str:
-        """The same as text."""
-        return plain(self.pieces)
+        """What is done, and what the mechanism is then, in sentences."""
+        return f"{plain(self.pieces)} Then it is {self.outcome}."
 
     def apply(self, choice: int = 1) -> Model:
         """The changed model; of a deck names and comments stay.
