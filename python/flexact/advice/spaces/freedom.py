@@ -32,9 +32,15 @@ from .subjects import Subject
 class Freed:
     """A mechanism in which nothing is declared; each answer is found when it is asked for."""
 
-    def __init__(self, result: Result) -> None:
+    def __init__(self, result: Result, *, is_freed: bool = True) -> None:
         """Keep the result; that of divided sheets as one beam each, where there are any."""
         self.result = result.with_internal_declared or result
+        self._is_freed = is_freed
+
+    @classmethod
+    def as_declared(cls, result: Result) -> Freed:
+        """The mechanism with its declarations: what moves is what nobody declared."""
+        return cls(result, is_freed=False)
 
     @cached_property
     def _data(self) -> ModelData:
@@ -58,7 +64,7 @@ class Freed:
 
     @cached_property
     def _raw(self) -> RawAnalysis:
-        if not self.result.degrees_of_freedom:
+        if not self._is_freed or not self.result.degrees_of_freedom:
             return self.result.raw
         asked = self.result.asked
         return decompose(self._data, Asked(asked.method, asked.tolerance))

@@ -30,7 +30,7 @@ def regulus_of(rows: FloatArray, values: FloatArray, vectors: FloatArray) -> Fam
         vectors: (3, 3) their eigenvectors.
     """
     points, directions = _samples(rows, values, vectors)
-    left, sizes, right = np.linalg.svd(rows[:, :3])
+    _, sizes, right = np.linalg.svd(rows[:, :3])
     if sizes[-1] > _SAME:
         point, axis = _middle(rows)
         return Family(

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, floats
 from .families import Family
-from .screw_system import SAME, families_of
+from .screw_system import SAME, families_of, parted, span_of_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +99,22 @@ class ScrewSpace(Frozen):
     def has(self, screw: FloatArray, limit: float = SAME) -> bool:
         """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space."""
         return self.distance(screw) <= limit
+
+    def nearest(self, screw: FloatArray) -> FloatArray:
+        """(6,) the part of a twist or a wrench that is in the space."""
+        scaled = screw * self._factors
+        made: FloatArray = (self.scaled.T @ (self.scaled @ scaled)) / self._factors
+        return made
+
+    @cached_property
+    def directions(self) -> FloatArray:
+        """(t, 6) orthonormal rows of its directions: translations, or couples."""
+        return parted(self.scaled)[0] if self.dimension else np.zeros((0, 6))
+
+    @cached_property
+    def span_of_lines(self) -> FloatArray:
+        """(n, 6) scaled rows that span its lines, pure rotations or forces."""
+        return span_of_lines(self.scaled)
 
     def works(self, screw: FloatArray) -> FloatArray:
         """(k,) the work of a wrench on each twist of the basis, or of each wrench on a twist.

@@ -70,6 +70,13 @@ def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
     return free, lined - (lined @ free.T) @ free
 
 
+def span_of_lines(rows: FloatArray) -> FloatArray:
+    """(n, 6) rows that span all lines in the space of some; arguments as of `families_of`."""
+    if not len(rows):
+        return rows
+    return np.concatenate([rows[:0], *(span for _, span in _lines(np.concatenate(parted(rows))))])
+
+
 def _form_of(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Eigenvalues, ascending, and eigenvectors of q on a space, in its rows."""
     form = rows[:, :3] @ rows[:, 3:].T

@@ -17,6 +17,9 @@ from ...model.parts.parts import Part, natural
 from ...result.carriers import Joint
 from ...result.result import Result
 
+#: Where so many parts meet they may be the two leaves of a folded sheet.
+_OF_A_FOLD = 2
+
 
 class Subject(NamedTuple):
     """A body, or a joint with an orientation, and its nodes in the model as given."""
@@ -125,7 +128,7 @@ class Rank(NamedTuple):
     """Less how many coordinates of it are declared independent."""
     is_joint: bool
     attached: int
-    """Of joints less how many parts meet there."""
+    """Of joints less how many parts meet there, if more than at a fold."""
     freedom: int
     """Less in how many independent ways it moves."""
     size: float
@@ -142,6 +145,7 @@ def rank_of(result: Result, subject: Subject, freedom: int) -> Rank:
     places = arrays.node_value[:3, list(subject.positions)].T / length
     size = float(np.linalg.norm(np.ptp(places, axis=0)))
     parts = 0 if isinstance(subject.body, Part) else len(subject.body.parts)
+    parts = parts if parts > _OF_A_FOLD else 0
     name = subject.body.name
     if isinstance(subject.body, Part) and not subject.body.is_named:
         name = ""
@@ -149,4 +153,3 @@ def rank_of(result: Result, subject: Subject, freedom: int) -> Rank:
     return Rank(
         -declared, not subject.is_body, -parts, -freedom, -round(size, 9), natural(name), middle
     )
-
