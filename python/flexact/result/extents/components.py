@@ -13,14 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base.frozen import Frozen
-from ...core.arrays import FloatArray
 from ...core.basis import Basis
-from ...core.elements import Class, NodeKind
+from ...core.elements import Class
 from ..spaces import Spaces
-
-#: Of more points the diameter is not computed exactly.
-_MOST_POINTS = 1_000
-
 
 @dataclass(frozen=True, eq=False)
 class Component(Frozen):
@@ -28,15 +23,15 @@ class Component(Frozen):
 
     Attributes:
         columns: Of D(c), ascending.
+        elements: Indices of the elements that hold them, in the model as analysed.
         motions: Vectors of the space of motions that belong to it.
         stresses: Vectors of the space of self-stresses likewise.
-        size: Extent of its nodes [m]; one where they have none.
     """
 
     columns: NDArray[np.integer]
+    elements: NDArray[np.integer]
     motions: tuple[int, ...]
     stresses: tuple[int, ...]
-    size: float
 
 
 def components_of(spaces: Spaces) -> tuple[Component, ...]:
@@ -73,35 +68,16 @@ def _made(spaces: Spaces, group: NDArray[np.integer], mine: int) -> Component:
     columns = spaces.columns
     place = spaces.raw.row_label[0] - 1 + columns
     motions, stresses = spaces.motion_space, spaces.stress_space
-    elements = np.flatnonzero(group[columns:] == mine)
     return Component(
         np.flatnonzero(group[:columns] == mine),
+        np.flatnonzero(group[columns:] == mine),
         _vectors(motions, group[motions.place] == mine),
         _vectors(stresses, group[place[stresses.place]] == mine),
-        _size(spaces, elements),
     )
 
 
 def _vectors(basis: Basis, chosen: NDArray[np.bool_]) -> tuple[int, ...]:
     return tuple(np.unique(basis.of_entries()[chosen]).tolist())
-
-
-def _size(spaces: Spaces, elements: NDArray[np.integer]) -> float:
-    arrays = spaces.data.arrays
-    nodes = np.unique(arrays.element_node[:, elements])
-    nodes = nodes[nodes > 0] - 1
-    nodes = nodes[arrays.node_kind[nodes] <= NodeKind.POSITION]
-    if not nodes.size:
-        return 1.0
-    return _diameter(arrays.node_value[:3, nodes].T) or 1.0
-
-
-def _diameter(points: FloatArray) -> float:
-    """The largest distance of two points; of many one within the factor of a root of three."""
-    if points.shape[0] <= _MOST_POINTS:
-        return max(float(np.linalg.norm(points - each, axis=1).max()) for each in points)
-    far = points[np.argmax(np.linalg.norm(points - points[0], axis=1))]
-    return float(np.linalg.norm(points - far, axis=1).max())
 
 
 def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:

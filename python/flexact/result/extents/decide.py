@@ -3,26 +3,31 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ..following.follow import Wishes, follow
 from ..spaces import Spaces
 from .components import Component, components_of
-from .dimension import MOST_MOTIONS, positions_near
+from .dimension import MOST_MOTIONS, is_without_strain, positions_near
 from .extent import Branch, EvidenceKind, Extent, Extents, Kind, Reason
-from .forms import Forms, forms_of, most_definite
-from .held import Held
+from .forms import cone_of, forms_of
+from .felt import Felt
 from .orders import fit_of, measured
-from .walking import walk
+from .walking import GOAL, Walk, walk
 
 #: More coordinates in a component are not followed; of more motions, stresses or entries of all
 #: forms these are not made.
 _MOST_COORDINATES = 300
 _MOST_FORM_MOTIONS, _MOST_FORM_NUMBERS = 400, 4_000_000
-#: A told motion has this part of itself in a component, or none.
-_NO_PART = 1.0e-9
+_WISHES = Wishes(length=GOAL, through=True)
+#: Singular values of the derivatives of the forms above this are not zero.
+_CLEAR_OF_ZERO = 1.0e-6
+#: Directions are one where the cosine between them is larger.
+_SAME = 0.999
 
 
 class _Decided(NamedTuple):
@@ -82,7 +87,7 @@ def _of_component(spaces: Spaces, component: Component) -> _Decided:
     many = len(component.motions)
     if not component.stresses:
         plain = Extent(
-            Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS, size=component.size
+            Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS
         )
         return _Decided(dict.fromkeys(told, plain), many)
     numbers = many * component.columns.size + len(component.stresses) * many**2
@@ -94,7 +99,7 @@ def _of_component(spaces: Spaces, component: Component) -> _Decided:
 
 
 def _open(told: dict[int, FloatArray], component: Component, reason: Reason) -> _Decided:
-    extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, reason, size=component.size)
+    extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, reason)
     return _Decided(dict.fromkeys(told, extent), None)
 
 
@@ -102,39 +107,32 @@ class _Judge:
     """A component whose motions feel a self-stress."""
 
     def __init__(self, spaces: Spaces, component: Component) -> None:
-        self.size = component.size
-        self.held = Held(spaces, component)
+        self.felt = Felt(spaces, component)
+        self.size = self.felt.held.size
         zero, noise = spaces.gap.largest_zero or 0.0, spaces.raw.noise
         # What the rounding of the geometry lifts the zeros by, where that is more than arithmetic.
         self.floor = zero if zero > noise else 0.0
-        self.forms: Forms = forms_of(self.held, 100.0 * self.floor)
-        self.is_small = max(self.held.shape) <= _MOST_COORDINATES
+        self.forms = forms_of(self.felt, 100.0 * self.floor)
+        self.cone = cone_of(self.forms)
         self.stresses, self.motions = self.forms.matrix.shape[:2]
+        rows, columns = self.felt.stresses.shape[0], self.felt.motions.shape[0]
+        self.is_small = max(rows, columns) <= _MOST_COORDINATES
 
     def decided(self, told: dict[int, FloatArray]) -> _Decided:
         """All told motions, and the dimension of what goes on."""
-        most = most_definite(self.forms)
-        if most.eigenvalues[0] > self.forms.error:
-            extent = Extent(
-                Kind.INFINITESIMAL,
-                EvidenceKind.CERTIFIED,
-                Reason.DEFINITE,
-                size=self.size,
-                curvature=float(most.eigenvalues[0]),
+        if not self.cone.basis.shape[1]:
+            extent = self._extent(
+                *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.DEFINITE),
+                curvature=self.cone.least,
             )
             return _Decided(dict.fromkeys(told, extent), 0)
-        units = {k: self._unit(vector) for k, vector in told.items()}
-        motions = {k: self._of_motion(unit) for k, unit in units.items()}
+        vectors = {k: self.felt.within(self.felt.of(vector)) for k, vector in told.items()}
+        motions = {k: self._of_motion(vector) for k, vector in vectors.items()}
         if self.motions == 1:
             (extent,) = motions.values()
             known = {Kind.FINITE: 1, Kind.INFINITESIMAL: 0}
             return _Decided(motions, known.get(extent.kind))
-        return self._dimension(motions, units)
-
-    def _unit(self, vector: FloatArray) -> FloatArray:
-        """(N,) a told motion in the orthonormal basis."""
-        made = self.held.motions.T @ self.held.of_told(vector)
-        return np.asarray(made / np.linalg.norm(made))
+        return _Decided(motions, *self._dimension(motions, vectors))
 
     @property
     def _is_indefinite(self) -> bool:
@@ -149,80 +147,100 @@ class _Judge:
         return bool(values[0] < -self.forms.error and values[-1] > self.forms.error)
 
     def _is_regular(self, unit: FloatArray) -> bool:
-        """Whether the forms, zero for a motion, change independently beside it."""
-        values = np.linalg.svd(self.forms.along(unit), compute_uv=False)
-        room = self.motions - 1 >= self.stresses
-        return bool(room and values.min() > max(self.forms.error, _CLEAR_OF_ZERO))
+        """Whether the forms, zero for a motion, change independently beside it.
 
-    def _of_motion(self, unit: FloatArray) -> Extent:
+        Then a path begins with it (implicit function theorem, applied to D(x) / t**2).
+        """
+        if self.motions <= self.stresses:
+            return False
+        values = np.linalg.svd(self.forms.along(unit), compute_uv=False)
+        return bool(values.min() > max(self.forms.error, _CLEAR_OF_ZERO))
+
+    def _of_motion(self, vector: FloatArray) -> Extent:
+        unit = vector / np.linalg.norm(vector)
         strain = float(np.linalg.norm(self.forms.of(unit)))
         if strain > self.forms.error:
             return self._extent(
-                Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.STRAINED, curvature=strain
+                *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.STRAINED), curvature=strain
             )
-        followed = self._followed(unit) if self.is_small else None
-        if followed is not None and followed.kind is Kind.FINITE:
-            return followed
-        if self.motions > 1 and (self._is_indefinite or self._is_regular(unit)):
-            return self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.INDEFINITE)
-        return followed or self._extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
+        found = self._followed(unit) if self.is_small else None
+        if found is not None and found.kind is Kind.FINITE:
+            return found
+        if self._is_indefinite or self._is_regular(unit):
+            return self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.REGULAR)
+        return found or self._extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
 
     def _followed(self, unit: FloatArray) -> Extent:
-        motion = self.held.motions @ unit
-        back, ahead = (walk(self.held, motion, sign, self.floor) for sign in (-1.0, 1.0))
-        reach = (back.gone * self.size, ahead.gone * self.size)
-        strain = max(back.strain, ahead.strain)
-        if back.arrived and ahead.arrived:
-            return self._extent(
-                Kind.FINITE, EvidenceKind.FOLLOWED, Reason.PATH, reach=reach, residual=strain
-            )
-        found = [measured(self.held, motion, sign, self.floor) for sign in (-1.0, 1.0)]
-        fits = [fit_of(each) for each in found]
-        if back.arrived or ahead.arrived:
-            reason = Reason.ONE_WAY
-        elif fits[0] and fits[1] and round(fits[0].order) == round(fits[1].order):
-            fit = max((each for each in fits if each is not None), key=lambda each: each.spread)
-            return self._extent(
-                Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, reach=reach, fit=fit
-            )
-        elif any(each.aside for each in found):
-            reason = Reason.ASIDE
-        elif back.gone or ahead.gone:
-            reason = Reason.STOPPED
-        else:
-            reason = Reason.NO_ORDER
-        return self._extent(
-            Kind.UNDECIDED, EvidenceKind.NONE, reason, reach=reach, residual=strain
+        motion = self.felt.motions @ unit
+        rank = motion.size - self.motions
+        paths = [follow(self.felt.held, sign * motion, rank, _WISHES) for sign in (-1.0, 1.0)]
+        walks = [Walk(path.length, path.residual) for path in paths]
+        if self.motions > 1 or self.floor:
+            walks = [
+                one if one.arrived else walk(self.felt, motion, sign, self.floor)
+                for one, sign in zip(walks, (-1.0, 1.0), strict=True)
+            ]
+        back, ahead = walks
+        made = partial(
+            self._extent,
+            reach=(back.gone * self.size, ahead.gone * self.size),
+            stops=(paths[0].stop.ending, paths[1].stop.ending),
+            residual=max(back.strain, ahead.strain),
         )
+        if back.arrived and ahead.arrived:
+            return made(Kind.FINITE, EvidenceKind.FOLLOWED, Reason.PATH)
+        if back.arrived or ahead.arrived:
+            return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ONE_WAY)
+        found = [measured(self.felt, motion, sign, self.floor) for sign in (-1.0, 1.0)]
+        fits = [fit for each in found if (fit := fit_of(each)) is not None]
+        if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
+            fit = max(fits, key=lambda each: each.spread)
+            return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, fit=fit)
+        if any(each.aside for each in found):
+            return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ASIDE)
+        stopped = min(back.gone, ahead.gone) > 0.0
+        reason = Reason.STOPPED if stopped else Reason.NO_ORDER
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, reason)
 
     def _extent(
-        self,
-        kind: Kind,
-        evidence: EvidenceKind,
-        reason: Reason,
-        **numbers: object,
+        self, kind: Kind, evidence: EvidenceKind, reason: Reason, **numbers: Any
     ) -> Extent:
-        return Extent(kind, evidence, reason, size=self.size, **numbers)  # type: ignore[arg-type]
+        return Extent(kind, evidence, reason, size=self.size, **numbers)
 
     def _dimension(
-        self, motions: dict[int, Extent], units: dict[int, FloatArray]
-    ) -> _Decided:
+        self, motions: dict[int, Extent], vectors: dict[int, FloatArray]
+    ) -> tuple[int | None, tuple[Branch, ...]]:
         if self._is_indefinite and self.motions > 2:
-            return _Decided(motions, self.motions - 1)
-        if not self.is_small or self.motions > MOST_MOTIONS:
-            return _Decided(motions, None)
-        near = positions_near(self.held, list(units.values()))
-        dimension = near.dimension
-        if self._is_indefinite:
-            dimension = self.motions - 1
-        if any(each.kind is Kind.FINITE for each in motions.values()) and dimension == 0:
+            return self.motions - 1, ()
+        if not self.is_small:
+            return None, ()
+        basis = self.cone.basis
+        if not self.cone.forms.matrix.size and is_without_strain(self.felt, basis):
+            return basis.shape[1], ()
+        if self.motions > MOST_MOTIONS:
+            return None, ()
+        near = positions_near(
+            self.felt,
+            *(basis, [each / np.linalg.norm(each) for each in vectors.values()]),
+        )
+        dimension = self.motions - 1 if self._is_indefinite else near.dimension
+        if dimension == 0 and any(each.kind is Kind.FINITE for each in motions.values()):
             dimension = None
-        return _Decided(motions, dimension, self._branches(near.directions, units))
+        return dimension, self._branches(near.lines, vectors)
 
     def _branches(
-        self, directions: tuple[tuple[int, FloatArray], ...], units: dict[int, FloatArray]
+        self, lines: tuple[FloatArray, ...], vectors: dict[int, FloatArray]
     ) -> tuple[Branch, ...]:
-        return ()
-
-
-_CLEAR_OF_ZERO = 1.0e-6
+        """Paths, each along with what the told motions have in its direction; each once."""
+        told = np.stack(list(vectors.values()), axis=1)
+        made: list[FloatArray] = []
+        for line in lines:
+            if any(abs(line @ other) > _SAME for other in made):
+                continue
+            made.append(line)
+        found = []
+        for line in made:
+            shares = np.linalg.lstsq(told, line, rcond=None)[0]
+            shares = shares / shares[np.argmax(np.abs(shares) > (1.0 - 1e-6) * np.abs(shares).max())]
+            found.append(Branch(tuple(zip(vectors, shares.tolist(), strict=True))))
+        return tuple(sorted(found, key=lambda each: [-abs(share) for _, share in each.shares]))

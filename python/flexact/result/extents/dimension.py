@@ -12,12 +12,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray
-from .held import Held, Place
-from .settling import settled
-from .walking import LARGEST_STRAIN
+from ...model.configuration import Configuration
+from ..following.follow import TRUE
+from ..following.least import descend
+from .felt import Felt
 
 #: How far off, from the reference and then from the positions that were found.
-_OFF, _NEAR = 0.03, 2.0e-3
+_OFF, _FAR, _NEAR = 0.03, 0.1, 2.0e-3
 #: Of that a position has come back to the reference where no more than the first part is left,
 #: and has not where the second is; between them it is open.
 _BACK, _AWAY = 0.1, 0.3
@@ -25,7 +26,8 @@ _BACK, _AWAY = 0.1, 0.3
 _ZERO = 1.0e-7
 #: Directions are independent where a singular value is above the second part of the largest.
 _DEPENDENT, _INDEPENDENT = 0.03, 0.2
-#: More motions are not looked at.
+#: About so many positions it is measured; in components of more motions nowhere.
+_MOST_LOOKED_AT = 8
 MOST_MOTIONS = 12
 
 
@@ -34,55 +36,95 @@ class Near(NamedTuple):
 
     dimension: int | None
     """None where it is open."""
-    directions: tuple[tuple[int, FloatArray], ...]
-    """Dimension about each position, and its direction from the reference, (N,)."""
+    lines: tuple[FloatArray, ...]
+    """Directions from the reference, (N,), of positions about which it is one."""
 
 
-def positions_near(held: Held, also: list[FloatArray]) -> Near:
+def is_without_strain(felt: Felt, cone: FloatArray) -> bool:
+    """Whether random motions of a cone (N, k) lead to positions without strain, others added.
+
+    Then all do, as the least strain is an analytic function or the root of one.
+    """
+    random = np.random.default_rng(felt.many)
+    for share in (_OFF, _FAR, _FAR):
+        unit = cone @ random.standard_normal(cone.shape[1])
+        motion = felt.motions @ (unit / np.linalg.norm(unit))
+        base = _across(felt, cone)
+        place, correction = descend(felt.held, felt.held.reference, share * motion, base)
+        if place.residual > TRUE / 10.0 or np.linalg.norm(correction) > _AWAY * share:
+            return False
+    return True
+
+
+def positions_near(felt: Felt, cone: FloatArray, also: list[FloatArray]) -> Near:
     """Positions without strain near the reference, and their dimension.
 
     Args:
-        held: What is held.
+        felt: The component.
+        cone: (N, k) orthonormal, in which all paths begin.
         also: (N,) unit vectors of motions to begin with, besides random ones.
     """
-    many = held.motions.shape[1]
-    random = np.random.default_rng(many)
+    held, width = felt.held, cone.shape[1]
+    whole = np.eye(felt.motions.shape[0])
+    random = np.random.default_rng(width)
     starts = [sign * each for each in also for sign in (1.0, -1.0)]
-    starts += list(random.standard_normal((2 * many + 6, many)))
-    dimension, is_open = 0, False
-    found: list[tuple[int, FloatArray]] = []
+    starts += [cone @ each for each in random.standard_normal((2 * width + 4, width))]
+    dimension, is_open, looked_at = 0, False, 0
+    lines: list[FloatArray] = []
     for start in starts:
-        unit = start / np.linalg.norm(start)
-        end = settled(held, held.moved(held.reference, _OFF * (held.motions @ unit)))
-        gone = held.from_reference(end.place)
+        off = _OFF * (felt.motions @ (start / np.linalg.norm(start)))
+        place, correction = descend(held, held.reference, off, whole)
+        gone = off + correction
         far = float(np.linalg.norm(gone)) / _OFF
         if far <= _BACK:
             continue
-        if far <= _AWAY or end.strain > LARGEST_STRAIN:
+        if far <= _AWAY or place.residual > TRUE:
             is_open = True
             continue
-        here = _dimension_at(held, end.place, random)
+        if looked_at == _MOST_LOOKED_AT:
+            break
+        looked_at += 1
+        here = _dimension_at(felt, place.configuration, random)
         is_open |= here is None
-        if here is not None:
-            dimension = max(dimension, here)
-            along = held.motions.T @ gone
-            found.append((here, along / np.linalg.norm(along)))
-    return Near(None if is_open else dimension, tuple(found))
+        dimension = max(dimension, here or 0)
+        if here == 1:
+            lines.append(_refined(felt, gone))
+        if dimension == width:
+            return Near(width, tuple(lines))
+    return Near(None if is_open else dimension, tuple(lines))
 
 
-def _dimension_at(held: Held, place: Place, random: np.random.Generator) -> int | None:
-    _, jacobian = held.at(place)
+def _refined(felt: Felt, gone: FloatArray) -> FloatArray:
+    """(N,) the direction in which a path begins that has gone somewhere, of unit norm."""
+    whole = np.eye(gone.size)
+    for share in (0.1, 0.1, 0.1):
+        start = share * gone
+        _, correction = descend(felt.held, felt.held.reference, start, whole)
+        if np.linalg.norm(correction) > _AWAY * np.linalg.norm(start):
+            break
+        gone = start + correction
+    along = felt.within(gone)
+    return np.asarray(along / np.linalg.norm(along))
+
+
+def _across(felt: Felt, cone: FloatArray) -> FloatArray:
+    """(n, n - k) what is across the motions of a cone."""
+    return np.asarray(np.linalg.qr(felt.motions @ cone, mode="complete")[0][:, cone.shape[1] :])
+
+
+def _dimension_at(felt: Felt, where: Configuration, random: np.random.Generator) -> int | None:
+    jacobian = felt.held.at(where).jacobian
     _, s, vt = np.linalg.svd(jacobian, full_matrices=True)
     rank = int(np.count_nonzero(s > _ZERO * s.max(initial=1.0)))
-    null = vt[rank:].T
+    null, whole = vt[rank:].T, np.eye(vt.shape[0])
     if null.shape[1] <= 1 or rank == jacobian.shape[0]:
         return null.shape[1]
-    base, ways = held.from_reference(place), []
+    ways = []
     for _ in range(null.shape[1] + 2):
         off = null @ random.standard_normal(null.shape[1])
-        start = held.moved(place, _NEAR / np.linalg.norm(off) * off)
-        end = settled(held, start)
-        ways.append(null.T @ (held.from_reference(end.place) - base) / _NEAR)
+        off *= _NEAR / np.linalg.norm(off)
+        _, correction = descend(felt.held, where, off, whole)
+        ways.append(null.T @ (off + correction) / _NEAR)
     values = np.linalg.svd(np.array(ways), compute_uv=False)
     values = values / max(values[0], _INDEPENDENT)
     if np.any((values > _DEPENDENT) & (values < _INDEPENDENT)):

@@ -8,6 +8,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from ...base.frozen import Frozen
+from ..following.ending import Ending
 
 
 class Kind(str, Enum):
@@ -41,8 +42,8 @@ class Reason(str, Enum):
     """A combination of the self-stresses has a definite second-order form: no motion goes on."""
     STRAINED = "strained"
     """The second-order form of a self-stress is not zero for this motion."""
-    INDEFINITE = "indefinite"
-    """The form of the only self-stress has both signs, and is zero for this motion."""
+    REGULAR = "regular"
+    """The forms are zero for this motion and change sign beside it: a path begins with it."""
     PATH = "path"
     """It was followed."""
     ORDER = "order"
@@ -80,8 +81,10 @@ class Extent(Frozen):
         kind: "finite", "infinitesimal" or "undecided".
         evidence: "certified", "followed", "fitted", or "" where it is undecided.
         reason: What it rests on, or what kept it open.
-        reach: How far it was followed backwards and forwards, lengths of the path [m]: of the
-            largest displacement, or rotation times `size`; None where it was not tried.
+        reach: How far it was followed backwards and forwards, lengths of the path [m]: root of
+            the sum of the squares of displacements, and of rotations times `size`; None where
+            it was not tried.
+        stops: Why it was not followed farther, backwards and forwards; None likewise.
         residual: The largest deformation that is held on that path, or where it was least,
             as a part of `size`; None where it was not tried.
         size: Of what hangs together and moves [m].
@@ -94,6 +97,7 @@ class Extent(Frozen):
     evidence: EvidenceKind
     reason: Reason
     reach: tuple[float, float] | None = None
+    stops: tuple[Ending, Ending] | None = None
     residual: float | None = None
     size: float = 0.0
     curvature: float | None = None
@@ -102,15 +106,13 @@ class Extent(Frozen):
 
 @dataclass(frozen=True)
 class Branch(Frozen):
-    """A path, or a surface of paths, that motions together begin.
+    """A path that several motions begin together.
 
     Attributes:
-        dimension: Of the positions that are reached.
-        shares: (motions,) of the told motions in the direction in which it was met.
+        shares: Index of a told motion, and how much of it; the largest is 1.
     """
 
-    dimension: int
-    shares: tuple[float, ...]
+    shares: tuple[tuple[int, float], ...]
 
 
 @dataclass(frozen=True)
@@ -121,7 +123,7 @@ class Extents(Frozen):
         motions: One for each of `Result.motions`.
         finite_dimension: The dimension of the positions near the reference that can be reached
             without strain; None where it was not decided.
-        branches: Where several motions go on together only, along which.
+        branches: Paths of one dimension that begin with several motions, where they were met.
     """
 
     motions: tuple[Extent, ...]

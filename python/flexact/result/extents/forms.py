@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray
-from .held import Held
+from .felt import Felt
 
 #: Steps of the central differences, in parts of the size; the best of their table is taken.
 _STEPS = 0.02 * 0.25 ** np.arange(5)
@@ -23,7 +23,7 @@ _STEPS = 0.02 * 0.25 ** np.arange(5)
 #: that it is the sum of.
 _CLEARLY, _PART = 1.0e3, 1.0e-9
 #: Steps of the search for a definite combination.
-_MOST_STEPS = 300
+_MOST_STEPS, _MOST_STARTS = 200, 4
 
 
 class Forms(NamedTuple):
@@ -43,15 +43,15 @@ class Forms(NamedTuple):
         return np.asarray(self.matrix @ motion)
 
 
-def forms_of(held: Held, explained: float) -> Forms:
+def forms_of(felt: Felt, explained: float) -> Forms:
     """The forms of all self-stresses on all motions.
 
     Args:
-        held: The deformations that are held.
+        felt: The component.
         explained: What part of a form the rounding of the geometry may make.
     """
-    many = held.motions.shape[1]
-    rates, errors = zip(*(_rate(held, held.motions[:, j]) for j in range(many)), strict=True)
+    many = felt.many
+    rates, errors = zip(*(_rate(felt, felt.motions[:, j]) for j in range(many)), strict=True)
     matrix = np.stack(rates, axis=1)
     skew = np.abs(matrix - np.swapaxes(matrix, 1, 2)).max(initial=0.0)
     size = np.abs(matrix).max(initial=0.0)
@@ -59,13 +59,13 @@ def forms_of(held: Held, explained: float) -> Forms:
     return Forms((matrix + np.swapaxes(matrix, 1, 2)) / 2.0, error)
 
 
-def _rate(held: Held, motion: FloatArray) -> tuple[FloatArray, float]:
+def _rate(felt: Felt, motion: FloatArray) -> tuple[FloatArray, float]:
     """(s, N) d/dt u' D(x + t v) v by differences, and their error (Ridders, Richardson)."""
     best, error = None, np.inf
     before: list[FloatArray] = []
     for step in _STEPS.tolist():
         ahead, behind = (
-            held.pressed(held.moved(held.reference, sign * step * motion)) for sign in (1.0, -1.0)
+            _pressed(felt, sign * step * motion) for sign in (1.0, -1.0)
         )
         now = [(ahead - behind) / (2.0 * step)]
         for k, other in enumerate(before):
@@ -80,6 +80,13 @@ def _rate(held: Held, motion: FloatArray) -> tuple[FloatArray, float]:
     return np.asarray(best), error
 
 
+def _pressed(felt: Felt, change: FloatArray) -> FloatArray:
+    """(s, N) u' D v after a change, whose derivative along itself does not turn with it."""
+    held = felt.held
+    where = held.moved(held.reference, change)
+    return np.asarray(held.pressed(where, felt.stresses).T @ felt.motions)
+
+
 class Combination(NamedTuple):
     """A combination of forms, of unit norm."""
 
@@ -87,6 +94,8 @@ class Combination(NamedTuple):
     """(s,)."""
     eigenvalues: FloatArray
     """(N,) ascending."""
+    vectors: FloatArray
+    """(N, N) their eigenvectors."""
 
 
 def most_definite(forms: Forms) -> Combination:
@@ -96,14 +105,14 @@ def most_definite(forms: Forms) -> Combination:
     supergradients climb.
     """
     many = forms.matrix.shape[0]
+    starts = [*np.eye(many)[:_MOST_STARTS], *-np.eye(many)[:_MOST_STARTS]]
     traces = np.trace(forms.matrix, axis1=1, axis2=2)
+    size = float(np.linalg.norm(traces))
+    if size > forms.error:
+        starts.insert(0, traces / size)
     best: Combination | None = None
-    starts = [traces, *np.eye(many), *-np.eye(many)] if many > 1 else [np.ones(1), -np.ones(1)]
     for start in starts:
-        size = np.linalg.norm(start)
-        if not size > 0.0:
-            continue
-        found = _climbed(forms, start / size)
+        found = _climbed(forms, start)
         if best is None or found.eigenvalues[0] > best.eigenvalues[0]:
             best = found
         if best.eigenvalues[0] > forms.error:
@@ -112,26 +121,75 @@ def most_definite(forms: Forms) -> Combination:
     return best
 
 
+class Cone(NamedTuple):
+    """What the forms leave of the motions: none beyond it is the velocity of a path."""
+
+    basis: FloatArray
+    """(N, k) orthonormal."""
+    forms: Forms
+    """The forms on it, those that are independent."""
+    least: float | None
+    """The smallest eigenvalue that took motions away; None where none did."""
+
+
+def cone_of(forms: Forms) -> Cone:
+    """Take away what semidefinite combinations of the forms exclude, until none does.
+
+    Where a combination is not negative, its value is zero on a path, so that the velocity is in
+    the null space of the combination; there the forms are looked at again.
+    """
+    basis, now = np.eye(forms.matrix.shape[1]), _independent(forms)
+    least: float | None = None
+    while now.matrix.size:
+        found = most_definite(now)
+        values, error = found.eigenvalues, forms.error
+        if values[0] < -error or not values[-1] > error:
+            break
+        zero = values <= error
+        taken = float(values[~zero].min())
+        least = taken if least is None else min(least, taken)
+        basis = basis @ found.vectors[:, zero]
+        within = np.einsum("ja,ijk,kb->iab", basis, forms.matrix, basis)
+        now = _independent(Forms(within, error))
+    return Cone(basis, now, least)
+
+
+def _independent(forms: Forms) -> Forms:
+    """As many forms as are independent, the largest first; none that is zero."""
+    many, size = forms.matrix.shape[:2]
+    left, values, _ = np.linalg.svd(forms.matrix.reshape(many, -1), full_matrices=False)
+    chosen = left[:, values > forms.error]
+    made = np.tensordot(chosen.T, forms.matrix, 1).reshape(chosen.shape[1], size, size)
+    return Forms(made, forms.error)
+
+
 def _climbed(forms: Forms, shares: FloatArray) -> Combination:
-    best = _combined(forms, shares)[0]
-    if shares.size == 1:
-        return best
-    for k in range(_MOST_STEPS):
-        now, vectors = _combined(forms, shares)
-        if now.eigenvalues[0] > best.eigenvalues[0]:
-            best = now
+    best = now = _combined(forms, shares)
+    for k in range(_MOST_STEPS if shares.size > 1 else 0):
         # The mean over the lowest eigenvectors, weighted by how low they are.
         spread = np.abs(now.eigenvalues).max() / (4.0 + k / 4.0)
-        weight = np.exp(-(now.eigenvalues - now.eigenvalues[0]) / max(spread, 1.0e-300))
-        slope = np.einsum("ijk,jl,kl,l->i", forms.matrix, vectors, vectors, weight / weight.sum())
-        size = np.linalg.norm(slope)
+        weight = np.exp(-(now.eigenvalues - now.eigenvalues[0]) / spread)
+        slope = np.einsum(
+            "ijk,jl,kl,l->i",
+            *(forms.matrix, now.vectors, now.vectors, weight / weight.sum()),
+            optimize=True,
+        )
+        size = float(np.linalg.norm(slope))
         if not size > 0.0:
             break
         shares = shares + slope / size / (1.0 + k / 4.0)
-        shares = shares / np.linalg.norm(shares)
+        length = float(np.linalg.norm(shares))
+        if not length > 0.0:
+            break
+        shares = shares / length
+        now = _combined(forms, shares)
+        if now.eigenvalues[0] > best.eigenvalues[0]:
+            best = now
+        if best.eigenvalues[0] > forms.error:
+            break
     return best
 
 
-def _combined(forms: Forms, shares: FloatArray) -> tuple[Combination, FloatArray]:
+def _combined(forms: Forms, shares: FloatArray) -> Combination:
     values, vectors = np.linalg.eigh(np.tensordot(shares, forms.matrix, 1))
-    return Combination(shares, values), np.asarray(vectors)
+    return Combination(shares, values, np.asarray(vectors))

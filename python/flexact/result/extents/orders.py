@@ -9,8 +9,8 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from .extent import Fit
-from .held import Held
-from .settling import least_along
+from .felt import Felt
+from .least import least_along
 
 #: How far along the motion the least strain is measured, in parts of the size.
 _SHARES = 0.3 * 10.0 ** (-0.25 * np.arange(15))
@@ -32,19 +32,19 @@ class Measured(NamedTuple):
     """Whether somewhere the least is met along other motions."""
 
 
-def measured(held: Held, motion: FloatArray, sign: float, floor: float) -> Measured:
+def measured(felt: Felt, motion: FloatArray, sign: float, floor: float) -> Measured:
     """The least strains along a motion, where they are above rounding.
 
     Args:
-        held: What is held.
+        felt: The component.
         motion: (n,) unit vector.
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the share.
     """
-    sideways, aside = held.motions.shape[1] > 1, False
+    aside = False
     shares, strains = [], []
     for share in _SHARES.tolist():
-        found = least_along(held, motion, sign * share, sideways=sideways)
+        found = least_along(felt, motion, sign * share)
         if found is None:
             aside = True
             continue

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Along a path without strain, step by step, both ways."""
+"""Along a path where several motions begin, or where the geometry is rounded.
+
+There the follower (`flexact.result.following.follow`) may find no first step, or strains above
+its limit all along. What is allowed here grows with the way as rounding lifts the zeros.
+"""
 
 from __future__ import annotations
 
@@ -8,29 +12,28 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray
-from .held import Held, Place
-from .settling import beside, least_along, settled
+from ..following.follow import TRUE
+from ..following.settle import onward, settle
+from .felt import Felt
+from .least import least_along
 
 #: How far a path is followed, in parts of the size, and in how large steps.
 GOAL, _STEP, _LEAST_STEP = 0.1, 0.02, 2.0e-4
-#: Strain on a path, in parts of the size.
-LARGEST_STRAIN = 1.0e-12
 #: Corrections of a step may be this part of it.
 _FARTHEST = 0.5
 #: Where a motion has gone so far, others that it takes along have gone this part of it at most.
 _NEAR, _BESIDE = 1.0e-4, 0.05
-#: Singular values below this part of the largest belong to directions that stay.
-_CUT = 1.0e-4
+#: What may be left is this multiple of what rounding of the geometry explains.
+_ROUNDED = 10.0
 
 
 class Walk(NamedTuple):
     """How far a path was followed one way."""
 
     gone: float
-    """Largest displacement or rotation, in parts of the size."""
+    """Length of the path, in parts of the size."""
     strain: float
     """The largest on the path."""
-    ends: Place
 
     @property
     def arrived(self) -> bool:
@@ -38,52 +41,44 @@ class Walk(NamedTuple):
         return self.gone >= GOAL * (1.0 - 1.0e-9)
 
 
-def walk(held: Held, motion: FloatArray, sign: float, floor: float) -> Walk:
+def walk(felt: Felt, motion: FloatArray, sign: float, floor: float) -> Walk:
     """Follow a motion one way.
 
     Args:
-        held: What is held.
+        felt: The component.
         motion: (n,) unit vector in the space of motions.
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the way.
     """
-    here, ahead, gone, worst = held.reference, sign * motion, 0.0, 0.0
-    sideways = held.motions.shape[1] > 1
-    if sideways and not _begins(held, motion, sign, floor):
-        return Walk(0.0, 0.0, here)
+    if felt.many > 1 and not _begins(felt, motion, sign, floor):
+        return Walk(0.0, 0.0)
     step = _STEP
+    while True:
+        first = least_along(felt, motion, sign * step)
+        limit = TRUE + _ROUNDED * floor * step
+        if first is not None and first.strain <= limit:
+            break
+        step /= 2.0
+        if step < _LEAST_STEP:
+            return Walk(0.0, 0.0)
+    here, gone, worst = felt.held.at(first.place), step, first.strain
+    ahead = onward(here, first.change / np.linalg.norm(first.change))
     while gone < GOAL:
-        # From where several motions begin there may be several ways on.
-        found = (
-            least_along(held, motion, sign * step, sideways=True)
-            if sideways and not gone
-            else settled(held, held.moved(here, step * ahead), ahead)
-        )
-        limit = LARGEST_STRAIN + 10.0 * floor * (gone + step)
-        if found is None or found.strain > limit or found.went > _FARTHEST * step:
+        there = settle(felt.held, here, ahead, step)
+        limit = TRUE + _ROUNDED * floor * (gone + step)
+        if there is None or there.residual > limit:
             step /= 2.0
             if step < _LEAST_STEP:
                 break
             continue
-        way = held.from_reference(found.place) - held.from_reference(here)
-        gone += held.largest(way)
-        here, worst = found.place, max(worst, found.strain)
-        ahead = _onward(held, here, ahead)
+        here, gone, worst = there, gone + step, max(worst, there.residual)
+        ahead = onward(here, ahead)
         step = min(2.0 * step, _STEP)
-    return Walk(gone, worst, here)
+    return Walk(gone, worst)
 
 
-def _begins(held: Held, motion: FloatArray, sign: float, floor: float) -> bool:
+def _begins(felt: Felt, motion: FloatArray, sign: float, floor: float) -> bool:
     """Whether there is a path near, on which other motions fall behind."""
-    found = least_along(held, motion, sign * _NEAR, sideways=True)
-    if found is None or found.strain > LARGEST_STRAIN / 100.0 + 10.0 * floor * _NEAR:
-        return False
-    return beside(held, found.place, motion, sign * _NEAR) <= _BESIDE
-
-
-def _onward(held: Held, here: Place, ahead: FloatArray) -> FloatArray:
-    """The direction in which a path goes on: the last one within the null space."""
-    _, jacobian = held.at(here)
-    along = ahead - np.linalg.lstsq(jacobian, jacobian @ ahead, rcond=_CUT)[0]
-    length = float(np.linalg.norm(along))
-    return np.asarray(along / length) if length > _FARTHEST else ahead
+    found = least_along(felt, motion, sign * _NEAR)
+    limit = TRUE / 100.0 + _ROUNDED * floor * _NEAR
+    return found is not None and found.strain <= limit and found.beside <= _BESIDE

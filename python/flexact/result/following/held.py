@@ -144,13 +144,21 @@ class Held:
         """
         if change is None or not change.any():
             return Place(here, *self._assembled(here))
-        delta = np.zeros((self.arrays.node_kind.size, 3))
-        delta.ravel()[self.columns] = change * self._column_factor
+        delta = self._delta(change)
         there = here.moved(delta)
         error, jacobian = self._assembled(there)
         if self._turning.size:
             jacobian = jacobian @ self._turn_of(delta)
         return Place(there, error, jacobian)
+
+    def moved(self, here: Configuration, change: FloatArray) -> Configuration:
+        """The nodes after a change (n,) of the coordinates."""
+        return here.moved(self._delta(change))
+
+    def _delta(self, change: FloatArray) -> FloatArray:
+        delta = np.zeros((self.arrays.node_kind.size, 3))
+        delta.ravel()[self.columns] = change * self._column_factor
+        return delta
 
     def _turn_of(self, delta: FloatArray) -> FloatArray:
         """(n, n) small rotations made by a change of rotation vectors, exp(T dv) exp(v)."""
@@ -171,6 +179,20 @@ class Held:
         flat = np.bincount(place, raw.value[there], m * n).astype(np.float64)
         error = raw.deformation.T.ravel()[self.rows] * self._row_factor
         return error, self._row_factor[:, None] * flat.reshape(m, n) * self._column_factor
+
+    def pressed(self, here: Configuration, stresses: FloatArray) -> FloatArray:
+        """(n, s) u' D of some stresses (m, s), without the matrix in full.
+
+        They are dual to `Place.error`, and the derivatives are those there.
+        """
+        raw = self._raw(here)
+        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
+        there = (row >= 0) & (column >= 0)
+        row, column = row[there], column[there]
+        value = raw.value[there] * self._row_factor[row] * self._column_factor[column]
+        many = self.columns.size
+        sums = [np.bincount(column, value * each[row], many) for each in stresses.T]
+        return np.stack(sums, axis=1) if sums else np.zeros((many, 0))
 
     def _raw(self, here: Configuration) -> RawAssembly:
         return calls.assemble(self._packed, here.value.T, np.zeros(self.arrays.element_number.size))

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A component at the reference: what is held in it, its motions and the self-stresses they feel.
+
+All is free of units, as `flexact.result.following.held` has it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arrays import FloatArray, ModelArrays
+from ...core.basis import Basis
+from ...core.elements import Dual, NodeKind, dual_table
+from ...model.data import ModelData
+from ..following.held import Held
+from ..spaces import Spaces
+from ..weights import column_weights, row_weights
+from .components import Component
+
+
+class Felt:
+    """A component at the reference.
+
+    Attributes:
+        held: What is held in it, of a model of its elements alone.
+        motions: (n, N) orthonormal.
+        stresses: (m, s) orthonormal, dual to the deformations.
+    """
+
+    def __init__(self, spaces: Spaces, component: Component) -> None:
+        """Make the model of a component and take the null vectors over."""
+        data, node_place, element_place = _alone(spaces.data, component.elements)
+        self.held = held = Held(data)
+        node, axis = spaces.raw.column_label[:, component.columns] - 1
+        order = np.searchsorted(held.columns, 3 * node_place[node] + axis)
+        placed = spaces.data.arrays.node_kind[node] <= NodeKind.POSITION
+        self._places, self._factor = order, np.where(placed, 1.0 / held.size, 1.0)
+        told = column_weights(spaces, component.columns)
+        motions = _dense(spaces.motion_space, component.motions)[component.columns]
+        self.motions = _orthonormal(self.of(motions / told[:, None]))
+        element, deformation = spaces.raw.row_label - 1
+        rows = np.flatnonzero(element_place[element] >= 0)
+        places = np.searchsorted(
+            held.rows, 6 * element_place[element[rows]] + deformation[rows]
+        )
+        stresses = _dense(spaces.stress_space, component.stresses)[rows]
+        made = np.zeros((held.rows.size, len(component.stresses)))
+        made[places] = stresses / row_weights(spaces, rows)[:, None]
+        kinds = spaces.data.arrays.element_kind[element[rows]]
+        turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
+        made[places] *= np.where(turns, 1.0, held.size)[:, None]
+        self.stresses = _orthonormal(made)
+
+    @property
+    def many(self) -> int:
+        """Number of motions."""
+        return int(self.motions.shape[1])
+
+    def of(self, vectors: FloatArray) -> FloatArray:
+        """(n, ...) velocities [m, rad] at the columns of the component, as `Held` has them."""
+        made = np.empty_like(vectors)
+        made[self._places] = (vectors.T * self._factor).T
+        return made
+
+    def within(self, change: FloatArray) -> FloatArray:
+        """(N,) what a change of the coordinates (n,) has of each motion."""
+        return np.asarray(self.motions.T @ change)
+
+    def largest(self, change: FloatArray) -> float:
+        """The largest displacement or rotation of a node in a change (n,)."""
+        square = np.bincount(self.held.columns // 3, change**2)
+        return float(np.sqrt(square.max(initial=0.0)))
+
+
+def _alone(
+    data: ModelData, elements: NDArray[np.integer]
+) -> tuple[ModelData, NDArray[np.integer], NDArray[np.integer]]:
+    """A model of some elements alone; where each node and element is in it, -1 where it is not."""
+    arrays = data.arrays
+    slots = arrays.element_node[:, elements]
+    nodes = np.unique(slots[slots > 0]) - 1
+    node_place = np.full(arrays.node_number.size, -1)
+    node_place[nodes] = np.arange(nodes.size)
+    element_place = np.full(arrays.element_number.size, -1)
+    element_place[elements] = np.arange(elements.size)
+    renumbered = np.where(slots > 0, node_place[slots - 1] + 1, 0)
+    made = ModelArrays(
+        node_number=arrays.node_number[nodes],
+        node_kind=arrays.node_kind[nodes],
+        node_value=arrays.node_value[:, nodes],
+        coordinate_class=arrays.coordinate_class[:, nodes],
+        element_number=arrays.element_number[elements],
+        element_kind=arrays.element_kind[elements],
+        element_node=renumbered.astype(np.int32),
+        element_vector=arrays.element_vector[:, elements],
+        deformation_class=arrays.deformation_class[:, elements],
+    )
+    whole = replace(
+        data,
+        arrays=ModelArrays._make(np.asfortranarray(each) for each in made),
+        element_names=("",) * elements.size,
+        node_names=(),
+        given_appearance=None,
+        properties=None,
+        found=None,
+        besides=(),
+    )
+    return whole, node_place, element_place
+
+
+def _dense(basis: Basis, vectors: tuple[int, ...]) -> FloatArray:
+    made = np.zeros((basis.size, len(vectors)))
+    for k, vector in enumerate(vectors):
+        place, value = basis.entries(vector)
+        made[place, k] = value
+    return made
+
+
+def _orthonormal(vectors: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.qr(vectors)[0])
