@@ -11,7 +11,7 @@ from ..base.frozen import Frozen
 from ..core.elements import Class
 from ..model.data import ModelData
 from ..model.model import Model
-from ..model.variation import with_classes, with_positions
+from ..model.variation import with_classes, with_positions, with_vectors
 
 
 @dataclass(frozen=True)
@@ -26,11 +26,13 @@ class Change(Frozen):
         coordinates: Number of the node, the coordinate's name out of x, y, z, rx, ry, rz, and
             the class that it gets.
         places: Number of a position node and where it is put, (x, y, z) [m].
+        vectors: Number of an element and the vector, y vector or axis, that it gets (x, y, z).
     """
 
     deformations: tuple[tuple[int, int, Class], ...] = ()
     coordinates: tuple[tuple[int, str, Class], ...] = ()
     places: tuple[tuple[int, tuple[float, float, float]], ...] = ()
+    vectors: tuple[tuple[int, tuple[float, float, float]], ...] = ()
 
     def apply(self, data: ModelData) -> Model:
         """The changed model; of a deck its comments stay.
@@ -43,6 +45,8 @@ class Change(Frozen):
             for number, place in self.places:
                 positions[data.node_index[number]] = np.asarray(place)
             data = with_positions(data, positions)
+        if self.vectors:
+            data = with_vectors(data, dict(self.vectors))
         if self.deformations or self.coordinates:
             data = with_classes(
                 data,
