@@ -14,7 +14,7 @@ from ..core.elements import Class
 from ..model.data import ModelData
 from ..model.model import Model
 from ..model.names import part_name
-from ..model.variation import with_classes, with_positions
+from ..model.variation import with_classes, with_positions, with_vectors
 
 #: What a wire that is added is called.
 _NEW_WIRE = "new wire"
@@ -48,12 +48,14 @@ class Change(Frozen):
             the class that it gets.
         places: Number of a position node and where it is put, (x, y, z) [m].
         wires: Wires that are added, from a body to the ground.
+        vectors: Number of an element and the vector, y vector or axis, that it gets (x, y, z).
     """
 
     deformations: tuple[tuple[int, int, Class], ...] = ()
     coordinates: tuple[tuple[int, str, Class], ...] = ()
     places: tuple[tuple[int, tuple[float, float, float]], ...] = ()
     wires: tuple[AddedWire, ...] = ()
+    vectors: tuple[tuple[int, tuple[float, float, float]], ...] = ()
 
     def apply(self, data: ModelData) -> Model:
         """The changed model; of a deck its comments stay.
@@ -66,6 +68,8 @@ class Change(Frozen):
             for number, place in self.places:
                 positions[data.node_index[number]] = np.asarray(place)
             data = with_positions(data, positions)
+        if self.vectors:
+            data = with_vectors(data, dict(self.vectors))
         if self.deformations or self.coordinates:
             data = with_classes(
                 data,

@@ -83,6 +83,22 @@ def with_positions(data: ModelData, positions: FloatArray) -> ModelData:
     return _changed(data, replace_arrays={"node_value": value})
 
 
+def with_vectors(data: ModelData, vectors: Mapping[int, Sequence[float]]) -> ModelData:
+    """The model with other y vectors or axes of some elements.
+
+    Args:
+        data: The model.
+        vectors: (3,) vector by the number of the element.
+
+    Raises:
+        KeyError: there is no such element.
+    """
+    made = data.arrays.element_vector.copy(order="F")
+    for element, vector in vectors.items():
+        made[:, data.element_index[element]] = vector
+    return _changed(data, replace_arrays={"element_vector": made})
+
+
 def with_held(data: ModelData, held: BoolArray) -> ModelData:
     """The model with these deformations held, (elements, 6), and the others released.
 

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
+
+import numpy as np
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
@@ -56,9 +58,11 @@ class RelationKind(str, Enum):
     ONE_PLANE = "lie in one plane"
     CONCURRENT = "meet in one point"
     ONE_TRANSVERSAL = "all meet one line"
+    ACROSS = "all lie across one direction"
     REGULUS = "are generators of one hyperboloid"
     COMPLEX = "belong to one linear complex"
     CIRCLE = "lie on one circle"
+    TWO_LINES = "lie on two lines"
     CONIC = "lie on one conic"
     ROTATION = "a rotation takes them to each other"
     REFLECTION = "a reflection takes them to each other"
@@ -92,8 +96,13 @@ class Relation(Frozen):
         parts: The parts whose lines they are, by name.
         nodes: Of joints the indices of their position nodes in the model as given.
         direction: (3,) of the line, or of parallel lines; across a plane; of the axis of a
-            rotation; across the mirror of a reflection; zero where there is none.
-        point: (3,) on the line, in the plane, or where lines meet [m]; zero where there is none.
+            rotation, or of the screw that lines of one complex do not stop; across the mirror of
+            a reflection; zero where there is none.
+        point: (3,) on the line or axis, in the plane, or where lines meet [m]; zero where there
+            is none.
+        couple: (3,) unit vector about which these lines of force together make a couple in the
+            self-stress; zero where they do not.
+        pitch: Of the screw that lines of one complex do not stop [m/rad].
         fold: How many times a rotation brings all back in one turn.
         is_sufficient: Whether other geometries with the same relation were tried and have what
             this one has.
@@ -105,6 +114,8 @@ class Relation(Frozen):
     nodes: tuple[int, ...]
     direction: FloatArray
     point: FloatArray
+    couple: FloatArray = field(default_factory=lambda: np.zeros(3))
+    pitch: float = 0.0
     fold: int = 1
     is_sufficient: bool = False
 

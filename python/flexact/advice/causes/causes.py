@@ -3,21 +3,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cached_property
+
 import numpy as np
 
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...result.modes import Motion, SelfStress
 from ...result.result import Result
-from .cause import Cause, CauseKind, Causes, Lift
+from .cause import Cause, CauseKind, Causes, Lift, Relation
 from .generic import generic_rank
 from .gradients import Gradients, are_affordable
 from .kinds import Lifted, Told, all_alike, by_count, told_apart
 from .lifts import Lifts
+from .mends import Mend, mends_of
+from .relations import relations_of
 
 #: A told vector of which less than this lies in the space of the undivided mechanism is not there.
 _THERE = 0.5
-_LARGE = 400
+#: How many special self-stresses are explained, and by how many relations each.
+_MOST_EXPLAINED, _MOST_RELATIONS = 8, 3
+#: Pairs below this part of the largest do not belong together.
+_COUPLED = 1.0e-6
 
 
 def causes_of(result: Result) -> Causes:
@@ -69,13 +77,70 @@ class _Finding:
         stresses = self._told(
             of_stresses, self.stresses, None if lifted is None else lifted.stresses
         )
+        special = self._special_relations(lifted)
         return Causes(
-            _made(motions, of_motions, None if lifts is None else lifts.of_motion),
-            _made(stresses, of_stresses, None if lifts is None else lifts.of_stress),
-            (),
+            _made(
+                motions,
+                of_motions,
+                None if lifts is None else lifts.of_motion,
+                lambda share: self._of_motion(share, special),
+            ),
+            _made(
+                stresses,
+                of_stresses,
+                None if lifts is None else lifts.of_stress,
+                lambda share: self._of_stress(share, special),
+            ),
+            self._mends(lifted, special),
             self.rank,
             trials,
         )
+
+    # What makes it special --------------------------------------------------
+
+    def _special_relations(self, lifted: Lifted | None) -> dict[int, tuple[Relation, ...]]:
+        """What makes the geometry special, by the self-stress of the undivided mechanism."""
+        whole = self.whole
+        if lifted is None or not whole.is_told_by_parts:
+            return {}
+        told = self._told(self._own_stresses, self.stresses, lifted.stresses)
+        if told.together:
+            found = relations_of(whole, told.together)
+            return {k: found for k in np.flatnonzero(told.is_special).tolist()}
+        chosen = np.flatnonzero(told.is_special)[:_MOST_EXPLAINED].tolist()
+        return {k: relations_of(whole, (k,)) for k in chosen}
+
+    def _mends(
+        self, lifted: Lifted | None, special: dict[int, tuple[Relation, ...]]
+    ) -> tuple[Mend, ...]:
+        if lifted is None or not special:
+            return ()
+        told = self._told(self._own_motions, self.motions, lifted.motions)
+        motions = [self.whole.motions[k] for k in np.flatnonzero(told.is_special).tolist()]
+        return mends_of(self.whole, _all_of(special), motions)
+
+    def _of_stress(
+        self, share: FloatArray, special: dict[int, tuple[Relation, ...]]
+    ) -> tuple[Relation, ...]:
+        """Of the special self-stress that has the largest part in one."""
+        if not special:
+            return ()
+        parts = np.abs(np.linalg.lstsq(self._own_stresses, share)[0])
+        return special[max(special, key=lambda k: (round(float(parts[k]), 9), -k))]
+
+    def _of_motion(
+        self, share: FloatArray, special: dict[int, tuple[Relation, ...]]
+    ) -> tuple[Relation, ...]:
+        """Of all special self-stresses that misalignments lift together with a motion."""
+        if self.gradients is None:
+            return ()
+        pairs = {}
+        for k in special:
+            of_stress = self._own_stresses[:, k]
+            pairs[k] = self.gradients.coupling(of_stress, share)
+        largest = max(pairs.values(), default=0.0)
+        able = [k for k in special if pairs[k] > _COUPLED * largest] or list(special)
+        return _all_of({k: special[k] for k in able})[:_MOST_RELATIONS]
 
     def _told(self, told: FloatArray, generic: int, never: FloatArray | None) -> Told:
         count = told.shape[1]
@@ -99,14 +164,20 @@ class _Finding:
         told = self.result.motions
         if self.gradients is None:
             return np.ones((1, len(told)))
-        whole, scale = self.whole, self.whole.raw.column_scale
-        if whole is self.result:
-            made = self.gradients.motions.T @ (whole.motion_basis.toarray() / scale[:, None])
-        else:
-            made = np.zeros((self.gradients.motions.shape[1], len(told)))
-            for k, motion in enumerate(told):
-                made[:, k] = self._share_of_motion(motion)
+        if self.whole is self.result:
+            return self._own_motions
+        made = np.zeros((self.gradients.motions.shape[1], len(told)))
+        for k, motion in enumerate(told):
+            made[:, k] = self._share_of_motion(motion)
         return _unit(made)
+
+    @cached_property
+    def _own_motions(self) -> FloatArray:
+        """(k, told) those of the undivided mechanism."""
+        assert self.gradients is not None
+        scale = self.whole.raw.column_scale
+        told = self.whole.motion_basis.toarray() / scale[:, None]
+        return _unit(self.gradients.motions.T @ told)
 
     def _share_of_motion(self, motion: Motion) -> FloatArray:
         """(k,) of a motion of the divided mechanism; zero of one inside of a part."""
@@ -129,10 +200,10 @@ class _Finding:
         told = self.result.self_stresses
         if self.gradients is None:
             return np.ones((1, len(told)))
-        whole, scale = self.whole, self.whole.raw.row_scale
-        own = self.gradients.stresses.T @ (whole.stress_basis.toarray() / scale[:, None])
+        whole = self.whole
+        own = self._own_stresses
         if whole is self.result:
-            return _unit(own)
+            return own
         of_whole = _loads_of(list(whole.self_stresses))
         of_told = _loads_of(list(told))
         keys = {key: i for i, key in enumerate(sorted({*of_whole, *of_told}))}
@@ -142,6 +213,18 @@ class _Finding:
                 made[keys[key]] = block
         shares = np.linalg.lstsq(left.reshape(-1, own.shape[1]), right.reshape(-1, len(told)))[0]
         return _unit(own @ shares)
+
+    @cached_property
+    def _own_stresses(self) -> FloatArray:
+        """(s, told) those of the undivided mechanism."""
+        assert self.gradients is not None
+        scale = self.whole.raw.row_scale
+        told = self.whole.stress_basis.toarray() / scale[:, None]
+        return _unit(self.gradients.stresses.T @ told)
+
+
+def _all_of(special: dict[int, tuple[Relation, ...]]) -> tuple[Relation, ...]:
+    return tuple(dict.fromkeys(one for found in special.values() for one in found))
 
 
 def _loads_of(stresses: list[SelfStress]) -> dict[tuple[int, int], FloatArray]:
@@ -165,14 +248,21 @@ def _unit(vectors: FloatArray) -> FloatArray:
     return made
 
 
-def _made(told: Told, shares: FloatArray, lift_of: object) -> tuple[Cause, ...]:
+def _made(
+    told: Told,
+    shares: FloatArray,
+    lift_of: Callable[[FloatArray], Lift] | None,
+    relations_of_share: Callable[[FloatArray], tuple[Relation, ...]],
+) -> tuple[Cause, ...]:
     made = []
     for k, is_special in enumerate(told.is_special):
         kind = CauseKind.SPECIAL if is_special else CauseKind.GENERIC
         free = k in told.together
         lift: Lift | None = None
+        relations: tuple[Relation, ...] = ()
         if lift_of is not None and shares[:, k].any() and (is_special or free):
-            lift = lift_of(shares[:, k])  # type: ignore[operator]
+            lift = lift_of(shares[:, k])
+            relations = relations_of_share(shares[:, k])
         made.append(
             Cause(
                 kind,
@@ -180,6 +270,7 @@ def _made(told: Told, shares: FloatArray, lift_of: object) -> tuple[Cause, ...]:
                 told.special if free else 0,
                 lift or None,
                 bool(lift),
+                relations,
             )
         )
     return tuple(made)
