@@ -71,7 +71,8 @@ class Step(Frozen):
     @cached_property
     def pieces(self) -> Pieces:
         """What is done."""
-        return ended(begun(_WORDS[self.purpose](self.analysis, self.proposal)))
+        words = _WORDS[self.purpose](self.analysis, self.proposal)
+        return ended(begun(("add ", *words) if self.purpose is Purpose.ADD_WIRE else words))
 
     @property
     def outcome(self) -> str:
