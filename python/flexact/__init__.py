@@ -14,6 +14,7 @@ from .base.loading import load
 from .base.version import VERSION
 
 if TYPE_CHECKING:
+    from .advising import Advice, Step
     from .analysis import Analysis, analyse
     from .base.errors import FlexactError
     from .deck.models import read, read_text
@@ -57,6 +58,7 @@ __version__ = VERSION
 
 #: The module of each public name.
 _HOMES = {
+    "advising": ("Advice", "Step"),
     "analysis": ("Analysis", "analyse"),
     "base.errors": ("FlexactError",),
     "deck.models": ("read", "read_text"),
@@ -85,6 +87,7 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "Advice",
     "Alternative",
     "Analysis",
     "AnalysisError",
@@ -117,6 +120,7 @@ __all__ = [
     "SelfStress",
     "Severity",
     "Sheet",
+    "Step",
     "Table",
     "Tolerances",
     "Verdict",

@@ -1,0 +1,334 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Advice as values and as the command gives it: steps, JSON, changed decks, mistakes."""
+
+import copy
+import json
+import pickle
+from collections import Counter
+from dataclasses import FrozenInstanceError
+from pathlib import Path
+
+import numpy as np
+import pytest
+from json_schema import assert_valid_as, validator
+from part_models import cross_hinge, guide
+from reference_decks import NAMES, ROOT
+from small_decks import BROKEN, COLLINEAR, DECKS, VERDICTS, json_lines, write
+
+import flexact
+from flexact import Advice, Model, ModelError, analyse
+from flexact.advice.proposal import Purpose
+from flexact.cli.main import main
+
+INPUT = ROOT / "input_decks"
+ADVISED = validator("advised")
+FEW = ("paper/folded_sheet_free", "flexures/cross_hinge_undeclared", "linkages/four_bar_planar")
+
+
+def advice(name: str) -> Advice:
+    return analyse(INPUT / f"{name}.dat").advice()
+
+
+# Values
+
+
+def test_steps_are_a_sequence_in_the_order_of_their_numbers() -> None:
+    steps = advice("flexures/cross_hinge_undeclared")
+    assert len(steps) == len(list(steps)) > 3
+    assert [step.number for step in steps] == list(range(1, len(steps) + 1))
+    assert steps[0] in steps and steps[-1] is steps[len(steps) - 1]
+    assert [step.number for step in steps[1:3]] == [2, 3]
+    order = [
+        *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD, Purpose.ADD_WIRE),
+    ]
+    places = [order.index(step.purpose) for step in steps]
+    assert places == sorted(places)
+    with pytest.raises(IndexError):
+        steps[len(steps)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_step_makes_what_it_promises(name: str, tmp_path: Path) -> None:
+    """As a model, and as a deck that is read again; of each kind of step the first."""
+    made = advice(name)
+    seen: set[tuple[Purpose, bool]] = set()
+    for step in made:
+        kind = step.purpose, bool(step.change.coordinates)
+        if kind in seen:
+            continue
+        seen.add(kind)
+        after = analyse(step.apply())
+        assert after.verdict is step.after.verdict, step
+        assert after.under_constrained == step.after.under_constrained
+        assert after.over_constrained == step.after.over_constrained
+        target = tmp_path / f"{step.number}.dat"
+        arguments = ["advise", str(INPUT / f"{name}.dat"), "--apply", str(step.number)]
+        assert main([*arguments, "-o", str(target)]) == 0
+        again = analyse(target)
+        assert again.verdict is step.after.verdict
+        assert again.counts == after.counts
+
+
+def test_alternatives_are_choices_that_do_the_same() -> None:
+    """The two sheets of a parallel guide are alike."""
+    step = next(step for step in advice("flexures/parallel_guide") if step.alternatives)
+    for choice in range(1, 2 + len(step.alternatives)):
+        after = analyse(step.apply(choice))
+        assert after.verdict is step.after.verdict is flexact.Verdict.EXACT
+    first, second = (step.apply(choice).data.arrays.deformation_class for choice in (1, 2))
+    assert not np.array_equal(first, second)
+    for wrong in (0, 2 + len(step.alternatives), -1):
+        with pytest.raises(ModelError, match=f"no choice {wrong} of step {step.number}"):
+            step.apply(wrong)
+    for wrong in (True, 1.0, "1"):
+        with pytest.raises(TypeError, match="whole number"):
+            step.apply(wrong)  # type: ignore[arg-type]
+
+
+def test_advice_is_frozen_and_outlives_a_change_of_the_model() -> None:
+    model = guide()
+    made = analyse(model).advice()
+    with pytest.raises(FrozenInstanceError):
+        made.body = "stage"  # type: ignore[misc]
+    with pytest.raises(FrozenInstanceError):
+        made[0].number = 7  # type: ignore[misc]
+    changed = made[0].apply()
+    assert changed is not made[0].apply()
+    changed.delete("stage")
+    assert analyse(made[0].apply()).verdict is made[0].after.verdict
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_advice_is_pickled_and_copied(name: str) -> None:
+    made = advice(name)
+    wanted = made.to_dict()
+    for again in (pickle.loads(pickle.dumps(made)), copy.deepcopy(made)):
+        assert again.to_dict() == wanted
+        assert again.describe() == made.describe()
+    step = pickle.loads(pickle.dumps(made[0]))
+    assert step.statement == made[0].statement
+
+
+def test_what_moves_is_told_by_bodies() -> None:
+    """Sheets that cross at half of 0.08 m turn their body about the crossing, along y."""
+    (motion,) = advice("flexures/cross_hinge_undeclared").motions
+    (body,) = motion.bodies
+    assert (body.name, str(body.screw.kind)) == ("body", "rotation")
+    assert abs(body.screw.direction) == pytest.approx([0, 1, 0])
+    assert body.screw.point[[0, 2]] == pytest.approx([0.0, 0.04])
+    assert not motion.internal and motion.extent.kind.value == "finite"
+
+
+def test_a_platform_on_three_pairs_of_bars_turns_as_a_screw() -> None:
+    """Turned by 90 degrees it goes up and down with its turn; its joints are told."""
+    (motion,) = advice("frameworks/octahedral_platform_yaw_90").motions
+    assert len(motion.bodies) == 3
+    for body in motion.bodies:
+        assert str(body.screw.kind) == "screw"
+        assert abs(body.screw.direction) == pytest.approx([0, 0, 1])
+
+
+def test_internal_motions_have_no_bodies() -> None:
+    motions = advice("paper/folded_sheet_free").motions
+    assert Counter((motion.internal, len(motion.bodies)) for motion in motions) == {
+        (True, 0): 1,
+        (False, 1): 5,
+    }
+
+
+def test_an_exact_mechanism_has_nothing_to_mend() -> None:
+    made = advice("paper/five_wires")
+    assert len(made) == len(made.motions) == len(made.self_stresses) == 0
+    assert made.releases.count == made.declarations.count == 0
+    assert "nothing to mend" in made.describe()
+
+
+def test_body_and_wishes_that_are_not_there_are_told_at_once() -> None:
+    analysis = analyse(cross_hinge())
+    with pytest.raises(ModelError, match="no body called"):
+        analysis.advice(body="stgae")
+    with pytest.raises(ModelError, match="wanted"):
+        analysis.advice(wanted=["body: spin"])
+    assert analysis.advice(wanted="body: rotation y").wanted == ("body: rotation y",)
+
+
+def test_found_says_how_far_it_is() -> None:
+    said: list[tuple[str, float]] = []
+    made = analyse(guide()).advice()
+    assert made.found(lambda what, done: said.append((what, done))) is made
+    parts = [done for _, done in said]
+    assert parts == sorted(parts) and parts[0] == 0.0 and parts[-1] < 1.0
+    assert all(what for what, _ in said)
+
+
+def test_a_notebook_shows_the_verdict_and_the_words() -> None:
+    made = analyse(guide()).advice()
+    shown = made._repr_html_()
+    assert "Over-constrained by 1" in shown and "<pre>" in shown
+    assert repr(made).startswith("<Advice: over-constrained, ")
+
+
+# JSON
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_json_is_what_the_schema_says(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """And agrees with the analysis; numbers are finite, which `allow_nan` would tell."""
+    path = INPUT / f"{name}.dat"
+    assert main(["advise", "--json", str(path)]) == 0
+    out, _ = capsys.readouterr()
+    assert out.count("\n") == 1 and "NaN" not in out and "Infinity" not in out
+    (said,) = json_lines(out)
+    assert_valid_as(ADVISED, said)
+    analysis = analyse(path)
+    assert said["verdict"] == analysis.verdict.value
+    given = said["advice"]
+    assert len(given["motions"]) == said["under_constrained"] == analysis.under_constrained
+    assert len(given["self_stresses"]) == said["over_constrained"] == analysis.over_constrained
+    for one in (given["releases"], given["declarations"]):
+        assert one["sets"] or not one["count"]
+        for each in (*one["sets"], *given["motions"], *given["self_stresses"]):
+            assert each["statement"].endswith(".") and "  " not in each["statement"]
+    for one in given["releases"]["sets"]:
+        assert len(one["deformations"]) == given["releases"]["size"]
+    for one in given["declarations"]["sets"]:
+        assert len(one["coordinates"]) == given["declarations"]["size"]
+    for one in given["motions"]:
+        for body in one["bodies"]:
+            assert np.linalg.norm(body["axis"]) == pytest.approx(1.0)
+            assert (body["point"] is None) == (body["kind"] == "translation")
+
+
+def test_counts_of_the_paper() -> None:
+    """Of Fig. 2: 12 bars may go, 4 coordinates be declared; of the guide of README 5 and 2."""
+    made = advice("paper/twelve_trusses").to_dict()
+    assert (made["releases"]["count"], made["declarations"]["count"]) == (12, 4)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    lines = [line[4:] for line in readme.splitlines() if line.startswith("    ")]
+    deck = "\n".join(lines[lines.index("RLSE 2  2 5 6") - 13 : lines.index("DYNX 3  2")])
+    made = analyse(flexact.read_text(deck)).advice().to_dict()
+    assert (made["releases"]["count"], made["declarations"]["count"]) == (5, 2)
+
+
+# The command
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    code = main(["advise", *words])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def test_several_decks_have_a_line_each(decks: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(decks / "wrong.dat", BROKEN)
+    code, out, err = run(capsys, "--json", str(decks))
+    assert code == 2
+    said = {Path(one["deck"]).stem: one for one in json_lines(out)}
+    assert set(said) == {*DECKS, "wrong"}
+    assert {name: said[name]["verdict"] for name in DECKS} == VERDICTS
+    assert said["wrong"]["error"]["errors"] == 1
+    assert "wrong.dat:1:1" in err and "5 decks" in err
+
+
+def test_words_stand_under_the_path(decks: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(decks / "over.dat")
+    code, out, err = run(capsys, path)
+    assert (code, out.splitlines()[0], err) == (0, path, "")
+    assert "  1. " in out
+    assert all(len(line) <= 100 for line in out.splitlines())
+
+
+def test_a_changed_deck_keeps_its_comments(tmp_path: Path) -> None:
+    """Blocks of dynamics and pictures, and what no analysis uses, stay to the letter."""
+    text = (INPUT / "flexures" / "parallel_guide.dat").read_text(encoding="utf-8")
+    text = text.replace("VISUALIZATION", "HALT\nGRAVITY 0 0 -9.81 % down\nEND\nVISUALIZATION", 1)
+    path, target = write(tmp_path / "guide.dat", text), tmp_path / "new" / "guide.dat"
+    assert main(["advise", str(path), "--apply", "1", "-o", str(target)]) == 0
+    old, new = text.splitlines(), target.read_text(encoding="utf-8").splitlines()
+    assert len(old) == len(new)
+    changed = [(a, b) for a, b in zip(old, new, strict=True) if a != b]
+    assert len(changed) == 1 and all(line.startswith("RLSE ") for line in changed[0])
+
+
+def test_choices_are_written_by_their_number(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(INPUT / "flexures" / "parallel_guide.dat")
+    made = advice("flexures/parallel_guide")
+    number = next(step.number for step in made if step.alternatives)
+    for choice in ("", ".1", ".2"):
+        target = tmp_path / f"new{choice}.dat"
+        code, out, _ = run(capsys, path, "--apply", f"{number}{choice}", "-o", str(target))
+        assert code == 0 and f"step {number} written to" in out
+        assert analyse(target).verdict is flexact.Verdict.EXACT
+    one, same, other = ((tmp_path / f"new{c}.dat").read_bytes() for c in ("", ".1", ".2"))
+    assert one == same != other
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--apply", "1"], "-o"),
+        (["--apply", "1", "-o", "{deck}"], "would overwrite"),
+        (["-o", "new.dat"], "--apply"),
+        (["--apply", "0", "-o", "new.dat"], "number of a step"),
+        (["--apply", "-1", "-o", "new.dat"], "number of a step"),
+        (["--apply", "one", "-o", "new.dat"], "number of a step"),
+        (["--apply", "1.0", "-o", "new.dat"], "number of a step"),
+        (["--apply", "99", "-o", "new.dat"], "there is no step 99: there are "),
+        (["--apply", "1.99", "-o", "new.dat"], "no choice 99 of step 1"),
+        (["--body", "stge"], "no body"),
+        (["--wanted", "stage: spin z"], "wanted"),
+        (["--wanted", "nobody: translation z"], "nobody"),
+        (["--apply", "1", "-o", "{folder}/missing.dat/new.dat"], "not a folder"),
+    ],
+)
+def test_mistakes_are_told_in_words(
+    words: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    deck = write(tmp_path / "over.dat", guide_deck())
+    write(tmp_path / "missing.dat", "")
+    places = {"deck": str(deck), "folder": str(tmp_path)}
+    given = [word.format(**places) for word in words]
+    given = [str(tmp_path / word) if word == "new.dat" else word for word in given]
+    code, out, err = run(capsys, str(deck), *given)
+    assert (code, out) == (1, "")
+    assert said in err and "Traceback" not in err
+    assert deck.read_text() == guide_deck()
+    assert not (tmp_path / "new.dat").exists()
+
+
+def guide_deck() -> str:
+    return guide().to_deck()
+
+
+def test_several_decks_are_not_applied(decks: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = run(capsys, str(decks), "--apply", "1", "-o", str(decks / "new.dat"))
+    assert (code, out) == (1, "") and "one deck" in err
+
+
+def test_a_step_that_is_not_there_is_a_failure_in_json(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write(tmp_path / "exact.dat", DECKS["exact"])
+    target = str(tmp_path / "new.dat")
+    code, out, err = run(capsys, str(path), "--json", "--apply", "1", "-o", target)
+    (said,) = json_lines(out)
+    assert code == 1 and said["error"]["diagnostics"][0]["code"] == "no-such-step"
+    assert "exactly constrained" in err
+
+
+def test_json_and_a_changed_deck_go_together(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, target = write(tmp_path / "both.dat", COLLINEAR + "END\n"), tmp_path / "new.dat"
+    code, out, err = run(capsys, str(path), "--json", "--apply", "1", "-o", str(target))
+    (said,) = json_lines(out)
+    assert code == 0 and target.exists() and "written to" in err
+    assert json.dumps(said["advice"]["steps"][0]["number"]) == "1"
+
+
+def test_models_made_in_python_get_calls() -> None:
+    model = guide()
+    assert isinstance(analyse(model).advice()[0].apply(), Model)
+    assert "model.release" in analyse(model).advice().describe()
