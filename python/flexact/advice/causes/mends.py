@@ -8,7 +8,7 @@ fastened there, and each turn is tried by an analysis.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from math import pi
 
@@ -259,18 +259,17 @@ def _best(found: list[_Tried]) -> Iterator[Mend]:
     # What is nearly as good and turns the limb where it is fastened is the simpler one.
     able = [one for one in able if one.smallest > _FAIR * best]
     able.sort(key=lambda one: (not one.mend.is_in_place, -_rounded(one.smallest)))
-    groups: dict[tuple[float, float], list[_Tried]] = {}
+    groups: dict[tuple[float, bool], list[_Tried]] = {}
     for one in able:
-        key = _rounded(one.smallest), float(one.mend.is_in_place)
-        groups.setdefault(key, []).append(one)
-    for same in list(groups.values())[:_MOST]:
-        first, *others = same
-        yield Mend(
-            **{
-                **first.mend.__dict__,
-                "alternatives": tuple(one.mend.change for one in others),
-            }
-        )
+        groups.setdefault((_rounded(one.smallest), one.mend.is_in_place), []).append(one)
+    given: set[tuple[object, ...]] = set()
+    for first, *others in groups.values():
+        key = (first.turn.limb.parts, *np.round(first.turn.direction, 6).tolist())
+        if key in given or len(given) == _MOST:
+            continue
+        given.add(key)
+        alternatives = tuple(one.mend.change for one in others)
+        yield replace(first.mend, alternatives=alternatives)
 
 
 def _rounded(value: float) -> float:

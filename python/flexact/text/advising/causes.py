@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Causes of motions and self-stresses, and the mend of both, in words."""
+
+from __future__ import annotations
+
+import math
+from math import degrees
+
+from ...advice.causes.cause import Cause, CauseKind, Causes, Lift
+from ...advice.causes.mends import Mend
+from ...advice.proposal import Proposal
+from ...result.modes import Motion
+from ...result.result import Result
+from ...result.screws import Screw, ScrewKind
+from ..motions import line_words
+from ..naming import counts_in_words, in_words, named_element, named_node
+from ..places import (
+    axis_words,
+    direction_words,
+    listed,
+    part_words,
+    place_words,
+    with_article,
+)
+from ..self_stresses import conflict_in_words
+from ..sentences import Named, Piece, Pieces
+from ..units import angle_in_words, length_in_words
+from .relations import limb_names, limbs_in_words, relations_in_words, row_of
+
+_UNKNOWN: Pieces = ("whether another geometry would have it was not looked at",)
+#: The misalignment for which a lift is told: the power of ten below this part of the size.
+_SMALL, _ANGLE = 1.0e-2, 1.0e-3
+
+
+def cause_of_motion_in_words(result: Result, k: int, causes: Causes) -> Pieces:
+    """Why a motion of a result is there, as a sentence or two without their last stop."""
+    cause = causes.motions[k]
+    if cause.kind is CauseKind.UNKNOWN:
+        return _UNKNOWN
+    if cause.kind is CauseKind.GENERIC and not cause.together:
+        return ("generic: in any geometry of these parts nothing stops it",)
+    return _special(result, cause, "motion")
+
+
+def cause_of_stress_in_words(result: Result, k: int, causes: Causes) -> Pieces:
+    """Why a self-stress of a result is there, likewise."""
+    cause = causes.self_stresses[k]
+    if cause.kind is CauseKind.UNKNOWN:
+        return _UNKNOWN
+    if cause.kind is CauseKind.GENERIC and not cause.together:
+        return ("generic: any geometry of these parts has it; better alignment does not help",)
+    return _special(result, cause, "self-stress")
+
+
+def both_in_words(result: Result, causes: Causes) -> Pieces:
+    """Which constraint is spent twice while which motion is free; nothing where not both are.
+
+    Such as "sheet 1 and sheet 2 both hold the stage against rotation about y, with opposite
+    moments, while nothing stops the translation of the stage along y".
+    """
+    motions = [k for k, motion in enumerate(result.motions[:_MOST]) if not motion.is_internal]
+    stresses = list(range(min(len(result.self_stresses), _MOST)))
+    if not motions or not stresses or not result.is_told_by_parts:
+        return ()
+    k = next((k for k in motions if _is_special(causes.motions[k])), motions[0])
+    special = next((j for j in stresses if causes.self_stresses[j].relations), None)
+    if special is not None:
+        found = causes.self_stresses[special].relations
+        held: Pieces = (
+            "a constraint is spent twice where ",
+            *relations_in_words(result, found, True),
+        )
+    else:
+        every = (conflict_in_words(result.self_stresses[j]) for j in stresses)
+        held = next((words for words in every if words), ())
+    if not held:
+        return ()
+    mend = next((one for one in causes.mends if isinstance(one, Mend) and one.stops), None)
+    if mend is not None and mend.stops is not None:
+        on: Pieces = (_hub(result, mend.end),)
+        return (*held, ", while nothing stops ", *_motion(mend.stops, on))
+    return (*held, *_free(result.motions[k]))
+
+
+def _is_special(cause: Cause) -> bool:
+    return cause.kind is CauseKind.SPECIAL
+
+
+def _free(motion: Motion) -> Pieces:
+    """While nothing stops what: of many joints the motion's number."""
+    first = next(iter(motion.bodies), None)
+    if first is None or (first.is_joint and len(motion.bodies) > 1):
+        return (f", while nothing stops motion {motion.index + 1}",)
+    names = [part_words(part) for part in first.bodies] or [
+        with_article(str(joint)) for joint in first.joints
+    ]
+    return (", while nothing stops ", *_motion(first.screw, (listed(names[:_MOST_NAMES]),)))
+
+
+#: How many modes are looked through, and how many bodies are named.
+_MOST, _MOST_NAMES = 20, 3
+
+
+def mend_in_words(result: Result, proposal: Proposal) -> Pieces:
+    """Which constraint repeats which while what is free, and how the limb is turned."""
+    if not isinstance(proposal, Mend):
+        return ()
+    limb = limbs_in_words(result, proposal.parts)
+    angle = f" by {degrees(abs(proposal.angle)):.4g} degrees about {_line(result, proposal)}"
+    return (
+        *_repeats(result, proposal),
+        *("turn ", *limb, angle),
+        *_stops(result, proposal),
+        *_after(proposal),
+    )
+
+
+def _repeats(result: Result, mend: Mend) -> Pieces:
+    """Such as "the constraint of lower 0 repeats that of lower 180, while nothing stops …"."""
+    others = limb_names(result, mend.repeats)
+    if not others:
+        return ()
+    limb = limbs_in_words(result, mend.parts)
+    if len(others) == 1:
+        held: Pieces = ("the constraint of ", *limb, " repeats that of ", *others)
+    else:
+        between = ("the constraints of ", *limb, " and of ", *row_of(others))
+        held = (*between, " depend on each other")
+    if mend.stops is None:
+        return (*held, ": ")
+    free = _motion(mend.stops, (_hub(result, mend.end),))
+    return (*held, ", while nothing stops ", *free, ": ")
+
+
+def _stops(result: Result, mend: Mend) -> Pieces:
+    if mend.stops is None:
+        return ()
+    on = () if mend.repeats else (_hub(result, mend.end),)
+    return ("; then it stops ", *_motion(mend.stops, on))
+
+
+def _after(mend: Mend) -> Pieces:
+    after = mend.after
+    counts = counts_in_words(after.under_constrained, after.over_constrained)
+    made = f", and the mechanism is {counts}"
+    if after.smallest is not None:
+        made += f" (smallest singular value {after.smallest:.2g})"
+    many = len(mend.alternatives)
+    if many:
+        made += f"; {in_words(many)} other turn{' does' if many == 1 else 's do'} the same"
+    return (made,)
+
+
+def _line(result: Result, mend: Mend) -> str:
+    """The line about which a limb is turned, right-handed."""
+    place = place_words(result.parts, mend.end)
+    if result.given.planar:
+        where = place if mend.is_in_place else line_words(result, mend.point, mend.direction)
+        return f"{where}, {'anticlockwise' if mend.angle > 0.0 else 'clockwise'}"
+    direction = mend.direction if mend.angle > 0.0 else -mend.direction
+    if mend.is_in_place:
+        return f"the line along {direction_words(direction)} through {place}"
+    return line_words(result, mend.point, direction)
+
+
+def _hub(result: Result, end: int) -> Named:
+    """The body or point that a limb holds."""
+    body = result.parts.body_at.get(end)
+    arrays = result.given.arrays
+    if body is None:
+        return named_node(result, int(arrays.node_number[end]))
+    part = result.parts.of_body(body)
+    return named_element(result, int(arrays.element_number[part.elements[0]]))
+
+
+def _motion(screw: Screw, on: Pieces) -> Pieces:
+    """Such as "the rotation of the stage about y"."""
+    axis = axis_words(screw.direction)
+    of = (" of ", *on) if on else ()
+    if screw.kind is ScrewKind.TRANSLATION:
+        return ("the translation", *of, f" along {axis}")
+    word = "rotation" if screw.kind is ScrewKind.ROTATION else "screw motion"
+    return (f"the {word}", *of, f" about {axis}")
+
+
+# Special ------------------------------------------------------------------------
+
+
+def _of_several(cause: Cause, word: str) -> Pieces:
+    """Which of several are special, where that depends on the misalignment."""
+    numbers = listed([str(k + 1) for k in cause.together])
+    rest = len(cause.together) - cause.special
+    some = "one is" if cause.special == 1 else f"{in_words(cause.special)} are"
+    others = "the other is" if rest == 1 else f"the other {in_words(rest)} are"
+    ending = "es" if word.endswith("s") else "s"
+    return (
+        f"of {word}{ending} {numbers} {some} special and {others} generic, and which depends on "
+        "the misalignment. What is special lives on this geometry",
+    )
+
+
+def _special(result: Result, cause: Cause, word: str) -> Pieces:
+    head: Pieces = ("special: it lives on this geometry",)
+    if cause.together:
+        head = _of_several(cause, word)
+    where = (", where ", *relations_in_words(result, cause.relations)) if cause.relations else ()
+    return (*head, *where, ". ", *_lift(result, cause))
+
+
+def _lift(result: Result, cause: Cause) -> Pieces:
+    if cause.lift is None:
+        return ("No small misalignment of one node or element lifts it to first order",)
+    made: list[Piece] = []
+    lift: Lift = cause.lift
+    if lift.node is not None:
+        step = _step(result.characteristic_length)
+        made += [
+            *("Moving ", named_node(result, lift.node), f" by {length_in_words(step)}"),
+            f" lifts its singular value from zero to {lift.by_move * step:.2g}",
+            f" ({lift.by_move:.2g} per metre)",
+        ]
+    if lift.element is not None:
+        made += [
+            *(", turning " if made else "Turning ", named_element(result, lift.element)),
+            f" by {angle_in_words(_ANGLE)}",
+            f" {'to' if lift.node is not None else 'lifts its singular value from zero to'} "
+            f"{lift.by_turn * _ANGLE:.2g} ({lift.by_turn:.2g} per radian)",
+        ]
+    return tuple(made)
+
+
+def _step(length: float) -> float:
+    """The power of ten below a hundredth of a length [m]."""
+    return float(10.0 ** math.floor(math.log10(_SMALL * length)))

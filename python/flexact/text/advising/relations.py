@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What makes a geometry special, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...advice.causes.cause import LineKind, Relation, RelationKind
+from ...core.arrays import FloatArray
+from ...model.parts.parts import Part, PartKind
+from ...result.result import Result
+from ..motions import line_words
+from ..places import axis_words, direction_words, part_words, with_article
+from ..sentences import Named, Piece, Pieces
+
+#: How many names stand in a row; of more all but one are the first, and how many more there are.
+_MOST_NAMES = 6
+_FOLDS = {2: "half-turn", 3: "third of a turn", 4: "quarter-turn", 6: "sixth of a turn"}
+
+
+_TRIED = "; other geometries with this symmetry were tried and have it too"
+
+
+def relations_in_words(
+    result: Result, relations: Sequence[Relation], in_short: bool = False
+) -> Pieces:
+    """Relations as one clause, such as "the fold lines of lower 0 and lower 180 are parallel".
+
+    Args:
+        result: The result.
+        relations: What makes its geometry special.
+        in_short: Whether only they are said, and not what follows, or what was tried.
+    """
+    made: list[Piece] = []
+    for k, one in enumerate(relations):
+        made += [", and "] * (k > 0) + list(_relation(result, one, in_short))
+    if in_short:
+        return tuple(made)
+    about = [one.couple for one in relations if one.couple.any()]
+    if about and len(about) == len(relations) > 1:
+        made.append(
+            f"; by a couple {'each' if len(about) > 2 else 'either'} of these groups "
+            f"holds the rotation about {axis_words(about[0])}"
+        )
+    elif any(one.is_sufficient and one.of is LineKind.AXIS for one in relations):
+        made.append("; that is enough, wherever the joints are")
+    return tuple(made)
+
+
+def limbs_in_words(result: Result, parts: Sequence[Part]) -> Pieces:
+    """Limbs, sheets and bars in a row, as "lower 0 and lower 180"."""
+    return row_of(limb_names(result, parts))
+
+
+def limb_names(result: Result, parts: Sequence[Part]) -> list[Named]:
+    """What limbs are called: what the names of their parts begin with, where it is all of them."""
+    heads: dict[str, list[Part]] = {}
+    for part in result.parts.all:
+        head = part.name.rpartition(",")[0].strip()
+        if head and part.kind is not PartKind.BODY:
+            heads.setdefault(head, []).append(part)
+    numbers = result.given.arrays.element_number
+    chosen = set(parts)
+    made: dict[str, Named] = {}
+    for part in parts:
+        head = part.name.rpartition(",")[0].strip()
+        is_whole = len(heads.get(head, ())) > 1 and set(heads[head]) <= chosen
+        words = with_article(head) if is_whole else part_words(part)
+        made.setdefault(words, Named("element", int(numbers[part.elements[0]]), words))
+    return list(made.values())
+
+
+def row_of(names: Sequence[Named]) -> Pieces:
+    """Names in a row; of many the first, and how many more there are."""
+    rest = len(names) - _MOST_NAMES
+    shown: list[Piece] = list(names if rest <= 0 else names[: _MOST_NAMES - 1])
+    if rest > 0:
+        shown.append(f"{rest + 1} more")
+    made: list[Piece] = []
+    for place, name in enumerate(shown):
+        made += [" and " if place == len(shown) - 1 else ", "] * (place > 0)
+        made.append(name)
+    return tuple(made)
+
+
+def _relation(result: Result, one: Relation, in_short: bool) -> Pieces:
+    of = _lines_of(result, one)
+    axis = axis_words(one.direction) if one.direction.any() else ""
+    line = _line(result, one.point, one.direction) if axis else ""
+    kind = one.kind
+    if kind in (RelationKind.CIRCLE, RelationKind.TWO_LINES, RelationKind.CONIC):
+        figure = {
+            RelationKind.CIRCLE: "one circle",
+            RelationKind.TWO_LINES: "two straight lines",
+        }.get(kind, "one conic")
+        return (f"the {len(one.nodes)} joints that are stressed lie on {figure}",)
+    tried = "" if in_short else _TRIED
+    if kind is RelationKind.ROTATION:
+        turn = _FOLDS.get(one.fold, f"turn by {360 // one.fold} degrees")
+        article = "an" if turn[0] in "aeiou" else "a"
+        return (f"{article} {turn} about {line} takes what is stressed onto itself{tried}",)
+    if kind is RelationKind.REFLECTION:
+        return (f"what is stressed is symmetric about {_plane(result, one)}{tried}",)
+    if kind is RelationKind.POSITION:
+        return (*of, " stand in a special position together")
+    words = _common(one, axis, line)
+    return (*of, f" {words.partition(', so that')[0] if in_short else words}")
+
+
+def _common(one: Relation, axis: str, line: str) -> str:
+    """What lines have in common."""
+    x, y, z = (f"{value + 0.0:.4g}" for value in one.point)
+    turn = f"the rotation about {line}"
+    move = f"the translation along {axis}"
+    words = {
+        RelationKind.ONE_LINE: "lie along one line",
+        RelationKind.PARALLEL: "are parallel",
+        RelationKind.ONE_PLANE: "lie in one plane",
+        RelationKind.CONCURRENT: f"meet in one point, ({x}, {y}, {z}) m",
+        RelationKind.ONE_TRANSVERSAL: f"all meet one line, so that none of them stops {turn}",
+        RelationKind.ACROSS: f"all lie across {axis}, so that none of them stops {move}",
+        RelationKind.REGULUS: "lie on one hyperboloid, so that turns about them cancel out",
+        RelationKind.COMPLEX: "belong to one linear complex, so that none of them stops the screw "
+        f"motion about {line} of pitch {one.pitch:.4g} m/rad",
+    }
+    return words[one.kind]
+
+
+def _lines_of(result: Result, one: Relation) -> Pieces:
+    """The lines of a relation: of limbs of two sheets fold lines, of bars and wires they."""
+    names = row_of(limb_names(result, one.parts))
+    if one.of is LineKind.AXIS:
+        return ("the axes of ", *names)
+    if one.of is not LineKind.FORCE or one.kind is RelationKind.POSITION:
+        return names
+    kinds = {part.kind for part in one.parts}
+    if kinds <= {PartKind.WIRE, PartKind.BAR}:
+        return names
+    folded = kinds == {PartKind.SHEET} and len(one.parts) == 2 * _limbs(one)
+    return ("the fold lines of " if folded else "the lines of force of ", *names)
+
+
+def _limbs(one: Relation) -> int:
+    """How many heads of names there are among the parts."""
+    return len({part.name.rpartition(",")[0].strip() or part.name for part in one.parts})
+
+
+def _line(result: Result, point: FloatArray, direction: FloatArray) -> str:
+    return line_words(result, point, direction)
+
+
+def _plane(result: Result, one: Relation) -> str:
+    axis = axis_words(one.direction)
+    if axis in ("x", "y", "z"):
+        value = float(one.point["xyz".index(axis)])
+        small = abs(value) < 1.0e-9 * result.characteristic_length
+        return f"the plane {axis} = {0 if small else value:.4g}{'' if small else ' m'}"
+    x, y, z = (f"{value + 0.0:.4g}" for value in one.point)
+    across = direction_words(one.direction)
+    return f"the plane through ({x}, {y}, {z}) m across {across}"
