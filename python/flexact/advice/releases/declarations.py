@@ -13,9 +13,9 @@ from ...core.elements import NodeKind
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import candidates
+from .candidates import Candidate, candidates
 from .counting import counted
-from .kinds import tier_of_node
+from .kinds import LINK, tier_of_node
 from .reach import Reach
 from .stands import as_it_stands
 from .trying import LeftOut, Outcome, decades, listed
@@ -74,7 +74,8 @@ def declarations_of(result: Result) -> Declarations:
         tried = _listed(result, source)
         if tried.proposals:
             break
-    holds = _holds(result) if result.under_constrained == size else Outcome((), 0, 0)
+    is_told = result.under_constrained == size and result.with_internal_declared is None
+    holds = _holds(result) if is_told else Outcome((), 0, 0)
     return Declarations(
         *(size, count, tried.proposals, holds.proposals),
         LeftOut(tried.untried, tried.failed),
@@ -93,7 +94,16 @@ def _listed(result: Result, source: Result) -> Outcome:
         turning = turns[sets].sum(axis=1)[:, None]
         return np.concatenate([decades(condition), of_sets, turning], axis=1)
 
-    return listed(result, reach, Purpose.DECLARE, candidates(reach, ranking, tiers))
+    found = candidates(reach, ranking, tiers)
+    return listed(result, reach, Purpose.DECLARE, _one_inside(found, tiers))
+
+
+def _one_inside(found: list[Candidate], tiers: FloatArray) -> list[Candidate]:
+    """Of sets that differ in what is inside of sheets and wires alone the best."""
+    first: dict[tuple[int, ...], Candidate] = {}
+    for one in found:
+        first.setdefault(tuple(i for i in one.members if tiers[i] < LINK), one)
+    return list(first.values())
 
 
 def _without_repeats(source: Result, reach: Reach) -> Reach:

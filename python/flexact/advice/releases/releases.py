@@ -15,7 +15,7 @@ from . import reach as reaches
 from .candidates import candidates
 from .cost import cost_of
 from .counting import counted
-from .kinds import tier_of_element
+from .kinds import LINK, tier_of_element
 from .stands import as_it_stands
 from .trying import LeftOut, Outcome, decades, listed
 
@@ -58,7 +58,8 @@ def releases_of(result: Result) -> Releases:
 
     Where the stiffness of what is stressed is known, sets come first that cost little of it
     (`flexact.advice.releases.cost`); else those of a condition within ten times the best,
-    flexures before bodies, and links inside of bodies last; ties go by names and places.
+    flexures before bodies, ties by names and places. Links inside of bodies are listed where
+    nothing else does it.
 
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
@@ -97,12 +98,12 @@ def _listed(result: Result, source: Result) -> Outcome:
     cost = cost_of(source, reach)
 
     def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
-        if cost is not None:
-            return cost(sets)[:, None]
-        of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
-        return np.concatenate([decades(condition), of_sets], axis=1)
+        first = decades(condition) if cost is None else cost(sets)[:, None]
+        return np.concatenate([first, np.sort(tiers[sets], axis=1)[:, ::-1]], axis=1)
 
-    return listed(result, reach, Purpose.RELEASE, candidates(reach, ranking, tiers))
+    found = candidates(reach, ranking, tiers)
+    without_links = [one for one in found if tiers[list(one.members)].max() < LINK]
+    return listed(result, reach, Purpose.RELEASE, without_links or found)
 
 
 def _supports(result: Result) -> Outcome:

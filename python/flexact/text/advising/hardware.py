@@ -26,17 +26,26 @@ class Phrase(NamedTuple):
 
     before: str
     part: Named
-    behind: str
+    what: str = ""
+    where: str = ""
+    """At which end, or about or along which axis."""
+    free: str = ""
+    """Which deformation it is."""
 
     @property
     def pieces(self) -> Pieces:
         """All of it."""
-        return self.before, self.part, self.behind
+        return self.before, self.part, f"{self.what}{self.where}{self.free}"
+
+    @property
+    def short(self) -> Pieces:
+        """The part and where, in a list of places where the same is done."""
+        return (self.part, self.where) if self.where else (self.part,)
 
     @property
     def frame(self) -> tuple[str, str]:
-        """The words around the name: the same where the same is done."""
-        return self.before, self.behind
+        """What is the same where the same is done."""
+        return self.before, self.what
 
 
 def outcome_as_given(result: Result) -> Outcome:
@@ -80,87 +89,98 @@ def _by_part(
 
 def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[Phrase]:
     name = named_element(outcome, mine[0][0])
-    roles = [_role(outcome, *one) for one in mine]
+    if part.kind is PartKind.HINGE:
+        yield from _of_hinge(outcome, part, name, mine)
+        return
     if _holds_nothing_else(outcome, part, mine):
         yield _taken_out(outcome, part, name, mine)
         return
     in_plane = [one for one in mine if _is_in_plane(outcome, *one)]
-    rest = [one for one in mine if one not in in_plane]
     if len(in_plane) == 2:
-        yield Phrase("replace ", name, " by a wire (in-plane bending free at both its ends)")
-        in_plane = []
-    for element, number in in_plane:
-        place = _place(outcome, part, element, number)
-        behind = f" to a waist at {place} (in-plane bending free there)"
-        yield Phrase("cut ", name, behind)
-    for element, number in rest:
-        yield _one(outcome, part, name, element, number, roles[mine.index((element, number))])
+        yield Phrase("replace ", name, " by a wire", "", " (in-plane bending free at both its ends)")
+    for one in mine:
+        if one in in_plane and len(in_plane) == 1:
+            where = f" at {_place(outcome, part, *one)}"
+            yield Phrase("cut ", name, " to a waist", where, " (in-plane bending free there)")
+        elif one not in in_plane:
+            yield _one(outcome, part, name, *one)
 
 
-def _one(
-    outcome: Outcome, part: Part, name: Named, element: int, number: int, role: int
-) -> Phrase:
+def _one(outcome: Outcome, part: Part, name: Named, element: int, number: int) -> Phrase:
     """A deformation that is no in-plane bending of a sheet."""
     if part.kind is PartKind.BODY:
-        return _of_body(outcome, part, name, element, number, role)
-    word = deformation_words(outcome, outcome.data.element_index[element], number)
+        return _of_body(outcome, name, element, number)
+    role, word = _role(outcome, element, number), _word(outcome, element, number)
     if role == Role.ELONGATION:
-        if part.kind is PartKind.SHEET:
-            behind = " across, so that it gives along its length (elongation free)"
-            return Phrase("fold ", name, behind)
-        return Phrase("let ", name, " give along its length (elongation free)")
-    if role == Role.TORSION:
-        return Phrase("make ", name, " soft in torsion (twist free)")
-    bending = bending_of(outcome, outcome.data.element_index[element], number)
-    if bending is not None:
-        place = _place(outcome, part, element, number)
-        kind = word.partition(" at ")[0]
         if part.kind is PartKind.SHEET and not _is_planar(outcome, element):
-            return Phrase("let ", name, f" bend out of its plane at {place} ({kind} free there)")
-        return Phrase("give ", name, f" a notch at {place} ({kind} free there)")
-    if part.kind is PartKind.HINGE:
-        turn = {Role.ROTATION: "turn about its axis", Role.ANGLE: "turn"}.get(Role(role))
-        return Phrase("let ", name, f" {turn}" if turn else f" give ({word} free)")
-    return Phrase("let ", name, f" give ({word} free)")
+            what = " across, so that it gives along its length"
+            return Phrase("fold ", name, what, "", " (elongation free)")
+        return Phrase("let ", name, " give along its length", "", " (elongation free)")
+    if role == Role.TORSION:
+        return Phrase("make ", name, " soft in torsion", "", " (twist free)")
+    if bending_of(outcome, outcome.data.element_index[element], number) is not None:
+        kind = word.partition(" at ")[0]
+        where, free = f" at {_place(outcome, part, element, number)}", f" ({kind} free there)"
+        if part.kind is PartKind.SHEET and not _is_planar(outcome, element):
+            return Phrase("let ", name, " bend out of its plane", where, free)
+        return Phrase("give ", name, " a notch", where, free)
+    return Phrase("let ", name, " give", "", f" ({word} free)")
 
 
-def _of_body(
-    outcome: Outcome, part: Part, name: Named, element: int, number: int, role: int
-) -> Phrase:
+def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase:
     """A deformation of a rigid member, which is one of several of its body or the body itself."""
     index = outcome.data.element_index[element]
-    word = deformation_words(outcome, index, number)
-    of_link = ""
+    role, word = _role(outcome, element, number), _word(outcome, element, number)
+    between = ""
     if index in outcome.parts.links:
-        p, q = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
-        ends = [place_words(outcome.parts, node) for node in (p, q) if node >= 0]
-        of_link = f" between {' and '.join(ends)}"
+        nodes = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
+        ends = dict.fromkeys(place_words(outcome.parts, node) for node in nodes if node >= 0)
+        between = f" between {' and '.join(ends)}" if len(ends) == 2 else ""
     if role == Role.TORSION:
-        return Phrase("make ", name, f" soft in torsion{of_link}")
+        return Phrase("make ", name, " soft in torsion", between)
     if role == Role.ELONGATION:
-        return Phrase("make ", name, f" soft along its length{of_link}")
+        return Phrase("make ", name, " soft along its length", between)
     if bending_of(outcome, index, number) is not None:
         kind, _, place = word.partition(" at ")
-        return Phrase("make ", name, f" soft in {kind}{of_link or f' at {place}'}")
-    return Phrase("let ", name, f" give{of_link} ({word} free)")
+        axis = kind.removeprefix("bending")
+        return Phrase("make ", name, " soft in bending", f"{axis}{between or f' at {place}'}")
+    return Phrase("let ", name, " give", f" {word.removeprefix('displacement ')}{between}")
+
+
+def _of_hinge(
+    outcome: Outcome, part: Part, name: Named, mine: list[Deformation]
+) -> Iterator[Phrase]:
+    roles = {_role(outcome, *one) for one in mine}
+    is_bearing = bool(roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z})
+    if _holds_nothing_else(outcome, part, mine) and len(mine) > 1:
+        if is_bearing:
+            yield Phrase("take ", name, " out")
+        else:
+            yield Phrase("replace ", name, " by a ball joint", "", " (all its rotations free)")
+        return
+    for one in mine:
+        role, word = _role(outcome, *one), _word(outcome, *one)
+        if role in (Role.ROTATION, Role.ANGLE):
+            yield Phrase("let ", name, " turn", " about its axis" * (role == Role.ROTATION))
+        elif role in (Role.TILT_Y, Role.TILT_Z):
+            what = ", as one that aligns itself"
+            yield Phrase("let ", name, " tilt", word.removeprefix("tilt"), what)
+        else:
+            yield Phrase("let ", name, " slide", word.removeprefix("displacement"))
 
 
 def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation]) -> Phrase:
     """A part that holds nothing else."""
-    words = [
-        deformation_words(outcome, outcome.data.element_index[element], number)
-        for element, number in mine
-    ]
-    free = f" ({words[0]} free)" if len(words) == 1 else ""
-    if len(words) > 1 or _role(outcome, *mine[0]) != Role.ELONGATION:
-        if part.kind is PartKind.HINGE:
-            return Phrase("let ", name, f" go{free}")
-        return Phrase("take ", name, f" out{free}")
-    if part.kind is PartKind.BAR:
-        return Phrase("take ", name, f" out, or make it adjustable in length{free}")
-    if part.kind is PartKind.WIRE:
-        return Phrase("take ", name, f" out, or give it a soft joint{free}")
-    return Phrase("take ", name, f" out, or let it give along its length{free}")
+    if len(mine) > 1:
+        return Phrase("take ", name, " out")
+    free = f" ({_word(outcome, *mine[0])} free)"
+    if _role(outcome, *mine[0]) != Role.ELONGATION:
+        return Phrase("take ", name, " out", "", free)
+    instead = {
+        PartKind.BAR: "make it adjustable in length",
+        PartKind.WIRE: "give it a soft joint",
+    }.get(part.kind, "let it give along its length")
+    return Phrase("take ", name, f" out, or {instead}", "", free)
 
 
 def _holds_nothing_else(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> bool:
@@ -180,18 +200,22 @@ def _held(outcome: Outcome, element: int, number: int) -> Phrase:
     """What is done to hold a released deformation."""
     index = outcome.data.element_index[element]
     part, name = outcome.parts.of_element(index), named_element(outcome, element)
-    role, word = _role(outcome, element, number), deformation_words(outcome, index, number)
-    if part.kind is PartKind.HINGE or role in (Role.ROTATION, Role.ANGLE):
-        return Phrase("lock ", name, f" ({word} held)")
+    role, word = _role(outcome, element, number), _word(outcome, element, number)
+    if part.kind is PartKind.HINGE:
+        return Phrase("lock ", name, "", "", f" ({word} held)")
     if role == Role.TORSION:
-        return Phrase("stiffen ", name, " against twist (twist held)")
+        return Phrase("stiffen ", name, " against twist", "", " (twist held)")
     if role == Role.ELONGATION:
-        return Phrase("make ", name, " stiff along its length (elongation held)")
+        return Phrase("make ", name, " stiff along its length", "", " (elongation held)")
     if bending_of(outcome, index, number) is not None:
         kind = word.partition(" at ")[0]
-        place = _place(outcome, part, element, number)
-        return Phrase("stiffen ", name, f" at {place} ({kind} held there)")
-    return Phrase("stiffen ", name, f" ({word} held)")
+        where = f" at {_place(outcome, part, element, number)}"
+        return Phrase("stiffen ", name, "", where, f" ({kind} held there)")
+    return Phrase("stiffen ", name, "", "", f" ({word} held)")
+
+
+def _word(outcome: Outcome, element: int, number: int) -> str:
+    return deformation_words(outcome, outcome.data.element_index[element], number)
 
 
 def _role(outcome: Outcome, element: int, number: int) -> int:

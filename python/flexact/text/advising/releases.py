@@ -9,16 +9,19 @@ from ...advice.change import Change
 from ...advice.proposal import Proposal, Purpose
 from ...advice.ways import Coordinate, Deformation, coordinate_of
 from ...core.elements import AXES, coordinate_name
-from ...model.parts.parts import PartKind
+from ...model.parts.parts import Part, PartKind
 from ...result.outcome import Outcome
 from ...result.result import Result
 from ..calls import HOLD, call_of
-from ..naming import coordinate_in_words
+from ..naming import coordinate_in_words, in_words, named_element
+from ..places import listed
 from ..sentences import Named, Piece, Pieces, plain
 from .hardware import Phrase, held, outcome_as_given, released
 
 #: How many alternatives of several parts each are named, and how many of one part.
 _MOST_SETS, _MOST_NAMED = 3, 11
+#: How many statements of a deck are told.
+_MOST_STATEMENTS = 8
 #: Parts that are counted in the plural.
 _PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
 
@@ -33,7 +36,7 @@ def release_in_words(result: Result, proposal: Proposal) -> Pieces:
     phrases = _phrases(outcome, proposal.purpose, proposal.change)
     others = [_phrases(outcome, proposal.purpose, each) for each in proposal.alternatives]
     note = _note(outcome, proposal.purpose, proposal.change)
-    joined = _listed([phrase.pieces for phrase in phrases])
+    joined = _told(phrases)
     return (*joined, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
 
 
@@ -70,14 +73,37 @@ def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
     """A support that lets a coordinate go."""
     where = coordinate_in_words(outcome, node, name)[0]
     assert isinstance(where, Named)
-    turn = f" turn about {name[1:]}" if name.startswith("r") else f" slide along {name}"
-    return Phrase("let ", where, turn)
+    if name.startswith("r"):
+        return Phrase("let ", where, " turn", f" about {name[1:]}")
+    return Phrase("let ", where, " slide", f" along {name}")
 
 
 def _coordinates(outcome: Outcome, change: Change) -> Pieces:
-    return _listed(
-        [coordinate_in_words(outcome, node, name) for node, name, _ in change.coordinates]
-    )
+    """Coordinates by their points and bodies; those inside of sheets and wires are counted."""
+    names: dict[str, Named] = {}
+    ways: dict[str, dict[str, list[str]]] = {}
+    inside: dict[Part, int] = {}
+    part_of = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    for node, name, _ in change.coordinates:
+        index = outcome.given.node_index[node]
+        if len(change.coordinates) > 1 and index in part_of:
+            inside[part_of[index]] = inside.get(part_of[index], 0) + 1
+            continue
+        where = coordinate_in_words(outcome, node, name)[0]
+        assert isinstance(where, Named)
+        names.setdefault(where.words, where)
+        turns = name.startswith("r")
+        mine = ways.setdefault(where.words, {})
+        mine.setdefault("about" if turns else "along", []).append(name[turns:])
+    items: list[Pieces] = [
+        (names[words], " and".join(f" {way} {listed(axes)}" for way, axes in mine.items()))
+        for words, mine in ways.items()
+    ]
+    for part, count in inside.items():
+        number = int(outcome.given.arrays.element_number[part.elements[0]])
+        within = named_element(outcome, number)
+        items.append((f"{in_words(count)} coordinate{'s' * (count > 1)} inside ", within))
+    return _listed(items)
 
 
 def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:
@@ -87,14 +113,31 @@ def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> 
     if not others:
         return ()
     frames = sorted(phrase.frame for phrase in phrases)
-    if all(sorted(phrase.frame for phrase in each) == frames for each in others):
-        at = " at" if phrases[0].before in ("cut ", "give ") else ""
-        if len(phrases) == 1:
-            return (f"; likewise{at} ", *_named([each[0].part for each in others]))
-        sets = [_named([phrase.part for phrase in each]) for each in others]
-        return (f"; likewise{at} ", *_shortened(sets, len(phrases)))
-    sets = [_listed([phrase.pieces for phrase in each]) for each in others]
-    return ("; just as well ", *_shortened(sets, 2))
+    if any(sorted(phrase.frame for phrase in each) != frames for each in others):
+        sets = [_listed([phrase.pieces for phrase in each]) for each in others]
+        return ("; just as well ", *_shortened(sets, 2))
+    at = " at" if phrases[0].before in ("cut ", "give ") else ""
+    every = [*phrases, *(phrase for each in others for phrase in each)]
+    is_all_said = len({(phrase.frame, phrase.where) for phrase in every}) == 1
+    if len(phrases) > 1:
+        sets = [_listed(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
+    elif is_all_said:
+        return (f"; likewise{at} ", *_named([each[0].part for each in others]))
+    else:
+        sets = [each[0].short for each in others]
+    return (f"; likewise{at} ", *_shortened(sets, len(phrases)))
+
+
+def _told(phrases: Sequence[Phrase]) -> Pieces:
+    """What is done; where the same is done with several parts, the first of them in full."""
+    groups: dict[tuple[str, ...], list[Phrase]] = {}
+    for phrase in phrases:
+        groups.setdefault((*phrase.frame, phrase.free), []).append(phrase)
+    items: list[Pieces] = []
+    for first, *more in groups.values():
+        names = list(dict.fromkeys(phrase.short for phrase in more))
+        items.append((*first.pieces, *((", and so ", *_listed(names)) if names else ())))
+    return _listed(items)
 
 
 def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
@@ -143,7 +186,9 @@ def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
 def _statements(outcome: Outcome, change: Change, keyword: str) -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
     if outcome.given.source is not None:
-        return ", ".join(f"{keyword} {operands}" for operands in _operands(outcome, change))
+        statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
+        more = ["..."] * (len(statements) > _MOST_STATEMENTS)
+        return ", ".join(statements[:_MOST_STATEMENTS] + more)
     parts = [
         *(Deformation(element, number, "") for element, number, _ in change.deformations),
         *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
