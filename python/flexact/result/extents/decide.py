@@ -17,6 +17,7 @@ from .extent import Branch, EvidenceKind, Extent, Extents, Kind, Reason
 from .forms import cone_of, forms_of
 from .felt import Felt
 from .orders import fit_of, measured
+from .reduced import Reduced
 from .walking import GOAL, Walk, walk
 
 #: More coordinates in a component are not followed; of more motions, stresses or entries of all
@@ -116,7 +117,8 @@ class _Judge:
         self.cone = cone_of(self.forms)
         self.stresses, self.motions = self.forms.matrix.shape[:2]
         rows, columns = self.felt.stresses.shape[0], self.felt.motions.shape[0]
-        self.is_small = max(rows, columns) <= _MOST_COORDINATES
+        is_small = max(rows, columns) <= _MOST_COORDINATES
+        self.reduced = Reduced(self.felt) if is_small else None
 
     def decided(self, told: dict[int, FloatArray]) -> _Decided:
         """All told motions, and the dimension of what goes on."""
@@ -163,21 +165,21 @@ class _Judge:
             return self._extent(
                 *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.STRAINED), curvature=strain
             )
-        found = self._followed(unit) if self.is_small else None
+        found = None if self.reduced is None else self._followed(self.reduced, unit)
         if found is not None and found.kind is Kind.FINITE:
             return found
         if self._is_indefinite or self._is_regular(unit):
             return self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.REGULAR)
         return found or self._extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
 
-    def _followed(self, unit: FloatArray) -> Extent:
+    def _followed(self, reduced: Reduced, unit: FloatArray) -> Extent:
         motion = self.felt.motions @ unit
         rank = motion.size - self.motions
         paths = [follow(self.felt.held, sign * motion, rank, _WISHES) for sign in (-1.0, 1.0)]
         walks = [Walk(path.length, path.residual) for path in paths]
         if self.motions > 1 or self.floor:
             walks = [
-                one if one.arrived else walk(self.felt, motion, sign, self.floor)
+                one if one.arrived else walk(reduced, unit, sign, self.floor)
                 for one, sign in zip(walks, (-1.0, 1.0), strict=True)
             ]
         back, ahead = walks
@@ -191,7 +193,7 @@ class _Judge:
             return made(Kind.FINITE, EvidenceKind.FOLLOWED, Reason.PATH)
         if back.arrived or ahead.arrived:
             return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ONE_WAY)
-        found = [measured(self.felt, motion, sign, self.floor) for sign in (-1.0, 1.0)]
+        found = [measured(reduced, unit, sign, self.floor) for sign in (-1.0, 1.0)]
         fits = [fit for each in found if (fit := fit_of(each)) is not None]
         if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
             fit = max(fits, key=lambda each: each.spread)
@@ -212,20 +214,20 @@ class _Judge:
     ) -> tuple[int | None, tuple[Branch, ...]]:
         if self._is_indefinite and self.motions > 2:
             return self.motions - 1, ()
-        if not self.is_small:
+        if self.reduced is None:
             return None, ()
         basis = self.cone.basis
-        if not self.cone.forms.matrix.size and is_without_strain(self.felt, basis):
+        if not self.cone.forms.matrix.size and is_without_strain(self.reduced, basis):
             return basis.shape[1], ()
         if self.motions > MOST_MOTIONS:
             return None, ()
-        near = positions_near(
-            self.felt,
-            *(basis, [each / np.linalg.norm(each) for each in vectors.values()]),
-        )
+        units = [each / np.linalg.norm(each) for each in vectors.values()]
+        near = positions_near(self.reduced, basis, units)
         dimension = self.motions - 1 if self._is_indefinite else near.dimension
         if dimension == 0 and any(each.kind is Kind.FINITE for each in motions.values()):
             dimension = None
+        if dimension != 1 or any(each.kind is Kind.FINITE for each in motions.values()):
+            return dimension, ()
         return dimension, self._branches(near.lines, vectors)
 
     def _branches(

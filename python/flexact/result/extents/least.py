@@ -3,14 +3,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ...core.arrays import FloatArray
-from ...model.configuration import Configuration
-from ..following.least import across, descend
-from .felt import Felt
+from .reduced import Here, Reduced, across
 
 #: Where several motions begin there may be several ways: the steps begin at so many further
 #: places, so far beside the motion, and end no farther beside it than that.
@@ -19,49 +15,36 @@ _STARTS, _BESIDE, _ASIDE = 6, 0.1, 0.3
 _ROUNDING = 1.0e-15
 
 
-class Nearest(NamedTuple):
-    """A position with the least strain."""
-
-    place: Configuration
-    change: FloatArray
-    """(n,) from the reference."""
-    strain: float
-    """The largest held deformation."""
-    beside: float
-    """How far other motions have gone, as a part of this one."""
-
-
-def least_along(felt: Felt, motion: FloatArray, share: float) -> Nearest | None:
+def least_along(reduced: Reduced, unit: FloatArray, share: float) -> Here | None:
     """The least strain after a motion has gone by a share, of the positions across it.
 
     Args:
-        felt: The component.
-        motion: (n,) unit vector, in the space of motions.
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
         share: How far, of one sign.
 
     Returns:
         None where the least is met along other motions.
     """
-    base = across(motion)
-    found = _settled(felt, motion, share, share * motion, base)
-    best = found if found.beside <= _ASIDE else None
-    if felt.many == 1 or (best is not None and best.strain <= _ROUNDING):
-        return best
-    others = felt.motions - np.outer(motion, motion @ felt.motions)
-    random = np.random.default_rng(len(motion))
-    for _ in range(_STARTS):
-        off = others @ random.standard_normal(felt.many)
-        off *= _BESIDE * abs(share) / max(float(np.linalg.norm(off)), _ROUNDING)
-        found = _settled(felt, motion, share, share * motion + off, base)
-        if found.beside <= _ASIDE and (best is None or found.strain < best.strain):
+    base = across(unit[:, None])
+    starts = [share * unit]
+    if base.shape[1]:
+        random = np.random.default_rng(unit.size)
+        off = base @ random.standard_normal((base.shape[1], _STARTS))
+        off *= _BESIDE * share / np.linalg.norm(off, axis=0)
+        starts += list((starts[0][:, None] + off).T)
+    best: Here | None = None
+    for start in starts:
+        found = reduced.least(start, base, _ASIDE * abs(share))
+        if found is None or beside(found, unit, share) > _ASIDE:
+            continue
+        if best is None or found.strain < best.strain:
             best = found
+        if best.strain <= _ROUNDING:
+            break
     return best
 
 
-def _settled(
-    felt: Felt, motion: FloatArray, share: float, start: FloatArray, base: FloatArray
-) -> Nearest:
-    place, correction = descend(felt.held, felt.held.reference, start, base)
-    change = start + correction
-    beside = np.linalg.norm(felt.within(change) - share * felt.within(motion)) / abs(share)
-    return Nearest(place.configuration, change, place.residual, float(beside))
+def beside(here: Here, unit: FloatArray, share: float) -> float:
+    """How far other motions have gone, as a part of a share of this one."""
+    return float(np.linalg.norm(here.shares - share * unit)) / abs(share)

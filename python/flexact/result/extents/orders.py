@@ -9,11 +9,11 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from .extent import Fit
-from .felt import Felt
 from .least import least_along
+from .reduced import Reduced
 
 #: How far along the motion the least strain is measured, in parts of the size.
-_SHARES = 0.3 * 10.0 ** (-0.25 * np.arange(15))
+_SHARES = 0.3 * 10.0 ** (-0.2 * np.arange(20))
 #: Strains below this are too near to rounding to be fitted.
 _LEAST = 1.0e-14
 #: So many powers of ten of the share are fitted, from the smallest on, and so many are needed.
@@ -32,19 +32,19 @@ class Measured(NamedTuple):
     """Whether somewhere the least is met along other motions."""
 
 
-def measured(felt: Felt, motion: FloatArray, sign: float, floor: float) -> Measured:
+def measured(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Measured:
     """The least strains along a motion, where they are above rounding.
 
     Args:
-        felt: The component.
-        motion: (n,) unit vector.
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the share.
     """
     aside = False
     shares, strains = [], []
     for share in _SHARES.tolist():
-        found = least_along(felt, motion, sign * share)
+        found = least_along(reduced, unit, sign * share)
         if found is None:
             aside = True
             continue

@@ -14,8 +14,8 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ..following.follow import TRUE
 from ..following.settle import onward, settle
-from .felt import Felt
-from .least import least_along
+from .least import beside, least_along
+from .reduced import Reduced
 
 #: How far a path is followed, in parts of the size, and in how large steps.
 GOAL, _STEP, _LEAST_STEP = 0.1, 0.02, 2.0e-4
@@ -41,30 +41,32 @@ class Walk(NamedTuple):
         return self.gone >= GOAL * (1.0 - 1.0e-9)
 
 
-def walk(felt: Felt, motion: FloatArray, sign: float, floor: float) -> Walk:
+def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
     """Follow a motion one way.
 
     Args:
-        felt: The component.
-        motion: (n,) unit vector in the space of motions.
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the way.
     """
-    if felt.many > 1 and not _begins(felt, motion, sign, floor):
+    held = reduced.felt.held
+    if unit.size > 1 and not _begins(reduced, unit, sign, floor):
         return Walk(0.0, 0.0)
     step = _STEP
     while True:
-        first = least_along(felt, motion, sign * step)
+        first = least_along(reduced, unit, sign * step)
         limit = TRUE + _ROUNDED * floor * step
         if first is not None and first.strain <= limit:
             break
         step /= 2.0
         if step < _LEAST_STEP:
             return Walk(0.0, 0.0)
-    here, gone, worst = felt.held.at(first.place), step, first.strain
+    where = held.moved(held.reference, first.change)
+    here, gone, worst = held.at(where), step, first.strain
     ahead = onward(here, first.change / np.linalg.norm(first.change))
     while gone < GOAL:
-        there = settle(felt.held, here, ahead, step)
+        there = settle(held, here, ahead, step)
         limit = TRUE + _ROUNDED * floor * (gone + step)
         if there is None or there.residual > limit:
             step /= 2.0
@@ -77,8 +79,9 @@ def walk(felt: Felt, motion: FloatArray, sign: float, floor: float) -> Walk:
     return Walk(gone, worst)
 
 
-def _begins(felt: Felt, motion: FloatArray, sign: float, floor: float) -> bool:
+def _begins(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> bool:
     """Whether there is a path near, on which other motions fall behind."""
-    found = least_along(felt, motion, sign * _NEAR)
+    found = least_along(reduced, unit, sign * _NEAR)
     limit = TRUE / 100.0 + _ROUNDED * floor * _NEAR
-    return found is not None and found.strain <= limit and found.beside <= _BESIDE
+    is_path = found is not None and found.strain <= limit
+    return is_path and beside(found, unit, sign * _NEAR) <= _BESIDE
