@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, overload
 
 from ..advice.causes.cause import Causes
 from ..advice.causes.causes import causes_of
-from ..advice.proposal import Proposal, Purpose
+from ..advice.proposal import Proposal, Purpose, tried
 from ..advice.releases.declarations import Declarations, declarations_of
 from ..advice.releases.releases import Releases, releases_of
 from ..advice.spaces.spaces import Spaces, spaces_of
@@ -98,7 +98,13 @@ class Advice(Frozen, Sequence[Step]):
         yield from (*self.releases.sets, *self.releases.supports)
         yield from (*self.declarations.sets, *self.declarations.holds)
         if self.spaces is not None:
-            yield from self.spaces.proposals
+            yield from map(self._as_it_stands, self.spaces.proposals)
+
+    def _as_it_stands(self, one: Proposal) -> Proposal:
+        """A proposal that was tried with divided sheets as one beam each, tried without."""
+        if self.analysis.with_internal_declared is None:
+            return one
+        return replace(one, after=tried(self.analysis, one.change))
 
     def found(self, progress: Progress | None = None) -> Advice:
         """The advice itself, when all of it is found; `progress` is told how far that is."""
