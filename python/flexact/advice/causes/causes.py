@@ -105,7 +105,8 @@ class _Finding:
             return {}
         told = self._told(self._own_stresses, self.stresses, lifted.stresses)
         if told.together:
-            found = relations_of(whole, told.together)
+            last = int(np.flatnonzero(told.is_special)[-1])
+            found = relations_of(whole, told.together) or relations_of(whole, (last,))
             return {k: found for k in np.flatnonzero(told.is_special).tolist()}
         chosen = np.flatnonzero(told.is_special)[:_MOST_EXPLAINED].tolist()
         return {k: relations_of(whole, (k,)) for k in chosen}

@@ -62,6 +62,9 @@ def told_apart(told: FloatArray, never: FloatArray, generic: int) -> Told:
             unit = rest[:, [k]] / size
             rest = rest - unit @ (unit.T @ rest)
             chosen.append(k)
+    if len(chosen) < special:
+        # What is lifted to a higher order only, and was not looked at.
+        return by_count(told.shape[1], special)
     group = tuple(np.flatnonzero(is_lifted).tolist())
     free = len(group) > len(chosen)
     labels = tuple(k in chosen for k in range(told.shape[1]))

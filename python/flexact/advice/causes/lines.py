@@ -157,7 +157,7 @@ class Lines:
         if len(values) < 5 or int(np.count_nonzero(values > _SAME * values[0])) != 5:
             return None
         velocity, rotation = axes[5, :3], axes[5, 3:] / self.length
-        return screw_of(rotation, velocity, self.middle, self.length, rounding=_SAME)
+        return screw_of(rotation, velocity, np.zeros(3), self.length, rounding=_SAME)
 
     def are_skew(self) -> bool:
         """Whether no two are parallel or meet."""

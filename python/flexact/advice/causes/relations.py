@@ -31,6 +31,8 @@ from .trials import Trials
 
 #: How many relations are told, and of how many bars bodies are looked for.
 _MOST, _MOST_BARS = 3, 120
+#: Of self-stresses of more resultants together nothing is said.
+_MOST_ENTRIES = 600
 _SAME = 1.0e-6
 
 
@@ -40,7 +42,13 @@ def relations_of(result: Result, stresses: Sequence[int]) -> tuple[Relation, ...
     Args:
         result: A result told by parts.
         stresses: Indices of self-stresses that are special, or of those among which some are.
+
+    Returns:
+        At most three; none where so many parts are stressed that this would take long.
     """
+    entries = [result.stress_basis.entries(k)[0].size for k in stresses]
+    if sum(entries) > _MOST_ENTRIES:
+        return ()
     return _Ladder(result, [result.self_stresses[k] for k in stresses]).found()
 
 

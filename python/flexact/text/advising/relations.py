@@ -10,7 +10,7 @@ from ...core.arrays import FloatArray
 from ...model.parts.parts import Part, PartKind
 from ...result.result import Result
 from ..motions import line_words
-from ..places import axis_words, direction_words, part_words, with_article
+from ..places import axis_words, part_words, with_article
 from ..sentences import Named, Piece, Pieces
 
 #: How many names stand in a row; of more all but one are the first, and how many more there are.
@@ -18,6 +18,8 @@ _MOST_NAMES = 6
 _FOLDS = {2: "half-turn", 3: "third of a turn", 4: "quarter-turn", 6: "sixth of a turn"}
 
 
+#: Coordinates below this part of the mechanism's size are zero.
+_ZERO = 1.0e-9
 _TRIED = "; other geometries with this symmetry were tried and have it too"
 
 
@@ -150,11 +152,8 @@ def _line(result: Result, point: FloatArray, direction: FloatArray) -> str:
 
 
 def _plane(result: Result, one: Relation) -> str:
-    axis = axis_words(one.direction)
-    if axis in ("x", "y", "z"):
-        value = float(one.point["xyz".index(axis)])
-        small = abs(value) < 1.0e-9 * result.characteristic_length
-        return f"the plane {axis} = {0 if small else value:.4g}{'' if small else ' m'}"
-    x, y, z = (f"{value + 0.0:.4g}" for value in one.point)
-    across = direction_words(one.direction)
-    return f"the plane through ({x}, {y}, {z}) m across {across}"
+    numbers = (
+        0.0 if abs(value) < _ZERO * result.characteristic_length else value for value in one.point
+    )
+    point = ", ".join(f"{value:.4g}" for value in numbers)
+    return f"the plane through ({point}) m across {axis_words(one.direction)}"
