@@ -11,6 +11,7 @@ U is stopped by further wires, one after another.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -37,6 +38,8 @@ _MOST_PROPOSALS = 4
 _MOST_TRIED = 12
 #: A line that is weaker than this, by its condition, is none.
 _WEAKEST = 100.0
+#: Of the characteristic length, places of new nodes have so many digits.
+_DIGITS = 12
 #: Wanted motions that differ by less are one.
 _APART = 1.0e-3
 #: Forces along lines with a larger cosine are much the same.
@@ -204,13 +207,19 @@ def _wire(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
     return AddedWire(
         int(numbers[at.position]),
         int(numbers[at.orientation]),
-        _three(at.place),
-        _three(site.ground(at.place, direction)),
+        _three(site, at.place) if not at.is_there else _as_given(at.place),
+        _three(site, site.ground(at.place, direction)),
         name,
     )
 
 
-def _three(place: FloatArray) -> tuple[float, float, float]:
+def _three(site: Site, place: FloatArray) -> tuple[float, float, float]:
+    """A place in decimals: a plane that is typed as z = 0.02 is not left by rounding."""
+    digits = _DIGITS - math.floor(math.log10(site.result.characteristic_length))
+    return _as_given(np.array([round(value, digits) for value in place.tolist()]))
+
+
+def _as_given(place: FloatArray) -> tuple[float, float, float]:
     x, y, z = (place + 0.0).tolist()
     return x, y, z
 
@@ -280,11 +289,11 @@ def _tried(
         return None
     works = np.array([aim.unwanted @ np.roll(line.force, 3) for line in lines])
     values = np.linalg.svd(works, compute_uv=False)
-    condition = lines[0].condition if len(lines) == 1 else float(values[0] / values[-1])
+    condition = float(values[0] / values[-1]) if len(lines) > 1 else lines[0].condition
     told = After(
         after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
     )
-    return Proposal(Purpose.ADD_WIRE, change, condition, told)
+    return Proposal(Purpose.ADD_WIRE, change, max(condition, 1.0), told)
 
 
 def _same(subject: Subject, before: Result, after: Result) -> Subject:
