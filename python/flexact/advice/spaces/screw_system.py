@@ -33,6 +33,7 @@ from .reguli import regulus_of
 
 #: Directions off by so little, or points by this part of the characteristic length, are one.
 SAME = 1.0e-5
+_ORDER = {kind: place for place, kind in enumerate(FamilyKind)}
 #: How many lines of a congruence are given.
 _SAMPLES = 12
 
@@ -54,7 +55,13 @@ def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Fam
         spanned.append(span)
     found += [directions_of(free)] if len(free) else []
     found += _screws(lined, np.concatenate(spanned), len(rows))
-    return tuple(_placed(family, about, length) for family in found)
+    return tuple(sorted((_placed(family, about, length) for family in found), key=_order))
+
+
+def _order(family: Family) -> tuple[int, float, tuple[float, ...]]:
+    """Lines, directions, screws; what eigenvectors came first does not matter."""
+    shown = np.concatenate((family.direction, family.normal, family.point))
+    return _ORDER[family.kind], round(family.pitch, 9), tuple(np.round(shown, 9).tolist())
 
 
 def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:

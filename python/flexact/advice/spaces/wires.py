@@ -129,16 +129,14 @@ def lines_for(site: Site, aim: Aim) -> list[Line]:
     if not found:
         # Of a body that is small, or all on one line, links reach out.
         found = [line for each in site.reached for line in _through(site, aim, each)]
-    found.sort(key=lambda line: (round(line.cost, 6), line.attachment.key, _sign_free(line)))
+    # Lines through one point keep their order, that of the names of the flexures along which
+    # they run.
+    found.sort(key=lambda line: (round(line.cost, 6), line.attachment.key))
     made: list[Line] = []
     for line in found:
         if all(abs(line.force @ other.force) < _ALIKE for other in made):
             made.append(line)
     return made
-
-
-def _sign_free(line: Line) -> tuple[float, ...]:
-    return tuple((np.round(line.direction, 6) + 0.0).tolist())
 
 
 def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
@@ -154,7 +152,7 @@ def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
     sizes = np.linalg.cholesky(np.eye(len(able)) + moment @ moment.T)
     back = np.linalg.inv(sizes)
     _, values, right = np.linalg.svd(unwanted @ able.T @ back.T)
-    best = [right[k] @ back @ able for k in range(int(np.sum(values > SAME)))]
+    best = [each @ back @ able for each in _strongest(values, right, able, back, site, arm)]
     free = np.eye(3) - able.T @ able
     known = [each for each in site.directions if np.linalg.norm(free @ each) <= SAME]
     for direction in (*known, *best):
@@ -170,6 +168,35 @@ def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
         yield Line(
             *(at, unit, force / size, size / work), cost * (1.0 if is_known else _NEW_DIRECTION)
         )
+
+
+def _strongest(
+    values: FloatArray,
+    vectors: FloatArray,
+    able: FloatArray,
+    back: FloatArray,
+    site: Site,
+    arm: FloatArray,
+) -> Iterator[FloatArray]:
+    """Of each set of equal singular values one vector, that does not depend on the basis.
+
+    Of several it is the one nearest to the first direction of a flexure, to the arm or to an axis.
+    """
+    there = values[values > SAME]
+    first = 0
+    while first < there.size:
+        same = np.flatnonzero(np.abs(there - there[first]) <= SAME * there[0])
+        group = vectors[same]
+        if same.size == 1:
+            yield group[0]
+        else:
+            for reference in (*site.directions, arm, *np.eye(3)):
+                shares = group @ (back @ able @ reference)
+                size = float(np.linalg.norm(shares))
+                if size > 0.1 * float(np.linalg.norm(reference)) > 0.0:
+                    yield shares @ group / size
+                    break
+        first = int(same[-1]) + 1
 
 
 def _velocities(rows: FloatArray, arm: FloatArray, length: float) -> FloatArray:
