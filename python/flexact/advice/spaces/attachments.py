@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from functools import cached_property
 from typing import NamedTuple
@@ -22,7 +23,7 @@ _SAME_PLACE = 1.0e-6
 #: A wire is so long, in characteristic lengths, where there is no flexure to take it from.
 _LENGTH = 0.5
 #: Directions of members that are looked at.
-_MOST_DIRECTIONS = 24
+_MOST_DIRECTIONS, _MOST_CROSSED = 24, 6
 
 
 class Attachment(NamedTuple):
@@ -85,8 +86,7 @@ class Site:
             there = [each.place for each in (*self.own, *made)]
             if all(np.linalg.norm(place - other) > self._step for other in there):
                 base = min(self.own, key=lambda each: self._far(each, place))
-                rounded = tuple((np.round(place / self._step) + 0.0).tolist())
-                key = ((True,), (), rounded)
+                key = ((True,), (), (len(made),))
                 made.append(Attachment(place, base.position, base.orientation, False, key))
         return tuple(made)
 
@@ -129,17 +129,24 @@ class Site:
 
     @cached_property
     def directions(self) -> FloatArray:
-        """(n, 3) unit vectors along and across flexures: those that a designer uses already."""
+        """(n, 3) unit vectors that a designer uses already, by the names of their parts.
+
+        Along flexures and hinges, across sheets, and across any two of the first of these.
+        """
         parts, frames = self.result.parts, self.result.given.frames.frame
         made: list[FloatArray] = []
-        flexures = [part for part in parts.all if part.kind is not PartKind.BODY]
-        for part in sorted(flexures, key=lambda one: natural(one.name)):
-            for axis in frames[part.elements[0]].T:
-                is_new = all(abs(axis @ other) < 1.0 - ROUNDING for other in made)
-                if is_new and np.linalg.norm(axis) > ROUNDING:
-                    made.append(axis)
-            if len(made) >= _MOST_DIRECTIONS:
-                break
+        for part in sorted(parts.all, key=lambda one: natural(one.name)):
+            if part.kind is PartKind.BODY or len(made) >= _MOST_DIRECTIONS:
+                continue
+            axes = frames[part.elements[0]].T
+            if len(part.ends) == 2:
+                _add(np.diff(self._values[list(part.ends)], axis=0)[0], made)
+            # Across a wire or about a hinge no direction is different from others.
+            used = axes[1:] if part.kind is PartKind.SHEET else axes[:1]
+            for axis in used if part.kind in (PartKind.SHEET, PartKind.HINGE) else ():
+                _add(axis, made)
+        for one, other in itertools.combinations(made[:_MOST_CROSSED], 2):
+            _add(np.cross(one, other), made)
         return np.array(made).reshape(-1, 3)
 
     @cached_property
@@ -167,3 +174,10 @@ class Site:
         sides.sort(key=lambda side: (side[1] > 1.0e-3, *side[:3]), reverse=True)
         made: FloatArray = sides[0][3]
         return made
+
+
+def _add(axis: FloatArray, made: list[FloatArray]) -> None:
+    """Keep a direction that is none of those."""
+    size = float(np.linalg.norm(axis))
+    if size > 0.0 and all(abs(axis @ other) < (1.0 - ROUNDING) * size for other in made):
+        made.append(axis / size)

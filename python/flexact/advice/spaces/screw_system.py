@@ -33,6 +33,9 @@ from .reguli import regulus_of
 
 #: Directions off by so little, or points by this part of the characteristic length, are one.
 SAME = 1.0e-5
+_ORDER = {kind: place for place, kind in enumerate(FamilyKind)}
+#: How many lines of a congruence are given.
+_SAMPLES = 12
 
 
 def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Family, ...]:
@@ -52,7 +55,13 @@ def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Fam
         spanned.append(span)
     found += [directions_of(free)] if len(free) else []
     found += _screws(lined, np.concatenate(spanned), len(rows))
-    return tuple(_placed(family, about, length) for family in found)
+    return tuple(sorted((_placed(family, about, length) for family in found), key=_order))
+
+
+def _order(family: Family) -> tuple[int, float, tuple[float, ...]]:
+    """Lines, directions, screws; what eigenvectors came first does not matter."""
+    shown = np.concatenate((family.direction, family.normal, family.point))
+    return _ORDER[family.kind], round(family.pitch, 9), tuple(np.round(shown, 9).tolist())
 
 
 def parted(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -132,7 +141,27 @@ def _of_reciprocal(rows: FloatArray) -> Family:
             points=points,
             directions=directions,
         )
-    return Family(FamilyKind.CONGRUENCE)
+    return _congruence(right[len(rows) :])
+
+
+def _congruence(met: FloatArray) -> Family:
+    """Lines reciprocal to two screws, through points of a circle about the middle."""
+    across = np.linalg.svd(met[:, :3])[2]
+    points, directions = [], []
+    for angle in 2.0 * np.pi * np.arange(_SAMPLES) / _SAMPLES:
+        point = (np.cos(angle) * across[0] + np.sin(angle) * across[1]) / 2.0
+        # A line along w through p is reciprocal to (a, b) where (a x p + b).w = 0.
+        one, other = np.cross(met[:, :3], point) + met[:, 3:]
+        way = np.cross(one, other)
+        size = float(np.linalg.norm(way))
+        if size > SAME:
+            points.append(point)
+            directions.append(way / size)
+    return Family(
+        FamilyKind.CONGRUENCE,
+        points=np.array(points).reshape(-1, 3),
+        directions=np.array(directions).reshape(-1, 3),
+    )
 
 
 def _complex(free: FloatArray, lined: FloatArray) -> Family:

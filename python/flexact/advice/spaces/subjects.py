@@ -75,7 +75,7 @@ def subject_named(result: Result, name: str) -> Subject:
         ModelError: there is none, it is no body, or there are several.
     """
     every = tuple(_all(result))
-    for spelling in (name, f"the {name}", name.removeprefix("the ")):
+    for spelling in (name, f"the {name}", name.removeprefix("the ")) if name.strip() else ():
         bodies = [each for each in every if each.is_body and each.name == spelling]
         found = bodies or _of_point(result, every, spelling)
         if not found:

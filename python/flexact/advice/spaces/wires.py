@@ -11,6 +11,7 @@ U is stopped by further wires, one after another.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -37,6 +38,8 @@ _MOST_PROPOSALS = 4
 _MOST_TRIED = 12
 #: A line that is weaker than this, by its condition, is none.
 _WEAKEST = 100.0
+#: Of the characteristic length, places of new nodes have so many digits.
+_DIGITS = 12
 #: Wanted motions that differ by less are one.
 _APART = 1.0e-3
 #: Forces along lines with a larger cosine are much the same.
@@ -126,16 +129,14 @@ def lines_for(site: Site, aim: Aim) -> list[Line]:
     if not found:
         # Of a body that is small, or all on one line, links reach out.
         found = [line for each in site.reached for line in _through(site, aim, each)]
-    found.sort(key=lambda line: (round(line.cost, 6), line.attachment.key, _sign_free(line)))
+    # Lines through one point keep their order, that of the names of the flexures along which
+    # they run.
+    found.sort(key=lambda line: (round(line.cost, 6), line.attachment.key))
     made: list[Line] = []
     for line in found:
         if all(abs(line.force @ other.force) < _ALIKE for other in made):
             made.append(line)
     return made
-
-
-def _sign_free(line: Line) -> tuple[float, ...]:
-    return tuple((np.round(line.direction, 6) + 0.0).tolist())
 
 
 def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
@@ -151,7 +152,7 @@ def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
     sizes = np.linalg.cholesky(np.eye(len(able)) + moment @ moment.T)
     back = np.linalg.inv(sizes)
     _, values, right = np.linalg.svd(unwanted @ able.T @ back.T)
-    best = [right[k] @ back @ able for k in range(int(np.sum(values > SAME)))]
+    best = [each @ back @ able for each in _strongest(values, right, able, back, site, arm)]
     free = np.eye(3) - able.T @ able
     known = [each for each in site.directions if np.linalg.norm(free @ each) <= SAME]
     for direction in (*known, *best):
@@ -167,6 +168,35 @@ def _through(site: Site, aim: Aim, at: Attachment) -> Iterator[Line]:
         yield Line(
             *(at, unit, force / size, size / work), cost * (1.0 if is_known else _NEW_DIRECTION)
         )
+
+
+def _strongest(
+    values: FloatArray,
+    vectors: FloatArray,
+    able: FloatArray,
+    back: FloatArray,
+    site: Site,
+    arm: FloatArray,
+) -> Iterator[FloatArray]:
+    """Of each set of equal singular values one vector, that does not depend on the basis.
+
+    Of several it is the one nearest to the first direction of a flexure, to the arm or to an axis.
+    """
+    there = values[values > SAME]
+    first = 0
+    while first < there.size:
+        same = np.flatnonzero(np.abs(there - there[first]) <= SAME * there[0])
+        group = vectors[same]
+        if same.size == 1:
+            yield group[0]
+        else:
+            for reference in (*site.directions, arm, *np.eye(3)):
+                shares = group @ (back @ able @ reference)
+                size = float(np.linalg.norm(shares))
+                if size > 0.1 * float(np.linalg.norm(reference)) > 0.0:
+                    yield shares @ group / size
+                    break
+        first = int(same[-1]) + 1
 
 
 def _velocities(rows: FloatArray, arm: FloatArray, length: float) -> FloatArray:
@@ -204,13 +234,19 @@ def _wire(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
     return AddedWire(
         int(numbers[at.position]),
         int(numbers[at.orientation]),
-        _three(at.place),
-        _three(site.ground(at.place, direction)),
+        _three(site, at.place) if not at.is_there else _as_given(at.place),
+        _three(site, site.ground(at.place, direction)),
         name,
     )
 
 
-def _three(place: FloatArray) -> tuple[float, float, float]:
+def _three(site: Site, place: FloatArray) -> tuple[float, float, float]:
+    """A place in decimals: a plane that is typed as z = 0.02 is not left by rounding."""
+    digits = _DIGITS - math.floor(math.log10(site.result.characteristic_length))
+    return _as_given(np.array([round(value, digits) for value in place.tolist()]))
+
+
+def _as_given(place: FloatArray) -> tuple[float, float, float]:
     x, y, z = (place + 0.0).tolist()
     return x, y, z
 
@@ -280,11 +316,11 @@ def _tried(
         return None
     works = np.array([aim.unwanted @ np.roll(line.force, 3) for line in lines])
     values = np.linalg.svd(works, compute_uv=False)
-    condition = lines[0].condition if len(lines) == 1 else float(values[0] / values[-1])
+    condition = float(values[0] / values[-1]) if len(lines) > 1 else lines[0].condition
     told = After(
         after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
     )
-    return Proposal(Purpose.ADD_WIRE, change, condition, told)
+    return Proposal(Purpose.ADD_WIRE, change, max(condition, 1.0), told)
 
 
 def _same(subject: Subject, before: Result, after: Result) -> Subject:
