@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -34,9 +33,11 @@ Judge = Callable[[Rows], bool]
 _ZERO, _TINY = 10.0, 1.0e-9
 #: From this multiple of its error, and this part of what it is the difference of, it is not.
 _CLEAR, _LARGE = 1.0e3, 1.0e-4
-#: How many times a matroid that hangs together is divided; fewer times where so many bases have
-#: been found on the way.
-_MOST_DIVISIONS, _FEWER_DIVISIONS, _FOUND = 6_000, 600, 20_000
+#: Rows that differ by more than this part are no multiples of each other.
+_NEAR = 0.1
+#: Bases found on the way beyond which little more is done: so many divisions of a matroid that
+#: hangs together, and so many factors of what is divided. Of fewer all are counted.
+_FOUND, _MOST_DIVISIONS, _MOST_FACTORS = 20_000, 600, 300_000
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01
 _MOST_EXCHANGES = 10_000
@@ -226,7 +227,7 @@ class _Counter:
 
     def __init__(self, judge: Judge) -> None:
         self.judge = judge
-        self.divisions = self.found = 0
+        self.divisions = self.factors = self.found = 0
 
     def count(self, minor: _Minor) -> int:
         """The weighted number of bases."""
@@ -236,7 +237,7 @@ class _Counter:
         for part in parts:
             if product == 0:
                 break
-            self.divisions = self.found = 0
+            self.divisions = self.factors = self.found = 0
             product *= self._connected(part)
         return product
 
@@ -258,7 +259,11 @@ class _Counter:
             self.found += count
             return factor * count
         self.divisions += 1
-        if self.divisions > (_FEWER_DIVISIONS if self.found > _FOUND else _MOST_DIVISIONS):
+        self.factors += minor.factor.size
+        # What hangs together has a basis for each exchange of one of it.
+        least = max(self.found, minor.factor.size)
+        is_much = self.divisions > _MOST_DIVISIONS or self.factors > _MOST_FACTORS
+        if least > _FOUND and is_much:
             raise TooManyError
         i = int(np.argmin(np.count_nonzero(minor.factor, axis=1)))
         piece = minor.basis[i]
@@ -303,9 +308,18 @@ class _Counter:
         for k in range(len(factor)):
             by_support.setdefault((factor[k] != 0.0).tobytes(), []).append(k)
         for same in by_support.values():
-            for a, b in combinations(same, 2):
-                if self._is_multiple(minor, factor, error, a, b, is_row):
-                    yield a, b
+            some = factor[same]
+            p = int(np.argmax(np.abs(some).min(axis=0)))
+            if len(same) < 2 or not np.all(some[:, p]):
+                continue
+            scaled = some / some[:, [p]]
+            for k in range(len(same) - 1):
+                size = np.maximum(np.abs(scaled[k]), np.abs(scaled[k + 1 :]))
+                near = np.all(np.abs(scaled[k] - scaled[k + 1 :]) <= _NEAR * size, axis=1)
+                for other in np.flatnonzero(near).tolist():
+                    a, b = same[k], same[k + 1 + other]
+                    if self._is_multiple(minor, factor, error, a, b, is_row):
+                        yield a, b
 
     def _is_multiple(
         self, minor: _Minor, factor: FloatArray, error: FloatArray, a: int, b: int, is_row: bool

@@ -23,6 +23,8 @@ _MOST_ROWS = 400
 _WORST, _MUCH_WORSE = 1.0e7, 1.0e5
 #: How often a set is looked for near the best of those known, and near how many.
 _ROUNDS, _NEAR = 2, 4
+#: Of larger sets none are looked for near another.
+_MOST_EXCHANGED = 60
 
 
 class Candidate(NamedTuple):
@@ -100,16 +102,19 @@ def _sets(
     if math.comb(able.size, count) <= most_sets:
         yield from combinations(able.tolist(), count)
         return
-    if able.size > _MOST_ROWS:
+    is_large = count > _MOST_EXCHANGED
+    if able.size > _MOST_ROWS and not is_large:
         order = np.lexsort((place[able], -np.round(norms[able], 9)))
         able = able[order[:_MOST_ROWS]]
     known: dict[tuple[int, ...], None] = {}
     for most in np.unique(wishes[able]).tolist():
+        if known and is_large:
+            break
         some = able[wishes[able] <= most]
         chosen = spanning(reach.rows[some], lambda i, some=some: int(place[some[i]]))  # type: ignore[misc]
         if len(chosen) == count:
             known[tuple(sorted(some[chosen].tolist()))] = None
-    for _ in range(_ROUNDS if known else 0):
+    for _ in range(_ROUNDS if known and not is_large else 0):
         sets = list(known)
         best = np.argsort(np.round(_conditions(reach.rows, np.array(sets)), 9), kind="stable")
         near = (_exchanges(sets[i], able.tolist()) for i in best[:_NEAR].tolist())

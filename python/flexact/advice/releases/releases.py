@@ -16,7 +16,7 @@ from .candidates import candidates
 from .cost import cost_of
 from .counting import counted
 from .kinds import LINK, tier_of_element
-from .stands import as_it_stands
+from .stands import as_it_stands, complete
 from .trying import LeftOut, Outcome, decades, listed
 
 #: How many supports that may be freed are listed.
@@ -77,7 +77,7 @@ def releases_of(result: Result) -> Releases:
         tried = _listed(result, source) if count != 0 else tried
         if tried.proposals:
             break
-    supports = _supports(result)
+    supports = _supports(result, _whole(result, stands))
     return Releases(
         *(size, count, tried.proposals, supports.proposals),
         LeftOut(tried.untried, tried.failed),
@@ -86,9 +86,17 @@ def releases_of(result: Result) -> Releases:
 
 def _sources(result: Result, stands: Result) -> list[Result]:
     """Results whose rows are listed: of whole sheets, where they have as many self-stresses."""
-    whole = result.with_internal_declared or result
+    whole = _whole(result, stands)
     same = [whole] if whole.over_constrained == stands.over_constrained else []
     return same if whole is stands else [*same, stands]
+
+
+def _whole(result: Result, stands: Result) -> Result:
+    """The result with each divided sheet or wire as one beam."""
+    whole = result.with_internal_declared
+    if whole is not None:
+        return complete(whole)
+    return complete(result) if result.condensed.chains else stands
 
 
 def _listed(result: Result, source: Result) -> Outcome:
@@ -106,9 +114,9 @@ def _listed(result: Result, source: Result) -> Outcome:
     return listed(result, reach, Purpose.RELEASE, without_links or found)
 
 
-def _supports(result: Result) -> Outcome:
-    source = result.with_internal_declared or result
-    if source.over_constrained == 0 or not reaches.fits(source.stress_space):
+def _supports(result: Result, source: Result) -> Outcome:
+    space = source.stress_space
+    if source.over_constrained != space.vectors or not reaches.fits(space):
         return Outcome((), 0, 0)
     reach = reaches.of_supports(source)
     found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))

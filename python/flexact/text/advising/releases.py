@@ -14,7 +14,7 @@ from ...result.outcome import Outcome
 from ...result.result import Result
 from ..calls import HOLD, call_of
 from ..naming import coordinate_in_words, in_words, named_element
-from ..places import listed
+from ..places import listed, place_words
 from ..sentences import Named, Piece, Pieces, plain
 from .hardware import Phrase, held, outcome_as_given, released
 
@@ -73,9 +73,20 @@ def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
     """A support that lets a coordinate go."""
     where = coordinate_in_words(outcome, node, name)[0]
     assert isinstance(where, Named)
+    where = where._replace(words=where.words + _which_end(outcome, node))
     if name.startswith("r"):
         return Phrase("let ", where, " turn", f" about {name[1:]}")
     return Phrase("let ", where, " slide", f" along {name}")
+
+
+def _which_end(outcome: Outcome, node: int) -> str:
+    """Where a support is, if the part that it holds has another that is called the same."""
+    place = outcome.parts.place_of(outcome.given.node_index[node])
+    here = () if place is None else outcome.parts.at(place)
+    if place is None or len(here) != 1:
+        return ""
+    words, _, at = place_words(outcome.parts, place, here[0]).rpartition(" at (")
+    return f" at ({at}" if words else ""
 
 
 def _coordinates(outcome: Outcome, change: Change) -> Pieces:
@@ -136,7 +147,8 @@ def _told(phrases: Sequence[Phrase]) -> Pieces:
     items: list[Pieces] = []
     for first, *more in groups.values():
         names = list(dict.fromkeys(phrase.short for phrase in more))
-        items.append((*first.pieces, *((", and so ", *_listed(names)) if names else ())))
+        rest = _listed(names[:_MOST_NAMED], len(names) - _MOST_NAMED)
+        items.append((*first.pieces, *((", and so ", *rest) if rest else ())))
     return _listed(items)
 
 
