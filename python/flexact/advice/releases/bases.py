@@ -40,7 +40,8 @@ _NEAR = 0.1
 _FOUND, _MOST_DIVISIONS, _MOST_FACTORS = 20_000, 600, 300_000
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01
-_MOST_EXCHANGES = 10_000
+#: How many exchanges there are at most for each factor.
+_MOST_EXCHANGES = 10
 
 
 class TooManyError(Exception):
@@ -73,39 +74,39 @@ class Echelon:
     smallest: float
 
 
-def echelon_of(matrix: FloatArray) -> Echelon | None:
+def echelon_of(matrix: FloatArray, least: float = 0.0) -> Echelon | None:
     """The rows of a matrix (n, k) in terms of k of them, whose block is well-conditioned.
 
     No factor is larger than 1.01: no exchange of one row makes the block much larger. None where
-    there are no k independent rows.
+    the smallest singular value of the best block is not above `least`.
     """
     rows, count = matrix.shape
+    if rows < count:
+        return None
     rest, chosen = matrix.copy(), []
     for _ in range(count):
-        row, column = np.unravel_index(int(np.argmax(np.abs(rest))), rest.shape) if rows else (0, 0)
-        if not rows or not abs(rest[row, column]) > 0.0:
+        row, column = divmod(int(np.argmax(np.abs(rest))), count)
+        if not abs(rest[row, column]) > least:
             return None
-        chosen.append(int(row))
-        direction = rest[row] / rest[row, column]
-        rest -= np.outer(rest[:, column], direction)
-        rest[row] = 0.0
-        rest[:, column] = 0.0
+        chosen.append(row)
+        rest -= np.outer(rest[:, column], rest[row] / rest[row, column])
+        rest[row], rest[:, column] = 0.0, 0.0
     basis = np.array(chosen, np.int64)
     others = np.setdiff1d(np.arange(rows), basis)
-    smallest = float(np.linalg.svd(matrix[basis], compute_uv=False)[-1]) if count else 1.0
-    if not smallest > 0.0:
+    if not _smallest(matrix[basis]) > least:
         return None
-    factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
-    for _ in range(_MOST_EXCHANGES):
-        if not factor.size:
-            break
-        i, j = np.unravel_index(int(np.argmax(np.abs(factor))), factor.shape)
+    factor: FloatArray = np.linalg.solve(matrix[basis].T, matrix[others].T)
+    for _ in range(_MOST_EXCHANGES * factor.size):
+        i, j = divmod(int(np.argmax(np.abs(factor))), others.size)
         if abs(factor[i, j]) <= _EXCHANGED:
             break
         basis[i], others[j] = others[j], basis[i]
         factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
-    smallest = float(np.linalg.svd(matrix[basis], compute_uv=False)[-1]) if count else 1.0
-    return Echelon(basis, others, factor, smallest)
+    return Echelon(basis, others, factor, _smallest(matrix[basis]))
+
+
+def _smallest(block: FloatArray) -> float:
+    return float(np.linalg.svd(block, compute_uv=False)[-1]) if block.size else 1.0
 
 
 def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
@@ -119,24 +120,20 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     Raises:
         TooManyError: there are more than can be counted.
     """
-    form = echelon_of(matrix)
+    form = echelon_of(matrix, _ZERO * error)
     if form is None:
         return 0
-    error /= form.smallest
-    basis = [Piece(1, 1, frozenset((i,)), frozenset()) for i in form.basis.tolist()]
-    others = [Piece(1, 1, frozenset((i,)), frozenset()) for i in form.others.tolist()]
-    if not _is_other_than_zero(form.smallest, error * form.smallest, 1.0) and not (
-        form.smallest > _ZERO * error * form.smallest
-        and judge(frozenset(form.basis.tolist()))
-    ):
+    is_clear = form.smallest >= max(_CLEAR * error, _LARGE)
+    if not is_clear and not judge(frozenset(form.basis.tolist())):
         return 0
+    error /= form.smallest
+    basis, others = (
+        [Piece(1, 1, frozenset((row,)), frozenset()) for row in rows.tolist()]
+        for rows in (form.basis, form.others)
+    )
     errors = np.full(form.factor.shape, error)
     start = _Minor(form.factor, errors, basis, others, frozenset())
     return _Counter(judge).count(start.cleared(judge))
-
-
-def _is_other_than_zero(value: float, error: float, size: float) -> bool:
-    return abs(value) >= max(_CLEAR * error, _LARGE * size)
 
 
 @dataclass
@@ -389,9 +386,7 @@ def _components(minor: _Minor) -> tuple[int, list[_Minor]]:
             factor *= piece.outside
     for one in np.flatnonzero(sizes > 1).tolist():
         mine = group == one
-        parts.append(
-            minor.without(np.flatnonzero(~mine[:rows]), np.flatnonzero(~mine[rows:]))
-        )
+        parts.append(minor.without(np.flatnonzero(~mine[:rows]), np.flatnonzero(~mine[rows:])))
     return factor, parts
 
 

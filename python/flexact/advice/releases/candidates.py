@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ..leverage import spanning
 from .reach import Reach
 
@@ -38,8 +38,10 @@ class Candidate(NamedTuple):
     """By what it is sorted among others."""
 
 
+#: Rows, by their places.
+Places = NDArray[np.integer]
 #: Sizes by which sets are sorted before their condition, (sets, any), of (sets, k) rows.
-Ranking = Callable[[IntArray, FloatArray], FloatArray]
+Ranking = Callable[[Places, FloatArray], FloatArray]
 
 
 def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candidate]:
@@ -63,14 +65,14 @@ def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candi
     if not sets.size:
         return []
     rounded = np.round(np.log(condition), 6)[:, None]
-    ranks = np.concatenate([np.round(ranking(sets, condition), 6), rounded], axis=1)
+    ranks = np.concatenate([np.round(ranking(sets, condition), 6), rounded], axis=1).tolist()
     keys = [tuple(sorted(place[list(each)].tolist())) for each in sets.tolist()]
     order = sorted(range(len(keys)), key=lambda i: (tuple(ranks[i]), keys[i]))
     return [
         Candidate(
             tuple(sorted(sets[i].tolist(), key=lambda row: int(place[row]))),
             float(condition[i]),
-            tuple(ranks[i].tolist()),
+            tuple(ranks[i]),
         )
         for i in order
     ]
@@ -84,10 +86,10 @@ def _order(reach: Reach) -> NDArray[np.integer]:
     return place
 
 
-def _conditions(rows: FloatArray, sets: IntArray) -> FloatArray:
+def _conditions(rows: FloatArray, sets: Places) -> FloatArray:
     values = np.linalg.svd(rows[sets], compute_uv=False)[:, -1]
     with np.errstate(divide="ignore"):
-        made: FloatArray = 1.0 / values
+        made: FloatArray = np.divide(1.0, values)
     return made
 
 

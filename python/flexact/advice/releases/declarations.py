@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.frozen import Frozen
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import Candidate, candidates
+from .candidates import Candidate, Places, candidates
 from .counting import counted
 from .kinds import LINK, tier_of_node
 from .reach import Reach
 from .stands import as_it_stands, complete
-from .trying import LeftOut, Outcome, decades, listed
+from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many sets of released deformations that may be held are listed.
 _MOST_HELD = 4
@@ -44,7 +44,7 @@ class Declarations(Frozen):
     count: int | None
     sets: tuple[Proposal, ...] = ()
     holds: tuple[Proposal, ...] = ()
-    left_out: LeftOut = LeftOut()
+    left_out: LeftOut = NOTHING_LEFT_OUT
 
 
 def declarations_of(result: Result) -> Declarations:
@@ -89,7 +89,7 @@ def _listed(result: Result, source: Result) -> Outcome:
     tiers = np.array([tier_of_node(source, int(i)) for i in given], float)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
 
-    def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
+    def ranking(sets: Places, condition: FloatArray) -> FloatArray:
         of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
         turning = turns[sets].sum(axis=1)[:, None]
         return np.concatenate([decades(condition), of_sets, turning], axis=1)

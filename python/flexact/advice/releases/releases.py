@@ -8,16 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.frozen import Frozen
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import candidates
+from .candidates import Places, candidates
 from .cost import cost_of
 from .counting import counted
 from .kinds import LINK, tier_of_element
 from .stands import as_it_stands, complete
-from .trying import LeftOut, Outcome, decades, listed
+from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many supports that may be freed are listed.
 _MOST_SUPPORTS = 4
@@ -42,7 +42,7 @@ class Releases(Frozen):
     count: int | None
     sets: tuple[Proposal, ...] = ()
     supports: tuple[Proposal, ...] = ()
-    left_out: LeftOut = LeftOut()
+    left_out: LeftOut = NOTHING_LEFT_OUT
 
 
 def releases_of(result: Result) -> Releases:
@@ -105,7 +105,7 @@ def _listed(result: Result, source: Result) -> Outcome:
     tiers = np.array([tier_of_element(source, int(i)) for i in elements], float)
     cost = cost_of(source, reach)
 
-    def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
+    def ranking(sets: Places, condition: FloatArray) -> FloatArray:
         first = decades(condition) if cost is None else cost(sets)[:, None]
         return np.concatenate([first, np.sort(tiers[sets], axis=1)[:, ::-1]], axis=1)
 

@@ -49,6 +49,10 @@ class LeftOut(NamedTuple):
     """Whether there are so many self-stresses, or motions, that no sets were looked for."""
 
 
+#: Nothing was left out.
+NOTHING_LEFT_OUT = LeftOut()
+
+
 class _Try(NamedTuple):
     candidate: Candidate
     change: Change

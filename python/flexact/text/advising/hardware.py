@@ -97,7 +97,9 @@ def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[
         return
     in_plane = [one for one in mine if _is_in_plane(outcome, *one)]
     if len(in_plane) == 2:
-        yield Phrase("replace ", name, " by a wire", "", " (in-plane bending free at both its ends)")
+        yield Phrase(
+            "replace ", name, " by a wire", "", " (in-plane bending free at both its ends)"
+        )
     for one in mine:
         if one in in_plane and len(in_plane) == 1:
             where = f" at {_place(outcome, part, *one)}"

@@ -169,7 +169,9 @@ def _named(parts: Sequence[Named]) -> Pieces:
     numbers = [part.words.rpartition(" ")[2] for part in parts]
     head = heads.pop() if len(heads) == 1 else ""
     if len(parts) > 1 and head in _PLURALS and all(map(str.isdigit, numbers)):
-        short = [(Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)]
+        short = [
+            (Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)
+        ]
         return (f"{_PLURALS[head]} ", *_listed(short))
     return _listed([(part,) for part in parts])
 
@@ -201,7 +203,7 @@ def _statements(outcome: Outcome, change: Change, keyword: str) -> str:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
         more = ["..."] * (len(statements) > _MOST_STATEMENTS)
         return ", ".join(statements[:_MOST_STATEMENTS] + more)
-    parts = [
+    parts: list[Deformation | Coordinate] = [
         *(Deformation(element, number, "") for element, number, _ in change.deformations),
         *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
     ]
@@ -217,8 +219,8 @@ def _operands(outcome: Outcome, change: Change) -> list[str]:
     made = [" ".join(map(str, (e, *sorted(mine)))) for e, mine in of_element.items()]
     of_node: dict[str, list[str]] = {}
     for node, name, _ in change.coordinates:
-        number, component = _coordinate(outcome, node, name).operands.split()
-        of_node.setdefault(number, []).append(component)
+        place, component = _coordinate(outcome, node, name).operands.split()
+        of_node.setdefault(place, []).append(component)
     return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
 
 
