@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -34,12 +33,15 @@ Judge = Callable[[Rows], bool]
 _ZERO, _TINY = 10.0, 1.0e-9
 #: From this multiple of its error, and this part of what it is the difference of, it is not.
 _CLEAR, _LARGE = 1.0e3, 1.0e-4
-#: How many times a matroid that hangs together is divided; fewer times where so many bases have
-#: been found on the way.
-_MOST_DIVISIONS, _FEWER_DIVISIONS, _FOUND = 6_000, 600, 20_000
+#: Rows that differ by more than this part are no multiples of each other.
+_NEAR = 0.1
+#: Bases found on the way beyond which little more is done: so many divisions of a matroid that
+#: hangs together, and so many factors of what is divided. Of fewer all are counted.
+_FOUND, _MOST_DIVISIONS, _MOST_FACTORS = 20_000, 600, 300_000
 #: Entries of an echelon form beyond which the rows are better exchanged.
 _EXCHANGED = 1.01
-_MOST_EXCHANGES = 10_000
+#: How many exchanges there are at most for each factor.
+_MOST_EXCHANGES = 10
 
 
 class TooManyError(Exception):
@@ -72,39 +74,39 @@ class Echelon:
     smallest: float
 
 
-def echelon_of(matrix: FloatArray) -> Echelon | None:
+def echelon_of(matrix: FloatArray, least: float = 0.0) -> Echelon | None:
     """The rows of a matrix (n, k) in terms of k of them, whose block is well-conditioned.
 
     No factor is larger than 1.01: no exchange of one row makes the block much larger. None where
-    there are no k independent rows.
+    the smallest singular value of the best block is not above `least`.
     """
     rows, count = matrix.shape
+    if rows < count:
+        return None
     rest, chosen = matrix.copy(), []
     for _ in range(count):
-        row, column = np.unravel_index(int(np.argmax(np.abs(rest))), rest.shape) if rows else (0, 0)
-        if not rows or not abs(rest[row, column]) > 0.0:
+        row, column = divmod(int(np.argmax(np.abs(rest))), count)
+        if not abs(rest[row, column]) > least:
             return None
-        chosen.append(int(row))
-        direction = rest[row] / rest[row, column]
-        rest -= np.outer(rest[:, column], direction)
-        rest[row] = 0.0
-        rest[:, column] = 0.0
+        chosen.append(row)
+        rest -= np.outer(rest[:, column], rest[row] / rest[row, column])
+        rest[row], rest[:, column] = 0.0, 0.0
     basis = np.array(chosen, np.int64)
     others = np.setdiff1d(np.arange(rows), basis)
-    smallest = float(np.linalg.svd(matrix[basis], compute_uv=False)[-1]) if count else 1.0
-    if not smallest > 0.0:
+    if not _smallest(matrix[basis]) > least:
         return None
-    factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
-    for _ in range(_MOST_EXCHANGES):
-        if not factor.size:
-            break
-        i, j = np.unravel_index(int(np.argmax(np.abs(factor))), factor.shape)
+    factor: FloatArray = np.linalg.solve(matrix[basis].T, matrix[others].T)
+    for _ in range(_MOST_EXCHANGES * factor.size):
+        i, j = divmod(int(np.argmax(np.abs(factor))), others.size)
         if abs(factor[i, j]) <= _EXCHANGED:
             break
         basis[i], others[j] = others[j], basis[i]
         factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
-    smallest = float(np.linalg.svd(matrix[basis], compute_uv=False)[-1]) if count else 1.0
-    return Echelon(basis, others, factor, smallest)
+    return Echelon(basis, others, factor, _smallest(matrix[basis]))
+
+
+def _smallest(block: FloatArray) -> float:
+    return float(np.linalg.svd(block, compute_uv=False)[-1]) if block.size else 1.0
 
 
 def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
@@ -118,24 +120,20 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     Raises:
         TooManyError: there are more than can be counted.
     """
-    form = echelon_of(matrix)
+    form = echelon_of(matrix, _ZERO * error)
     if form is None:
         return 0
-    error /= form.smallest
-    basis = [Piece(1, 1, frozenset((i,)), frozenset()) for i in form.basis.tolist()]
-    others = [Piece(1, 1, frozenset((i,)), frozenset()) for i in form.others.tolist()]
-    if not _is_other_than_zero(form.smallest, error * form.smallest, 1.0) and not (
-        form.smallest > _ZERO * error * form.smallest
-        and judge(frozenset(form.basis.tolist()))
-    ):
+    is_clear = form.smallest >= max(_CLEAR * error, _LARGE)
+    if not is_clear and not judge(frozenset(form.basis.tolist())):
         return 0
+    error /= form.smallest
+    basis, others = (
+        [Piece(1, 1, frozenset((row,)), frozenset()) for row in rows.tolist()]
+        for rows in (form.basis, form.others)
+    )
     errors = np.full(form.factor.shape, error)
     start = _Minor(form.factor, errors, basis, others, frozenset())
     return _Counter(judge).count(start.cleared(judge))
-
-
-def _is_other_than_zero(value: float, error: float, size: float) -> bool:
-    return abs(value) >= max(_CLEAR * error, _LARGE * size)
 
 
 @dataclass
@@ -226,7 +224,7 @@ class _Counter:
 
     def __init__(self, judge: Judge) -> None:
         self.judge = judge
-        self.divisions = self.found = 0
+        self.divisions = self.factors = self.found = 0
 
     def count(self, minor: _Minor) -> int:
         """The weighted number of bases."""
@@ -236,7 +234,7 @@ class _Counter:
         for part in parts:
             if product == 0:
                 break
-            self.divisions = self.found = 0
+            self.divisions = self.factors = self.found = 0
             product *= self._connected(part)
         return product
 
@@ -258,7 +256,11 @@ class _Counter:
             self.found += count
             return factor * count
         self.divisions += 1
-        if self.divisions > (_FEWER_DIVISIONS if self.found > _FOUND else _MOST_DIVISIONS):
+        self.factors += minor.factor.size
+        # What hangs together has a basis for each exchange of one of it.
+        least = max(self.found, minor.factor.size)
+        is_much = self.divisions > _MOST_DIVISIONS or self.factors > _MOST_FACTORS
+        if least > _FOUND and is_much:
             raise TooManyError
         i = int(np.argmin(np.count_nonzero(minor.factor, axis=1)))
         piece = minor.basis[i]
@@ -303,9 +305,18 @@ class _Counter:
         for k in range(len(factor)):
             by_support.setdefault((factor[k] != 0.0).tobytes(), []).append(k)
         for same in by_support.values():
-            for a, b in combinations(same, 2):
-                if self._is_multiple(minor, factor, error, a, b, is_row):
-                    yield a, b
+            some = factor[same]
+            p = int(np.argmax(np.abs(some).min(axis=0)))
+            if len(same) < 2 or not np.all(some[:, p]):
+                continue
+            scaled = some / some[:, [p]]
+            for k in range(len(same) - 1):
+                size = np.maximum(np.abs(scaled[k]), np.abs(scaled[k + 1 :]))
+                near = np.all(np.abs(scaled[k] - scaled[k + 1 :]) <= _NEAR * size, axis=1)
+                for other in np.flatnonzero(near).tolist():
+                    a, b = same[k], same[k + 1 + other]
+                    if self._is_multiple(minor, factor, error, a, b, is_row):
+                        yield a, b
 
     def _is_multiple(
         self, minor: _Minor, factor: FloatArray, error: FloatArray, a: int, b: int, is_row: bool
@@ -375,9 +386,7 @@ def _components(minor: _Minor) -> tuple[int, list[_Minor]]:
             factor *= piece.outside
     for one in np.flatnonzero(sizes > 1).tolist():
         mine = group == one
-        parts.append(
-            minor.without(np.flatnonzero(~mine[:rows]), np.flatnonzero(~mine[rows:]))
-        )
+        parts.append(minor.without(np.flatnonzero(~mine[:rows]), np.flatnonzero(~mine[rows:])))
     return factor, parts
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ..leverage import spanning
 from .reach import Reach
 
@@ -23,6 +23,8 @@ _MOST_ROWS = 400
 _WORST, _MUCH_WORSE = 1.0e7, 1.0e5
 #: How often a set is looked for near the best of those known, and near how many.
 _ROUNDS, _NEAR = 2, 4
+#: Of larger sets none are looked for near another.
+_MOST_EXCHANGED = 60
 
 
 class Candidate(NamedTuple):
@@ -36,8 +38,10 @@ class Candidate(NamedTuple):
     """By what it is sorted among others."""
 
 
+#: Rows, by their places.
+Places = NDArray[np.integer]
 #: Sizes by which sets are sorted before their condition, (sets, any), of (sets, k) rows.
-Ranking = Callable[[IntArray, FloatArray], FloatArray]
+Ranking = Callable[[Places, FloatArray], FloatArray]
 
 
 def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candidate]:
@@ -61,14 +65,14 @@ def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candi
     if not sets.size:
         return []
     rounded = np.round(np.log(condition), 6)[:, None]
-    ranks = np.concatenate([np.round(ranking(sets, condition), 6), rounded], axis=1)
+    ranks = np.concatenate([np.round(ranking(sets, condition), 6), rounded], axis=1).tolist()
     keys = [tuple(sorted(place[list(each)].tolist())) for each in sets.tolist()]
     order = sorted(range(len(keys)), key=lambda i: (tuple(ranks[i]), keys[i]))
     return [
         Candidate(
             tuple(sorted(sets[i].tolist(), key=lambda row: int(place[row]))),
             float(condition[i]),
-            tuple(ranks[i].tolist()),
+            tuple(ranks[i]),
         )
         for i in order
     ]
@@ -82,10 +86,10 @@ def _order(reach: Reach) -> NDArray[np.integer]:
     return place
 
 
-def _conditions(rows: FloatArray, sets: IntArray) -> FloatArray:
+def _conditions(rows: FloatArray, sets: Places) -> FloatArray:
     values = np.linalg.svd(rows[sets], compute_uv=False)[:, -1]
     with np.errstate(divide="ignore"):
-        made: FloatArray = 1.0 / values
+        made: FloatArray = np.divide(1.0, values)
     return made
 
 
@@ -100,16 +104,19 @@ def _sets(
     if math.comb(able.size, count) <= most_sets:
         yield from combinations(able.tolist(), count)
         return
-    if able.size > _MOST_ROWS:
+    is_large = count > _MOST_EXCHANGED
+    if able.size > _MOST_ROWS and not is_large:
         order = np.lexsort((place[able], -np.round(norms[able], 9)))
         able = able[order[:_MOST_ROWS]]
     known: dict[tuple[int, ...], None] = {}
     for most in np.unique(wishes[able]).tolist():
+        if known and is_large:
+            break
         some = able[wishes[able] <= most]
         chosen = spanning(reach.rows[some], lambda i, some=some: int(place[some[i]]))  # type: ignore[misc]
         if len(chosen) == count:
             known[tuple(sorted(some[chosen].tolist()))] = None
-    for _ in range(_ROUNDS if known else 0):
+    for _ in range(_ROUNDS if known and not is_large else 0):
         sets = list(known)
         best = np.argsort(np.round(_conditions(reach.rows, np.array(sets)), 9), kind="stable")
         near = (_exchanges(sets[i], able.tolist()) for i in best[:_NEAR].tolist())

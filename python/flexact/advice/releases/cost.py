@@ -19,11 +19,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ...core.elements import Dual, Role, dual_table, role_table
 from ...model.parts.parts import PartKind
 from ...result.result import Result
 from ...result.weights import row_duals
+from .candidates import Places
 from .reach import Reach
 
 #: Stresses below this part of the largest of a self-stress are none.
@@ -49,7 +50,7 @@ _OTHER_END: dict[int, int] = {
 #: Costs below this are equal.
 _LEAST = 1.0e-9
 
-Cost = Callable[[IntArray], FloatArray]
+Cost = Callable[[Places], FloatArray]
 
 
 def cost_of(result: Result, reach: Reach) -> Cost | None:
@@ -79,7 +80,7 @@ def cost_of(result: Result, reach: Reach) -> Cost | None:
     stiffness[np.ix_(is_soft, is_soft)] = np.linalg.inv(flexibility[np.ix_(is_soft, is_soft)])
     rows = reach.index
 
-    def cost(sets: IntArray) -> FloatArray:
+    def cost(sets: Places) -> FloatArray:
         chosen = rows[sets]
         inverse = np.linalg.inv(stresses[chosen])
         blocks = stiffness[chosen[:, :, None], chosen[:, None, :]]
@@ -100,7 +101,9 @@ def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
     element, deformation = result.raw.row_label - 1
     kind = result.data.arrays.element_kind[element]
     roles, duals = role_table()[kind, deformation], dual_table()[kind, deformation]
-    place = {(e, r): k for k, (e, r) in enumerate(zip(element.tolist(), roles.tolist(), strict=True))}
+    place = {
+        (e, r): k for k, (e, r) in enumerate(zip(element.tolist(), roles.tolist(), strict=True))
+    }
     for k in np.flatnonzero(stressed).tolist():
         e, role = int(element[k]), int(roles[k])
         value, shear = _given(result, e, role, int(deformation[k]))

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.frozen import Frozen
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import Candidate, candidates
+from .candidates import Candidate, Places, candidates
 from .counting import counted
 from .kinds import LINK, tier_of_node
 from .reach import Reach
-from .stands import as_it_stands
-from .trying import LeftOut, Outcome, decades, listed
+from .stands import as_it_stands, complete
+from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many sets of released deformations that may be held are listed.
 _MOST_HELD = 4
@@ -44,7 +44,7 @@ class Declarations(Frozen):
     count: int | None
     sets: tuple[Proposal, ...] = ()
     holds: tuple[Proposal, ...] = ()
-    left_out: LeftOut = LeftOut()
+    left_out: LeftOut = NOTHING_LEFT_OUT
 
 
 def declarations_of(result: Result) -> Declarations:
@@ -68,14 +68,14 @@ def declarations_of(result: Result) -> Declarations:
         return Declarations(size, None, left_out=LeftOut(is_too_large=True))
     reach = reaches.of_columns(stands)
     count = counted(stands, reach, lambda after: after.under_constrained)
-    sources = [one for one in (result, stands) if one.under_constrained == size]
+    whole = complete(result) if result.condensed.chains else stands
     tried = Outcome((), 0, 0)
-    for source in sources if stands is not result else sources[:1]:
+    for source in dict.fromkeys(one for one in (whole, stands) if one.under_constrained == size):
         tried = _listed(result, source)
         if tried.proposals:
             break
-    is_told = result.under_constrained == size and result.with_internal_declared is None
-    holds = _holds(result) if is_told else Outcome((), 0, 0)
+    is_told = whole.under_constrained == size and result.with_internal_declared is None
+    holds = _holds(result, whole) if is_told else Outcome((), 0, 0)
     return Declarations(
         *(size, count, tried.proposals, holds.proposals),
         LeftOut(tried.untried, tried.failed),
@@ -89,7 +89,7 @@ def _listed(result: Result, source: Result) -> Outcome:
     tiers = np.array([tier_of_node(source, int(i)) for i in given], float)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
 
-    def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
+    def ranking(sets: Places, condition: FloatArray) -> FloatArray:
         of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
         turning = turns[sets].sum(axis=1)[:, None]
         return np.concatenate([decades(condition), of_sets, turning], axis=1)
@@ -119,7 +119,7 @@ def _without_repeats(source: Result, reach: Reach) -> Reach:
     return reach.only(np.array(sorted(first.values()), np.int64))
 
 
-def _holds(result: Result) -> Outcome:
-    reach = reaches.of_released(result)
+def _holds(result: Result, source: Result) -> Outcome:
+    reach = reaches.of_released(source)
     found = candidates(reach, lambda _, condition: decades(condition), np.zeros(len(reach.index)))
     return listed(result, reach, Purpose.HOLD, found, _MOST_HELD)

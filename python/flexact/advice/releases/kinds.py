@@ -44,7 +44,9 @@ def tier_of_node(result: Result, given: int) -> int:
 def kind_of(result: Result, change: Change) -> Hashable:
     """Of what kind the deformations and coordinates of a change are, however it is turned."""
     deformations = tuple(
-        sorted(_of_deformation(result, element, number) for element, number, _ in change.deformations)
+        sorted(
+            _of_deformation(result, element, number) for element, number, _ in change.deformations
+        )
     )
     coordinates = tuple(
         sorted(_of_coordinate(result, node, name) for node, name, _ in change.coordinates)
@@ -61,7 +63,12 @@ def _of_deformation(result: Result, element: int, number: int) -> tuple[str, int
     if not wide and role in _BENDINGS:
         # Of a member that is wide in neither direction both are alike.
         return part.kind.value, 1, int(Role.BENDING_XY_P), 0
-    return part.kind.value, tier_of_element(result, index), int(_ENDS.get(Role(role), role)), in_plane
+    return (
+        part.kind.value,
+        tier_of_element(result, index),
+        int(_ENDS.get(Role(role), role)),
+        in_plane,
+    )
 
 
 def _of_coordinate(result: Result, node: int, name: str) -> tuple[str, int, int, int]:

@@ -51,8 +51,8 @@ class Reach(Frozen):
 
     @property
     def vectors(self) -> int:
-        """k."""
-        return self.rows.shape[1]
+        """Number of the vectors."""
+        return int(self.rows.shape[1])
 
     def only(self, chosen: NDArray[np.integer]) -> Reach:
         """Some of the rows."""
@@ -79,9 +79,7 @@ def of_columns(result: Result) -> Reach:
     rows, index = _rows(result.motion_space, np.ones(result.columns, bool))
     return Reach(
         *(rows, index, lambda column: column_key(result, column)),
-        lambda column: _of_coordinate(
-            result, *(result.raw.column_label[:, column] - 1).tolist(), Class.INDEPENDENT
-        ),
+        lambda column: _declared(result, *(result.raw.column_label[:, column] - 1).tolist()),
     )
 
 
@@ -149,6 +147,10 @@ def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, NDArray[np.integ
 
 def _released(result: Result, element: int, deformation: int) -> Change:
     return _of_deformation(result, element, deformation, Class.DEPENDENT)
+
+
+def _declared(result: Result, node: int, axis: int) -> Change:
+    return _of_coordinate(result, node, axis, Class.INDEPENDENT)
 
 
 def _held(result: Result, element: int, deformation: int) -> Change:

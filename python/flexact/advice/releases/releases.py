@@ -8,16 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.frozen import Frozen
-from ...core.arrays import FloatArray, IntArray
+from ...core.arrays import FloatArray
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import candidates
+from .candidates import Places, candidates
 from .cost import cost_of
 from .counting import counted
 from .kinds import LINK, tier_of_element
-from .stands import as_it_stands
-from .trying import LeftOut, Outcome, decades, listed
+from .stands import as_it_stands, complete
+from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many supports that may be freed are listed.
 _MOST_SUPPORTS = 4
@@ -42,7 +42,7 @@ class Releases(Frozen):
     count: int | None
     sets: tuple[Proposal, ...] = ()
     supports: tuple[Proposal, ...] = ()
-    left_out: LeftOut = LeftOut()
+    left_out: LeftOut = NOTHING_LEFT_OUT
 
 
 def releases_of(result: Result) -> Releases:
@@ -77,7 +77,7 @@ def releases_of(result: Result) -> Releases:
         tried = _listed(result, source) if count != 0 else tried
         if tried.proposals:
             break
-    supports = _supports(result)
+    supports = _supports(result, _whole(result, stands))
     return Releases(
         *(size, count, tried.proposals, supports.proposals),
         LeftOut(tried.untried, tried.failed),
@@ -86,9 +86,17 @@ def releases_of(result: Result) -> Releases:
 
 def _sources(result: Result, stands: Result) -> list[Result]:
     """Results whose rows are listed: of whole sheets, where they have as many self-stresses."""
-    whole = result.with_internal_declared or result
+    whole = _whole(result, stands)
     same = [whole] if whole.over_constrained == stands.over_constrained else []
     return same if whole is stands else [*same, stands]
+
+
+def _whole(result: Result, stands: Result) -> Result:
+    """The result with each divided sheet or wire as one beam."""
+    whole = result.with_internal_declared
+    if whole is not None:
+        return complete(whole)
+    return complete(result) if result.condensed.chains else stands
 
 
 def _listed(result: Result, source: Result) -> Outcome:
@@ -97,7 +105,7 @@ def _listed(result: Result, source: Result) -> Outcome:
     tiers = np.array([tier_of_element(source, int(i)) for i in elements], float)
     cost = cost_of(source, reach)
 
-    def ranking(sets: IntArray, condition: FloatArray) -> FloatArray:
+    def ranking(sets: Places, condition: FloatArray) -> FloatArray:
         first = decades(condition) if cost is None else cost(sets)[:, None]
         return np.concatenate([first, np.sort(tiers[sets], axis=1)[:, ::-1]], axis=1)
 
@@ -106,9 +114,9 @@ def _listed(result: Result, source: Result) -> Outcome:
     return listed(result, reach, Purpose.RELEASE, without_links or found)
 
 
-def _supports(result: Result) -> Outcome:
-    source = result.with_internal_declared or result
-    if source.over_constrained == 0 or not reaches.fits(source.stress_space):
+def _supports(result: Result, source: Result) -> Outcome:
+    space = source.stress_space
+    if source.over_constrained != space.vectors or not reaches.fits(space):
         return Outcome((), 0, 0)
     reach = reaches.of_supports(source)
     found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))

@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 
 from ...model.data import ModelData
 from ...model.parts.condensing import as_given
-from ...result.decompose import decompose
+from ...result.decompose import AnalysisError, decompose
 from ...result.outcome import Asked
 from ...result.result import Result
+
+#: Rows and columns of D(c) up to which null vectors are computed that were left out.
+_MOST_DENSE = 2_500
 
 
 def as_it_stands(result: Result) -> Result:
@@ -19,7 +23,22 @@ def as_it_stands(result: Result) -> Result:
     Raises:
         AnalysisError: the model cannot be analysed so.
     """
-    return result if not result.condensed.chains else standing(result, result.given)
+    return complete(result) if not result.condensed.chains else standing(result, result.given)
+
+
+def complete(result: Result) -> Result:
+    """The result with all its null vectors, where to compute those left out takes little time."""
+    raw = result.raw
+    left_out = result.under_constrained - raw.motions.vectors
+    left_out += result.over_constrained - raw.stresses.vectors
+    if not left_out or max(result.rows, result.columns) > _MOST_DENSE:
+        return result
+    asked = result.asked._replace(method="svd", prove=False)
+    try:
+        raw = decompose(result.data, asked)
+    except AnalysisError:
+        return result
+    return result if raw.rank != result.rank else replace(result, raw=raw)
 
 
 def standing(result: Result, data: ModelData) -> Result:
@@ -29,4 +48,4 @@ def standing(result: Result, data: ModelData) -> Result:
         AnalysisError: the model cannot be analysed.
     """
     asked = Asked(result.asked.method, result.asked.tolerance)
-    return Result(result.name, as_given(data), decompose(data, asked), asked)
+    return complete(Result(result.name, as_given(data), decompose(data, asked), asked))

@@ -49,6 +49,10 @@ class LeftOut(NamedTuple):
     """Whether there are so many self-stresses, or motions, that no sets were looked for."""
 
 
+#: Nothing was left out.
+NOTHING_LEFT_OUT = LeftOut()
+
+
 class _Try(NamedTuple):
     candidate: Candidate
     change: Change
@@ -133,7 +137,8 @@ def _tried(result: Result, candidate: Candidate, change: Change) -> _Try | None:
         made = analysed(result, change)
     except FlexactError:
         return None
-    return _Try(candidate, change, after(made), made.scaled_singular_values)
+    whole = made.with_internal_declared or made
+    return _Try(candidate, change, after(made), whole.scaled_singular_values)
 
 
 def _does(result: Result, purpose: Purpose, then: After) -> bool:

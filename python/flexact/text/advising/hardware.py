@@ -97,7 +97,9 @@ def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[
         return
     in_plane = [one for one in mine if _is_in_plane(outcome, *one)]
     if len(in_plane) == 2:
-        yield Phrase("replace ", name, " by a wire", "", " (in-plane bending free at both its ends)")
+        yield Phrase(
+            "replace ", name, " by a wire", "", " (in-plane bending free at both its ends)"
+        )
     for one in mine:
         if one in in_plane and len(in_plane) == 1:
             where = f" at {_place(outcome, part, *one)}"
@@ -163,8 +165,7 @@ def _of_hinge(
         if role in (Role.ROTATION, Role.ANGLE):
             yield Phrase("let ", name, " turn", " about its axis" * (role == Role.ROTATION))
         elif role in (Role.TILT_Y, Role.TILT_Z):
-            what = ", as one that aligns itself"
-            yield Phrase("let ", name, " tilt", word.removeprefix("tilt"), what)
+            yield Phrase("let ", name, " tilt", word.removeprefix("tilt"))
         else:
             yield Phrase("let ", name, " slide", word.removeprefix("displacement"))
 
@@ -184,16 +185,25 @@ def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation
 
 
 def _holds_nothing_else(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> bool:
+    """Whether these are all that a part, other than a body, holds."""
     if part.kind is PartKind.BODY:
         return False
-    numbers = outcome.data.arrays.element_number
-    for index in part.elements:
-        classes = outcome.data.arrays.deformation_class[:, index].tolist()
-        for k, given in enumerate(classes):
-            if given != Class.DEPENDENT and given != Class.NONE:
-                if (int(numbers[index]), k + 1) not in mine:
-                    return False
-    return True
+    index = outcome.data.element_index
+    row = next((c for c in outcome.data.chains if c.elements[0] == part.elements[0]), None)
+    if row is None:
+        classes = outcome.data.arrays.deformation_class[:, part.elements[0]].tolist()
+        gone = {number for _, number in mine}
+    else:
+        # What one of its beams releases, a row of beams does not hold.
+        classes = [max(each, key=_is_free) for each in zip(*row.classes, strict=True)]
+        beams = [(row.elements.index(index[element]), number) for element, number in mine]
+        gone = {row.own(beam, number) for beam, number in beams}
+    rest = (given for k, given in enumerate(classes) if k + 1 not in gone)
+    return all(_is_free(given) or given == Class.NONE for given in rest)
+
+
+def _is_free(given: int) -> bool:
+    return given == Class.DEPENDENT
 
 
 def _held(outcome: Outcome, element: int, number: int) -> Phrase:

@@ -14,7 +14,7 @@ from ...result.outcome import Outcome
 from ...result.result import Result
 from ..calls import HOLD, call_of
 from ..naming import coordinate_in_words, in_words, named_element
-from ..places import listed
+from ..places import listed, place_words
 from ..sentences import Named, Piece, Pieces, plain
 from .hardware import Phrase, held, outcome_as_given, released
 
@@ -73,9 +73,20 @@ def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
     """A support that lets a coordinate go."""
     where = coordinate_in_words(outcome, node, name)[0]
     assert isinstance(where, Named)
+    where = where._replace(words=where.words + _which_end(outcome, node))
     if name.startswith("r"):
         return Phrase("let ", where, " turn", f" about {name[1:]}")
     return Phrase("let ", where, " slide", f" along {name}")
+
+
+def _which_end(outcome: Outcome, node: int) -> str:
+    """Where a support is, if the part that it holds has another that is called the same."""
+    place = outcome.parts.place_of(outcome.given.node_index[node])
+    here = () if place is None else outcome.parts.at(place)
+    if place is None or len(here) != 1:
+        return ""
+    words, _, at = place_words(outcome.parts, place, here[0]).rpartition(" at (")
+    return f" at ({at}" if words else ""
 
 
 def _coordinates(outcome: Outcome, change: Change) -> Pieces:
@@ -136,7 +147,8 @@ def _told(phrases: Sequence[Phrase]) -> Pieces:
     items: list[Pieces] = []
     for first, *more in groups.values():
         names = list(dict.fromkeys(phrase.short for phrase in more))
-        items.append((*first.pieces, *((", and so ", *_listed(names)) if names else ())))
+        rest = _listed(names[:_MOST_NAMED], len(names) - _MOST_NAMED)
+        items.append((*first.pieces, *((", and so ", *rest) if rest else ())))
     return _listed(items)
 
 
@@ -157,7 +169,9 @@ def _named(parts: Sequence[Named]) -> Pieces:
     numbers = [part.words.rpartition(" ")[2] for part in parts]
     head = heads.pop() if len(heads) == 1 else ""
     if len(parts) > 1 and head in _PLURALS and all(map(str.isdigit, numbers)):
-        short = [(Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)]
+        short = [
+            (Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)
+        ]
         return (f"{_PLURALS[head]} ", *_listed(short))
     return _listed([(part,) for part in parts])
 
@@ -189,7 +203,7 @@ def _statements(outcome: Outcome, change: Change, keyword: str) -> str:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
         more = ["..."] * (len(statements) > _MOST_STATEMENTS)
         return ", ".join(statements[:_MOST_STATEMENTS] + more)
-    parts = [
+    parts: list[Deformation | Coordinate] = [
         *(Deformation(element, number, "") for element, number, _ in change.deformations),
         *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
     ]
@@ -205,8 +219,8 @@ def _operands(outcome: Outcome, change: Change) -> list[str]:
     made = [" ".join(map(str, (e, *sorted(mine)))) for e, mine in of_element.items()]
     of_node: dict[str, list[str]] = {}
     for node, name, _ in change.coordinates:
-        number, component = _coordinate(outcome, node, name).operands.split()
-        of_node.setdefault(number, []).append(component)
+        place, component = _coordinate(outcome, node, name).operands.split()
+        of_node.setdefault(place, []).append(component)
     return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
 
 
