@@ -19,7 +19,7 @@ from ..text.advising.causes import cause_of_motion_in_words, cause_of_stress_in_
 from ..text.advising.extents import extent_in_words
 from ..text.advising.motions import motion_in_sentence, moving_groups
 from ..text.advising.self_stresses import stress_in_sentence
-from ..text.advising.sentences import begun, ended
+from ..text.advising.sentences import sentences
 from ..text.naming import named_node
 from ..text.sentences import Pieces, plain
 
@@ -68,19 +68,23 @@ class AdvisedMotion(Frozen):
         return () if self.internal else tuple(_bodies(self._result, self.motion))
 
     @cached_property
-    def pieces(self) -> Pieces:
-        """What moves, how far it goes, and why."""
-        result, index = self._result, self.motion.index
-        return _sentences(
-            motion_in_sentence(result, self.motion),
-            extent_in_words(result, self.extent),
-            cause_of_motion_in_words(result, index, self.causes),
+    def what(self) -> Pieces:
+        """What moves, and how far it goes."""
+        return sentences(
+            motion_in_sentence(self._result, self.motion),
+            extent_in_words(self._result, self.extent),
         )
+
+    @cached_property
+    def why(self) -> Pieces:
+        """Why it is there."""
+        words = cause_of_motion_in_words(self._result, self.motion.index, self.causes)
+        return sentences(words)
 
     @property
     def statement(self) -> str:
-        """The same as text."""
-        return plain(self.pieces)
+        """Both, as text."""
+        return plain(sentences(self.what, self.why))
 
     def __repr__(self) -> str:
         """Number and words."""
@@ -104,20 +108,27 @@ class AdvisedStress(Frozen):
         """Whether any geometry has it, or this one."""
         return self.causes.self_stresses[self.stress.index]
 
-    @cached_property
-    def pieces(self) -> Pieces:
-        """Which parts fight, and why."""
-        result, index = self.stress.analysis, self.stress.index
+    @property
+    def _result(self) -> Result:
+        result = self.stress.analysis
         assert isinstance(result, Result)
-        return _sentences(
-            stress_in_sentence(result, self.stress),
-            cause_of_stress_in_words(result, index, self.causes),
-        )
+        return result
+
+    @cached_property
+    def what(self) -> Pieces:
+        """Which parts fight, over what."""
+        return sentences(stress_in_sentence(self._result, self.stress))
+
+    @cached_property
+    def why(self) -> Pieces:
+        """Why it is there."""
+        words = cause_of_stress_in_words(self._result, self.stress.index, self.causes)
+        return sentences(words)
 
     @property
     def statement(self) -> str:
-        """The same as text."""
-        return plain(self.pieces)
+        """Both, as text."""
+        return plain(sentences(self.what, self.why))
 
     def __repr__(self) -> str:
         """Number and words."""
@@ -148,13 +159,3 @@ def dictionary_of_body(body: MovingBody) -> dict[str, object]:
         "point": screw.point.tolist() if turns else None,
         "pitch": screw.pitch if turns and math.isfinite(screw.pitch) else None,
     }
-
-
-def _sentences(*all_pieces: Pieces) -> Pieces:
-    """Sentences behind each other; those without words are left out."""
-    made: list[Pieces] = [ended(begun(pieces)) for pieces in all_pieces if plain(pieces).strip()]
-    return tuple(
-        piece
-        for place, pieces in enumerate(made)
-        for piece in ((" ", *pieces) if place else pieces)
-    )

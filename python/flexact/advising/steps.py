@@ -82,7 +82,9 @@ class Step(Frozen):
     @property
     def statement(self) -> str:
         """What is done, and what the mechanism is then, in sentences."""
-        return f"{plain(self.pieces)} Then it is {self.outcome}."
+        words = plain(self.pieces)
+        # A mend says so itself.
+        return words if self.purpose is Purpose.MEND else f"{words} Then it is {self.outcome}."
 
     def apply(self, choice: int = 1) -> Model:
         """The changed model; of a deck names and comments stay.

@@ -4,11 +4,9 @@
 from __future__ import annotations
 
 from ...result.body_motions import BodyMotion
-from ...result.extents.extent import Extents
 from ...result.modes import Motion
 from ...result.result import Result
 from ..motions import group_in_words, joined, largest_first, motion_in_parts, parts_in_words
-from ..naming import counted
 from ..sentences import Pieces
 from .sentences import begun
 
@@ -29,22 +27,6 @@ def motion_in_sentence(result: Result, motion: Motion) -> Pieces:
     if result.are_between_ends[motion.index]:
         return begun((*pieces, f", and nothing else moves: nothing stops {it}."))
     return begun((*pieces, f": nothing stops {it}."))
-
-
-def together_in_words(result: Result, extents: Extents) -> str:
-    """What several motions do together: how many dimensions the positions have that are reached.
-
-    Empty where it was not decided.
-    """
-    count, reached = result.under_constrained, extents.finite_dimension
-    if reached is None or count < 2:
-        return ""
-    if reached == count:
-        return "They go on together, too: any combination of them is the start of a path."
-    if not reached:
-        return "No combination of them goes on."
-    dimensions = counted(reached, "dimension", "", "s")
-    return f"What they reach together without strain has {dimensions}, not {count}."
 
 
 def moving_groups(result: Result, motion: Motion) -> tuple[BodyMotion, ...]:

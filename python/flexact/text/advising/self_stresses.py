@@ -6,12 +6,13 @@ from __future__ import annotations
 from ...result.modes import SelfStress
 from ...result.result import Result
 from ..motions import joined
+from ..naming import in_words
 from ..self_stresses import conflict_in_words, stress_in_parts
 from ..sentences import Pieces
 from .sentences import begun, ended
 
-#: How many parts are told.
-_MOST_PARTS = 4
+#: How many deformations of a large model are told.
+_MOST_TOLD = 4
 
 
 def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
@@ -19,5 +20,9 @@ def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
     conflict = conflict_in_words(stress)
     if conflict:
         return ended(begun(conflict))
-    parts = joined(stress_in_parts(stress, _MOST_PARTS))
-    return ended(begun(parts))
+    if not result.is_told_by_parts:
+        told = stress_in_parts(stress, _MOST_TOLD)[:_MOST_TOLD]
+        return ended(("Stressed against each other are, most of all, ", *joined(told)))
+    parts = stress_in_parts(stress, len(stress.parts))
+    many = in_words(len(parts)).capitalize()
+    return ended((f"{many} parts are stressed against each other: ", *joined(parts)))

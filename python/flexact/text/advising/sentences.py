@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..sentences import Named, Piece, Pieces
+from ..sentences import Named, Piece, Pieces, plain
 
 
 def begun(pieces: Pieces) -> Pieces:
@@ -22,6 +22,16 @@ def ended(pieces: Pieces, mark: str = ".") -> Pieces:
     if isinstance(last, Named):
         return (*pieces, mark)
     return (*pieces[:-1], last.rstrip(" .:;") + mark)
+
+
+def sentences(*all_pieces: Pieces) -> Pieces:
+    """Sentences behind each other; those without words are left out."""
+    made = [ended(begun(pieces)) for pieces in all_pieces if plain(pieces).strip()]
+    return tuple(
+        piece
+        for place, pieces in enumerate(made)
+        for piece in ((" ", *pieces) if place else pieces)
+    )
 
 
 def _capital(piece: Piece) -> Piece:
