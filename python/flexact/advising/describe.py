@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
-from itertools import groupby
+from itertools import groupby, islice
 from typing import TYPE_CHECKING
 
 from ..advice.proposal import Purpose
 from ..base.plain_text import harmless
 from ..result.verdict import Verdict
 from ..text.advising.spaces import spaces_lines
+from ..text.advising.sentences import in_a_row
 from ..text.describe import MOST_MODES, verdict_in_words
 from ..text.advising.extents import finite_in_words
 from ..text.motions import internal_in_words
@@ -43,9 +44,9 @@ def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
         advice: The advice.
         most: How many steps of one aim and outcome are given; None: all.
     """
-    causes = _Causes()
+    known = _Known()
     sections = (
-        *(_verdict(advice), _motions(advice, causes), _stresses(advice, causes)),
+        *(_verdict(advice), _motions(advice, known), _stresses(advice, known)),
         *(_steps(advice, most), _spaces(advice)),
     )
     blocks = ("\n".join(section) for section in map(list, sections) if section)
@@ -69,15 +70,14 @@ def _verdict(advice: Advice) -> Iterator[str]:
     yield filled(sentence(str(verdict_in_words(result))))
 
 
-def _motions(advice: Advice, causes: _Causes) -> Iterator[str]:
+def _motions(advice: Advice, known: _Known) -> Iterator[str]:
     count = advice.analysis.under_constrained
     if not count:
         return
     yield "What nothing stops"
     told = [each for each in advice.motions if not each.motion.is_internal]
-    for each in told[:MOST_MODES]:
-        number = each.motion.index + 1
-        yield _item(number, (*each.what, *causes.told(each.why, f"motion {number}")))
+    told_at = {each.motion.index + 1: each.sentences for each in told}
+    yield from _modes(told_at, "motion", known)
     yield from _more(len(told) - MOST_MODES, "motion", "s")
     if internal := internal_in_words(advice.analysis):
         yield filled(sentence(f"  {internal}"))
@@ -85,29 +85,43 @@ def _motions(advice: Advice, causes: _Causes) -> Iterator[str]:
         yield filled(line._replace(head=("  ", *line.head)))
 
 
-def _stresses(advice: Advice, causes: _Causes) -> Iterator[str]:
-    told = advice.self_stresses
-    if not told:
+def _stresses(advice: Advice, known: _Known) -> Iterator[str]:
+    if not advice.self_stresses:
         return
     yield "What is stopped twice"
-    for each in told[:MOST_MODES]:
-        number = each.stress.index + 1
-        yield _item(number, (*each.what, *causes.told(each.why, f"self-stress {number}")))
+    told_at = {each.stress.index + 1: each.sentences for each in advice.self_stresses}
+    yield from _modes(told_at, "self-stress", known)
     yield from _more(advice.analysis.over_constrained - MOST_MODES, "self-stress", "es")
 
 
-class _Causes:
-    """Causes that were told, so that none is told in the same words again."""
+def _modes(told_at: Mapping[int, Sequence[Pieces]], what: str, known: _Known) -> Iterator[str]:
+    """Modes by their numbers; what is said of all of them stands behind them, once."""
+    of_all: list[Pieces] = []
+    if len(told_at) > 1:
+        first, *others = told_at.values()
+        of_all = [each for each in first[1:] if each and all(each in other for other in others)]
+    for number, (head, *rest) in islice(told_at.items(), MOST_MODES):
+        told = [known.told(each, f"{what} {number}") for each in rest if each not in of_all]
+        pieces = [(" ", *each) for each in told if each]
+        yield _item(number, (*head, *(piece for each in pieces for piece in each)))
+    if of_all:
+        words = in_a_row(of_all)
+        yield filled(sentence(f"  Each of them: {words[0].lower()}{words[1:]}"), hanging=True)
+
+
+class _Known:
+    """What was said, so that nothing long is said in the same words again."""
 
     def __init__(self) -> None:
         self._whose: dict[str, str] = {}
 
-    def told(self, why: Pieces, whose: str) -> Pieces:
-        """Why something is there; of a long cause that was told, where."""
-        words = plain(why)
+    def told(self, pieces: Pieces, whose: str) -> Pieces:
+        """The pieces, or of which motion or self-stress they were said before."""
+        words = plain(pieces)
         first = self._whose.setdefault(words, whose)
-        is_short = len(words) < _SHORT
-        return (" ", *why) if first == whose or is_short else (f" The cause is that of {first}.",)
+        if first == whose or len(words) < _SHORT:
+            return pieces
+        return (f"The cause is that of {first}.",)
 
 
 def _more(count: int, what: str, ending: str) -> Iterator[str]:

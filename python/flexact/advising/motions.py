@@ -17,11 +17,11 @@ from ..result.result import Result
 from ..result.screws import Screw, ScrewKind
 from ..text.advising.causes import cause_of_motion_in_words, cause_of_stress_in_words
 from ..text.advising.extents import extent_in_words
-from ..text.advising.motions import motion_in_sentence, moving_groups
+from ..text.advising.motions import motion_in_sentence, moving_groups, nothing_stops
 from ..text.advising.self_stresses import stress_in_sentence
-from ..text.advising.sentences import sentences
+from ..text.advising.sentences import in_a_row, sentence
 from ..text.naming import named_node
-from ..text.sentences import Pieces, plain
+from ..text.sentences import Pieces
 
 
 class MovingBody(NamedTuple):
@@ -68,23 +68,21 @@ class AdvisedMotion(Frozen):
         return () if self.internal else tuple(_bodies(self._result, self.motion))
 
     @cached_property
-    def what(self) -> Pieces:
-        """What moves, and how far it goes."""
-        return sentences(
-            motion_in_sentence(self._result, self.motion),
-            extent_in_words(self._result, self.extent),
+    def sentences(self) -> tuple[Pieces, Pieces, Pieces]:
+        """What moves, how far it goes, and why it is there."""
+        result, index = self._result, self.motion.index
+        return (
+            sentence(motion_in_sentence(result, self.motion)),
+            sentence(extent_in_words(result, self.extent)),
+            sentence(cause_of_motion_in_words(result, index, self.causes)),
         )
-
-    @cached_property
-    def why(self) -> Pieces:
-        """Why it is there."""
-        words = cause_of_motion_in_words(self._result, self.motion.index, self.causes)
-        return sentences(words)
 
     @property
     def statement(self) -> str:
-        """Both, as text."""
-        return plain(sentences(self.what, self.why))
+        """All of it, and that nothing stops it, as text."""
+        moves = motion_in_sentence(self._result, self.motion)
+        stopped = nothing_stops(self._result, self.motion)
+        return in_a_row((sentence((*moves, stopped)), *self.sentences[1:]))
 
     def __repr__(self) -> str:
         """Number and words."""
@@ -115,20 +113,18 @@ class AdvisedStress(Frozen):
         return result
 
     @cached_property
-    def what(self) -> Pieces:
-        """Which parts fight, over what."""
-        return sentences(stress_in_sentence(self._result, self.stress))
-
-    @cached_property
-    def why(self) -> Pieces:
-        """Why it is there."""
-        words = cause_of_stress_in_words(self._result, self.stress.index, self.causes)
-        return sentences(words)
+    def sentences(self) -> tuple[Pieces, Pieces]:
+        """Which parts fight over what, and why it is there."""
+        result, index = self._result, self.stress.index
+        return (
+            sentence(stress_in_sentence(result, self.stress)),
+            sentence(cause_of_stress_in_words(result, index, self.causes)),
+        )
 
     @property
     def statement(self) -> str:
-        """Both, as text."""
-        return plain(sentences(self.what, self.why))
+        """All of it, as text."""
+        return in_a_row(self.sentences)
 
     def __repr__(self) -> str:
         """Number and words."""

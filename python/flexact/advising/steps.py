@@ -15,7 +15,7 @@ from ..model.model import Model
 from ..result.result import Result
 from ..text.advising.causes import mend_in_words
 from ..text.advising.releases import declaration_in_words, release_in_words
-from ..text.advising.sentences import begun, ended
+from ..text.advising.sentences import sentence
 from ..text.advising.spaces import wire_in_words
 from ..text.naming import counts_in_words
 from ..text.sentences import Pieces, plain
@@ -72,7 +72,7 @@ class Step(Frozen):
     def pieces(self) -> Pieces:
         """What is done."""
         words = _WORDS[self.purpose](self.analysis, self.proposal)
-        return ended(begun(("add ", *words) if self.purpose is Purpose.ADD_WIRE else words))
+        return sentence(("add ", *words) if self.purpose is Purpose.ADD_WIRE else words)
 
     @property
     def outcome(self) -> str:

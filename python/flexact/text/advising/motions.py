@@ -8,25 +8,31 @@ from ...result.modes import Motion
 from ...result.result import Result
 from ..motions import group_in_words, joined, largest_first, motion_in_parts, parts_in_words
 from ..sentences import Pieces
-from .sentences import begun
 
 #: How many things that move are named.
 _MOST_NAMED = 3
 
 
 def motion_in_sentence(result: Result, motion: Motion) -> Pieces:
-    """What moves, and that nothing stops it; joints that bodies take along are not named."""
+    """What moves; joints that bodies take along are not named."""
     if not result.is_told_by_parts:
-        return begun((*joined(motion_in_parts(motion, _MOST_NAMED)), ": nothing stops it."))
+        return joined(motion_in_parts(motion, _MOST_NAMED))
     if motion.is_internal:
         inside = parts_in_words(result, motion.internal_to)
-        return ("Inside ", *inside, " something moves, and nothing outside does: nothing stops it.")
+        return ("inside ", *inside, " something moves, and nothing outside does")
     told = moving_groups(result, motion)
     pieces = joined(tuple(group_in_words(result, group, len(told) == 1) for group in told))
-    it = "it" if len(told) == 1 and len(told[0].names) == 1 else "them"
-    if result.are_between_ends[motion.index]:
-        return begun((*pieces, f", and nothing else moves: nothing stops {it}."))
-    return begun((*pieces, f": nothing stops {it}."))
+    is_inside = result.are_between_ends[motion.index]
+    return (*pieces, ", and nothing else moves") if is_inside else pieces
+
+
+def nothing_stops(result: Result, motion: Motion) -> str:
+    """That nothing stops it, or them, to stand behind what moves."""
+    if not result.is_told_by_parts or motion.is_internal:
+        return ": nothing stops it"
+    told = moving_groups(result, motion)
+    is_one = len(told) == 1 and len(told[0].names) == 1
+    return f": nothing stops {'it' if is_one else 'them'}"
 
 
 def moving_groups(result: Result, motion: Motion) -> tuple[BodyMotion, ...]:

@@ -22,7 +22,7 @@ def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
         return ended(begun(conflict))
     if not result.is_told_by_parts:
         told = stress_in_parts(stress, _MOST_TOLD)[:_MOST_TOLD]
-        return ended(("Stressed against each other are, most of all, ", *joined(told)))
+        return ended(("Most stressed are ", *joined(told)))
     parts = stress_in_parts(stress, len(stress.parts))
     many = in_words(len(parts)).capitalize()
     return ended((f"{many} parts are stressed against each other: ", *joined(parts)))

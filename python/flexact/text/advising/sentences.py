@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ..sentences import Named, Piece, Pieces, plain
 
 
@@ -24,14 +26,14 @@ def ended(pieces: Pieces, mark: str = ".") -> Pieces:
     return (*pieces[:-1], last.rstrip(" .:;") + mark)
 
 
-def sentences(*all_pieces: Pieces) -> Pieces:
-    """Sentences behind each other; those without words are left out."""
-    made = [ended(begun(pieces)) for pieces in all_pieces if plain(pieces).strip()]
-    return tuple(
-        piece
-        for place, pieces in enumerate(made)
-        for piece in ((" ", *pieces) if place else pieces)
-    )
+def sentence(pieces: Pieces) -> Pieces:
+    """The pieces from a capital letter to a full stop; nothing where there are no words."""
+    return ended(begun(pieces)) if plain(pieces).strip() else ()
+
+
+def in_a_row(sentences: Iterable[Pieces]) -> str:
+    """Sentences behind each other, as text."""
+    return " ".join(words for words in map(plain, sentences) if words)
 
 
 def _capital(piece: Piece) -> Piece:
