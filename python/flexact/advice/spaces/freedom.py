@@ -11,11 +11,12 @@ adds nothing to what a body can do.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
-from ...core.basis import Basis
 from ...core.elements import Class
 from ...core.raw import RawAnalysis
 from ...diagnostics.errors import model_error
@@ -23,10 +24,22 @@ from ...model.data import ModelData
 from ...result.decompose import decompose
 from ...result.outcome import Asked
 from ...result.result import Result
-from ...result.sparse_basis import orthonormal
 from ...result.weights import column_weights
 from .screw_space import ScrewSpace
 from .subjects import Subject
+
+
+class _Rows(NamedTuple):
+    """Motions side by side, stored by rows."""
+
+    start: NDArray[np.integer]
+    """(size + 1,) where the entries of each row begin."""
+    vector: NDArray[np.integer]
+    """(entries,) the motion that each belongs to."""
+    value: FloatArray
+    """(entries,)."""
+    vectors: int
+    """How many motions there are."""
 
 
 class Freed:
@@ -75,16 +88,27 @@ class Freed:
         one = self.result
         return Result(one.name, one.condensed, self._raw, one.asked)
 
+    @property
+    def is_known(self) -> bool:
+        """Whether all motions are kept; of very large mechanisms there may be too many."""
+        return self.outcome.raw.motions.vectors == self.outcome.under_constrained
+
     @cached_property
-    def _motions(self) -> Basis:
-        outcome = self.outcome
-        if outcome.raw.motions.vectors < outcome.under_constrained:
+    def _motions(self) -> _Rows:
+        """The motions by rows, each of unit norm with rotations as lengths."""
+        if not self.is_known:
             raise model_error(
                 "too-many-motions",
-                f"with nothing declared there are {outcome.under_constrained} motions, too many "
-                "to find what each body can do",
+                f"with nothing declared there are {self.outcome.under_constrained} motions, too "
+                "many to find what a body can do",
+                "declare what is inside of divided sheets, or ask of a part of the mechanism",
             )
-        return orthonormal(outcome.raw.motions, column_weights(outcome))
+        motions, vector = self.outcome.raw.motions, self.outcome.raw.motions.of_entries()
+        weighted = motions.value * column_weights(self.outcome)[motions.place]
+        norms = np.sqrt(np.bincount(vector, weighted**2, motions.vectors))
+        order = np.argsort(motions.place, kind="stable")
+        start = np.searchsorted(motions.place[order], np.arange(motions.size + 1))
+        return _Rows(start, vector[order], (motions.value / norms[vector])[order], norms.size)
 
     @cached_property
     def _place_of(self) -> dict[int, int]:
@@ -98,26 +122,21 @@ class Freed:
         return {(node, axis): k for k, (node, axis) in enumerate(labels)}
 
     def _rates(self, nodes: tuple[int, ...]) -> FloatArray:
-        """(nodes, 3, motions) velocity of some nodes in each motion [m or rad]."""
+        """(3, motions) mean velocity of some nodes in each motion [m or rad]."""
         motions = self._motions
-        weights = column_weights(self.outcome)
-        made = np.zeros((3 * len(nodes), motions.vectors))
-        of_entry = motions.of_entries()
-        wanted = np.full(motions.size, -1)
-        for k, node in enumerate(nodes):
+        made = np.zeros((3, motions.vectors))
+        for node in nodes:
             for axis in range(3):
                 column = self._row_of.get((self._place_of[node], axis))
                 if column is not None:
-                    wanted[column] = 3 * k + axis
-        used = wanted[motions.place] >= 0
-        columns = motions.place[used]
-        made[wanted[columns], of_entry[used]] = motions.value[used] / weights[columns]
-        return made.reshape(len(nodes), 3, motions.vectors)
+                    mine = slice(int(motions.start[column]), int(motions.start[column + 1]))
+                    made[axis, motions.vector[mine]] += motions.value[mine]
+        return made / len(nodes)
 
     def twists(self, subject: Subject) -> FloatArray:
         """(6, motions) of a body about its middle, rotations times the characteristic length."""
-        velocity = self._rates(subject.positions).mean(axis=0)
-        rotation = self._rates(subject.orientations).mean(axis=0)
+        velocity = self._rates(subject.positions)
+        rotation = self._rates(subject.orientations)
         return np.concatenate((rotation * self.result.characteristic_length, velocity))
 
     def space(self, subject: Subject) -> ScrewSpace:
@@ -129,6 +148,6 @@ class Freed:
         one = self.result
         length = one.characteristic_length
         left, sizes, _ = np.linalg.svd(self.twists(subject), full_matrices=False)
-        rank = int(np.sum(sizes > self.outcome.rounding))
+        rank = int(np.sum(sizes > self.outcome.rounding * max(1.0, sizes.max(initial=0.0))))
         rows = left[:, :rank].T / np.repeat((length, 1.0), 3)
         return ScrewSpace(rows, subject.middle(one), length, False, one.given.planar)

@@ -35,6 +35,7 @@ class Spaces(Frozen):
         stoppable: How many of these wires can stop without stopping anything that is wanted.
         proposals: Wires that do so, each analysed: first single ones, then, where more are
             needed, a set of them that stops all that can be stopped.
+        tried: Whether wires were tried: of mechanisms that are not large.
     """
 
     subject: Subject
@@ -44,6 +45,7 @@ class Spaces(Frozen):
     unwanted: int = 0
     stoppable: int = 0
     proposals: tuple[Proposal, ...] = ()
+    tried: bool = True
 
     @property
     def body(self) -> Part | Joint:
@@ -69,10 +71,12 @@ def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = (
             (`flexact.advice.spaces.wanted`).
 
     Returns:
-        None where nothing in the mechanism has an orientation and can move, and no body is named.
+        None where no body is named and nothing in the mechanism has an orientation and can move,
+        or it is so large that its motions are not all kept.
 
     Raises:
-        ModelError: there is no such body, or what is wanted cannot be read.
+        ModelError: there is no such body, what is wanted cannot be read, or there are too many
+            motions to be kept.
         TypeError: the body is no text, or what is wanted is none.
     """
     _require_texts(body, wanted)
@@ -91,13 +95,14 @@ def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = (
                 "ask for one body at a time",
             )
     freedom = freed.space(subject)
+    is_small = result.is_told_by_parts
     meant = tuple(wanted_of(result, freedom, each) for each in written)
     meant = meant or declared_of(result, subject, freedom)
     aim = Aim.of(freedom, [each.twist for each in meant if each.is_free])
     besides = not_wanted(result, subject, aim) if written else None
     return Spaces(
         *(subject, freedom, freedom.reciprocal, meant, len(aim.unwanted), aim.stoppable),
-        wires_for(freed, subject, aim, besides),
+        *((wires_for(freed, subject, aim, besides), True) if is_small else ((), False)),
     )
 
 
@@ -112,7 +117,10 @@ def _subject(freed: Freed, body: str | None) -> Subject | None:
     result = freed.result
     if body is not None:
         return subject_named(result, body)
-    ranked = [
-        (rank_of(result, each, freed.space(each).dimension), each) for each in subjects_of(result)
-    ]
-    return min(ranked, key=lambda pair: pair[0])[1] if ranked else None
+    # What each can do is found of those alone between which nothing else decides.
+    ranked = [(rank_of(result, each, 0), each) for each in subjects_of(result)]
+    least = min((rank[:3] for rank, _ in ranked), default=None)
+    able = [each for rank, each in ranked if rank[:3] == least]
+    if not able or not freed.is_known:
+        return None
+    return min(able, key=lambda each: rank_of(result, each, freed.space(each).dimension))

@@ -13,7 +13,7 @@ from ...advice.spaces.families import Family, FamilyKind
 from ...advice.spaces.screw_space import ScrewSpace
 from ...advice.spaces.spaces import Spaces
 from ...advice.spaces.wanted import Wanted
-from ...model.parts.parts import Part, PartKind
+from ...model.parts.parts import Part, PartKind, natural
 from ...result.result import Result
 from ...result.screws import ScrewKind
 from ..naming import in_words
@@ -75,6 +75,8 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
     yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
     if spaces.stoppable < count:
         yield sentence(_impossible(spaces))
+    if not spaces.tried:
+        yield sentence("The mechanism is so large that no wires were tried.")
     single = [each for each in spaces.proposals if len(each.change.wires) == 1]
     if single:
         which = "To stop it" if count == 1 else "To stop one of them"
@@ -144,7 +146,9 @@ def _items(geometry: Geometry, space: ScrewSpace, count: int) -> tuple[Pieces, .
     """The families of a space, or that it is everything."""
     if count == (3 if space.planar else 6):
         return (("every force and moment" if space.of_wrenches else "every motion",),)
-    return tuple((_family(geometry, each, space),) for each in space.families)
+    order = list(dict.fromkeys(family.kind for family in space.families))
+    found = [(order.index(each.kind), _family(geometry, each, space)) for each in space.families]
+    return tuple((words,) for _, words in sorted(found, key=lambda one: (one[0], natural(one[1]))))
 
 
 def _family(geometry: Geometry, family: Family, space: ScrewSpace) -> str:
