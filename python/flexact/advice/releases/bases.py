@@ -32,7 +32,7 @@ Judge = Callable[[Rows], bool]
 #: entry is zero.
 _ZERO, _TINY = 10.0, 1.0e-9
 #: From this multiple of its error, and this part of what it is the difference of, it is not.
-_CLEAR, _LARGE = 1.0e3, 1.0e-4
+_CLEAR, _LARGE = 1.0e3, 1.0e-5
 #: Rows that differ by more than this part are no multiples of each other.
 _NEAR = 0.1
 #: Bases found on the way beyond which little more is done: so many divisions of a matroid that
@@ -95,14 +95,18 @@ def echelon_of(matrix: FloatArray, least: float = 0.0) -> Echelon | None:
     others = np.setdiff1d(np.arange(rows), basis)
     if not _smallest(matrix[basis]) > least:
         return None
-    factor: FloatArray = np.linalg.solve(matrix[basis].T, matrix[others].T)
+    factor = _in_terms_of(matrix[basis], matrix[others])
     for _ in range(_MOST_EXCHANGES * factor.size):
         i, j = divmod(int(np.argmax(np.abs(factor))), others.size)
         if abs(factor[i, j]) <= _EXCHANGED:
             break
         basis[i], others[j] = others[j], basis[i]
-        factor = np.linalg.solve(matrix[basis].T, matrix[others].T)
+        factor = _in_terms_of(matrix[basis], matrix[others])
     return Echelon(basis, others, factor, _smallest(matrix[basis]))
+
+
+def _in_terms_of(basis: FloatArray, others: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.solve(basis.T, others.T), np.float64)
 
 
 def _smallest(block: FloatArray) -> float:

@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sets of releases: their number, and that those listed work, by routes that share nothing."""
+
+import math
+import re
+from fractions import Fraction
+from itertools import combinations
+
+import numpy as np
+import pytest
+from known_models import folded_sheet, ring, twelve_trusses
+from random_models import framework, mechanism
+from reference_decks import NAMES, text_of, transform
+from turned_elements import plain as as_made
+from turned_elements import turned
+
+import flexact
+from flexact import Analysis, Model, analyse
+from flexact.advice.proposal import Proposal, Purpose
+from flexact.advice.releases.releases import releases_of
+from flexact.core import calls
+from flexact.core.elements import Class, NodeKind
+from flexact.model.data import ModelData
+from flexact.text.advising.releases import release_in_words
+from flexact.text.sentences import Named, plain
+
+#: More sets than these are not counted one by one.
+_MOST = 40_000
+#: Singular values below this part of the largest are zero: where tests count, there is a gap.
+_ZERO = 1.0e-9
+
+
+def of_deck(name: str) -> Analysis:
+    return analyse(flexact.read_text(text_of(name), name))
+
+
+def jacobian(data: ModelData) -> tuple[np.ndarray, np.ndarray]:
+    """D(c) of a model as it stands, without what is condensed, and which rows are fixed."""
+    arrays = data.arrays
+    whole = calls.assemble(data.packed, arrays.node_value, np.zeros(arrays.element_number.size))
+    full = np.zeros((6 * arrays.element_number.size, 3 * arrays.node_number.size))
+    np.add.at(full, (whole.row_of, whole.column_of), whole.value)
+    deformation = arrays.deformation_class.T.ravel()
+    rows = np.isin(deformation, (Class.FIXED, Class.INDEPENDENT))
+    columns = arrays.coordinate_class.T.ravel() == Class.DEPENDENT
+    turns = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)[columns]
+    chosen = full[np.ix_(rows, columns)]
+    size = float(np.ptp(arrays.node_value[:3], axis=1).max()) or 1.0
+    chosen[:, turns] /= size
+    norms = np.linalg.norm(chosen, axis=1, keepdims=True)
+    return chosen / np.where(norms > 0.0, norms, 1.0), deformation[rows] == Class.FIXED
+
+
+def rank(matrix: np.ndarray) -> int:
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return int(np.count_nonzero(values > _ZERO * values.max(initial=0.0)))
+
+
+def counted(data: ModelData) -> int | None:
+    """How many sets there are, block by block of the left null space by numpy."""
+    matrix, is_fixed = jacobian(data)
+    size = matrix.shape[0] - rank(matrix)
+    if not size:
+        return 0
+    space = np.linalg.svd(matrix)[0][:, matrix.shape[0] - size :]
+    able = np.flatnonzero(is_fixed & (np.linalg.norm(space, axis=1) > _ZERO))
+    if math.comb(able.size, size) > _MOST:
+        return None
+    sets = np.array(list(combinations(able.tolist(), size)), np.int64).reshape(-1, size)
+    values = np.linalg.svd(space[sets], compute_uv=False)[:, -1:]
+    return int(np.count_nonzero(values > _ZERO))
+
+
+def self_stresses(data: ModelData, proposal: Proposal) -> int:
+    """How many are left of a model once it is changed, by numpy."""
+    matrix, _ = jacobian(proposal.change.apply(data).data)
+    return matrix.shape[0] - rank(matrix)
+
+
+def test_the_twelve_trusses_have_twelve_releases() -> None:
+    """Every bar carries the only self-stress (paper, Table 2); legs are alike, and sides."""
+    releases = releases_of(analyse(twelve_trusses()))
+    assert (releases.size, releases.count) == (1, 12)
+    legs, sides = releases.sets
+    assert len(legs.alternatives) == 7
+    assert len(sides.alternatives) == 3
+    assert all(each.after.over_constrained == 0 for each in releases.sets)
+    # Of a unit vector with twelve equal entries.
+    assert legs.condition == pytest.approx(math.sqrt(12.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "count"),
+    [
+        # Both in-plane bendings of both sheets carry the moment, and the twist of the body.
+        ("flexures/parallel_guide_undeclared", 1, 5),
+        ("flexures/parallel_guide", 1, 5),
+        # The same of each of eight beams, as the deck stands.
+        ("flexures/parallel_guide_four_beams", 1, 17),
+        ("flexures/parallel_guide_four_beams_undeclared", 1, 17),
+        # All that it holds: D(c) has no columns. Of the four elongations one, of the in-plane
+        # bending moments, which are linear along it, at two of five places.
+        ("flexures/sheet_clamped_both_ends", 3, 1),
+        ("flexures/sheet_clamped_both_ends_four_beams", 3, 4 * (math.comb(8, 2) - 3)),
+        # The clamped ends alone.
+        ("paper/folded_sheet_clamped", 1, 2),
+        ("paper/five_folded_sheets", 0, 0),
+    ],
+)
+def test_counts_that_follow_by_hand(name: str, size: int, count: int) -> None:
+    releases = releases_of(of_deck(name))
+    assert (releases.size, releases.count) == (size, count)
+    assert bool(releases.sets) == bool(count)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if "wavy" not in name])
+def test_of_every_deck_the_count_is_right_and_the_sets_work(name: str) -> None:
+    analysis = of_deck(name)
+    releases = releases_of(analysis)
+    truth = counted(analysis.given)
+    assert truth is None or releases.count == truth
+    assert bool(releases.sets) == (releases.count != 0)
+    for proposal in (*releases.sets, *releases.supports):
+        assert proposal.purpose is Purpose.RELEASE
+        assert self_stresses(analysis.given, proposal) == 0
+        assert proposal.condition >= 1.0 - 1.0e-9 or proposal in releases.supports
+    for proposal in releases.sets:
+        assert len(proposal.change.deformations) == releases.size
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_of_random_models_the_count_is_right(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    with_several = 0
+    for k in range(40):
+        if k % 2:
+            made = mechanism(random, planar=bool(k % 4 == 1))
+        else:
+            bars, supports = int(random.integers(6, 18)), int(random.integers(1, 4))
+            made = framework(random, int(random.integers(4, 8)), bars, supports, bool(k % 4))
+        try:
+            analysis = analyse(made)
+        except flexact.ModelError:
+            continue
+        truth = counted(analysis.given)
+        if truth is None:
+            continue
+        releases = releases_of(analysis)
+        assert releases.count == truth
+        assert bool(releases.sets) == (truth != 0)
+        with_several += releases.size > 1
+    assert with_several > 2
+
+
+def grid(random: np.random.Generator) -> tuple[Model, np.ndarray]:
+    """Bars in the plane between joints on a grid, and their equations of balance, exactly."""
+    model = Model(planar=True)
+    places = [(x, y) for x in range(3) for y in range(2)]
+    nodes = [model.node(float(x), float(y)) for x, y in places]
+    pairs = list(combinations(range(6), 2))
+    chosen = [pairs[k] for k in sorted(random.permutation(15)[: random.integers(8, 12)].tolist())]
+    free = [k for k in range(2, 6) if any(k in pair for pair in chosen)]
+    rows = []
+    for i, j in chosen:
+        model.truss(nodes[i], nodes[j])
+        way = [places[j][axis] - places[i][axis] for axis in (0, 1)]
+        rows.append([((k == j) - (k == i)) * way[axis] for k in free for axis in (0, 1)])
+    for k in (0, 1):
+        if any(k in pair for pair in chosen):
+            model.fix(nodes[k])
+    return model, np.array(rows, dtype=object)
+
+
+def exact_rank(rows: np.ndarray) -> int:
+    rest = [[Fraction(value) for value in row] for row in rows]
+    found = 0
+    for column in range(len(rest[0]) if rest else 0):
+        pivot = next((r for r in range(found, len(rest)) if rest[r][column]), None)
+        if pivot is None:
+            continue
+        rest[found], rest[pivot] = rest[pivot], rest[found]
+        for r in range(found + 1, len(rest)):
+            factor = rest[r][column] / rest[found][column]
+            rest[r] = [a - factor * b for a, b in zip(rest[r], rest[found], strict=True)]
+        found += 1
+    return found
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_bars_on_a_grid_are_counted_as_fractions_say(seed: int) -> None:
+    """What is left when bars are taken out, in arithmetic that rounds nothing."""
+    model, rows = grid(np.random.default_rng(seed))
+    releases = releases_of(analyse(model))
+    size = len(rows) - exact_rank(rows)
+    assert releases.size == size
+    every = range(len(rows))
+    truth = sum(
+        exact_rank(rows[[k for k in every if k not in gone]]) == len(rows) - size
+        for gone in combinations(every, size)
+    )
+    assert releases.count == (truth if size else 0)
+
+
+def test_what_is_alike_is_one_proposal() -> None:
+    """Fig. 6: six flexures of two sheets each, and the torsion of the body."""
+    releases = releases_of(of_deck("paper/six_folded_sheets"))
+    at_rim, at_ground, body = releases.sets
+    assert len(at_rim.alternatives) == len(at_ground.alternatives) == 5
+    assert body.change.deformations == ((21, 2, Class.DEPENDENT),)
+    assert not body.alternatives
+
+
+def test_a_ring_of_an_even_number_has_as_many_alternatives_as_bars() -> None:
+    releases = releases_of(analyse(ring(4)))
+    assert releases.count == 12
+    assert sum(1 + len(each.alternatives) for each in releases.sets) == 12
+
+
+def test_flexures_come_before_bodies() -> None:
+    releases = releases_of(of_deck("flexures/parallel_guide"))
+    elements = [each.change.deformations[0][0] for each in releases.sets]
+    assert elements[-1] == 3
+    assert 3 not in elements[:-1]
+
+
+def three_bars(areas: tuple[float, float, float]) -> Model:
+    """A joint that three bars hold in the plane, of lengths 1 and sqrt(2)."""
+    model = Model(planar=True)
+    joint = model.node(0.0, 0.0, name="joint")
+    for (x, y), name, area in zip(((0, 1), (1, 0), (1, 1)), "ABC", areas, strict=True):
+        foot = model.node(float(x), float(y))
+        diameter = 2 * math.sqrt(area / math.pi)
+        model.truss(joint, foot, name=name, section=diameter, material="steel")
+        model.fix(foot)
+    return model
+
+
+def test_where_stiffness_is_known_what_stores_most_is_released_first() -> None:
+    """Balance: forces 1, 1, -sqrt(2). Energies: 1/A, 1/B and 2 sqrt(2)/C of areas A, B, C."""
+    for areas in ((1e-4, 2e-4, 9e-4), (5e-4, 2e-4, 9e-4), (5e-4, 4e-4, 3e-4)):
+        energy = dict(zip("ABC", np.array((1.0, 1.0, 2.0 * math.sqrt(2.0))) / areas, strict=True))
+        analysis = analyse(three_bars(areas))
+        names = [
+            analysis.parts.of_element(analysis.given.element_index[number]).name
+            for each in releases_of(analysis).sets
+            for number, _, _ in each.change.deformations
+        ]
+        assert names == sorted(energy, key=lambda name: -energy[name])
+
+
+def test_a_number_of_self_stresses_that_declarations_alone_cause_has_no_release() -> None:
+    """A joint driven along both axes by the only two bars that hold it."""
+    model = Model(planar=True)
+    joint = model.node(0.0, 0.0)
+    for x, y in ((1.0, 0.0), (0.0, 1.0)):
+        foot = model.node(x, y)
+        model.fix(foot)
+        model.independent(model.truss(joint, foot), "elongation")
+    model.fix(joint)
+    releases = releases_of(analyse(model))
+    assert (releases.size, releases.count, releases.sets) == (2, 0, ())
+    assert releases.supports
+
+
+def words_of(analysis: Analysis) -> list[str]:
+    """What is said of all sets, without statements."""
+    releases = releases_of(analysis)
+    told = (plain(release_in_words(analysis, each)) for each in releases.sets)
+    return [str(releases.count), *(re.sub(r" \(RLSE[^)]*\)", "", each) for each in told)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_words_depend_neither_on_units_nor_on_how_elements_are_told(name: str) -> None:
+    analysis = of_deck(name)
+    words = words_of(analysis)
+    assert words_of(analyse(flexact.read_text(transform.scaled(text_of(name), 1e3)))) == words
+    made = analyse(Model.from_data(as_made(analysis.given)))
+    assert words_of(analyse(turned(analysis.given, 1))) == words_of(made)
+
+
+def test_a_divided_sheet_is_told_as_one_of_one_beam() -> None:
+    for name in ("parallel_guide", "cross_hinge", "sheet_clamped_both_ends"):
+        words = words_of(of_deck(f"flexures/{name}"))[1:]
+        for divided in (f"{name}_four_beams", f"{name}_four_beams_undeclared"):
+            assert words_of(of_deck(f"flexures/{divided}"))[1:] == words
+
+
+def test_parts_are_named_and_statements_given() -> None:
+    analysis = of_deck("paper/six_folded_sheets")
+    pieces = release_in_words(analysis, releases_of(analysis).sets[0])
+    named = [piece.words for piece in pieces if isinstance(piece, Named)]
+    assert len(named) == 6
+    assert "RLSE 8 4" in plain(pieces)
+    model = folded_sheet(clamped=True)
+    made = analyse(model)
+    assert "model.release(" in plain(release_in_words(made, releases_of(made).sets[0]))
