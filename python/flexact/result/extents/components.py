@@ -17,6 +17,7 @@ from ...core.basis import Basis
 from ...core.elements import Class
 from ..spaces import Spaces
 
+
 @dataclass(frozen=True, eq=False)
 class Component(Frozen):
     """Coordinates that hang together, with the null vectors that reach them.
@@ -34,9 +35,11 @@ class Component(Frozen):
     stresses: tuple[int, ...]
 
 
-def components_of(spaces: Spaces) -> tuple[Component, ...]:
-    """The components that move."""
-    element_of_row = spaces.raw.row_label[0] - 1
+def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
+    """The components in which both motions and self-stresses are, and all other motions' number.
+
+    A vector of a basis that reaches over several makes one of them.
+    """
     columns = spaces.columns
     groups = _Groups(columns + spaces.data.arrays.element_number.size)
     nodes, elements = _incidence(spaces)
@@ -46,38 +49,41 @@ def components_of(spaces: Spaces) -> tuple[Component, ...]:
     for k in range(3):
         there = column_at[nodes, k]
         groups.join(there[there >= 0], elements[there >= 0] + columns)
-    # A vector of a basis that reaches over several makes one of them.
-    for basis, place in (
+    both = (
         (spaces.motion_space, np.arange(columns)),
-        (spaces.stress_space, element_of_row + columns),
-    ):
-        where = place[basis.place]
-        first = where[np.minimum(basis.start[:-1], max(where.size - 1, 0))]
-        groups.join(where, first[basis.of_entries()] if where.size else where)
-    group = groups.found()
-    return tuple(_made(spaces, group, each) for each in _moving(spaces, group))
-
-
-def _moving(spaces: Spaces, group: NDArray[np.integer]) -> NDArray[np.integer]:
-    """The groups that have a motion."""
-    basis = spaces.motion_space
-    return np.unique(group[basis.place])
-
-
-def _made(spaces: Spaces, group: NDArray[np.integer], mine: int) -> Component:
-    columns = spaces.columns
-    place = spaces.raw.row_label[0] - 1 + columns
-    motions, stresses = spaces.motion_space, spaces.stress_space
-    return Component(
-        np.flatnonzero(group[:columns] == mine),
-        np.flatnonzero(group[columns:] == mine),
-        _vectors(motions, group[motions.place] == mine),
-        _vectors(stresses, group[place[stresses.place]] == mine),
+        (spaces.stress_space, spaces.raw.row_label[0] - 1 + columns),
     )
+    for basis, place in both:
+        where = place[basis.place]
+        groups.join(where, where[basis.start[:-1]][basis.of_entries()] if where.size else where)
+    group = groups.found()
+    moving, stressed = (_of_vectors(group, place, basis) for basis, place in both)
+    felt = np.intersect1d(moving, stressed)
+    free = int(np.count_nonzero(~np.isin(moving, felt)))
+    # Columns and elements of each, without going through all of them for each.
+    order = np.argsort(group, kind="stable")
+    first, last = (np.searchsorted(group[order], felt, side) for side in ("left", "right"))
+    made = []
+    for mine, begin, end in zip(felt.tolist(), first.tolist(), last.tolist(), strict=True):
+        members = np.sort(order[begin:end])
+        made.append(
+            Component(
+                members[members < columns],
+                members[members >= columns] - columns,
+                tuple(np.flatnonzero(moving == mine).tolist()),
+                tuple(np.flatnonzero(stressed == mine).tolist()),
+            )
+        )
+    return tuple(made), free
 
 
-def _vectors(basis: Basis, chosen: NDArray[np.bool_]) -> tuple[int, ...]:
-    return tuple(np.unique(basis.of_entries()[chosen]).tolist())
+def _of_vectors(
+    group: NDArray[np.integer], place: NDArray[np.integer], basis: Basis
+) -> NDArray[np.integer]:
+    """(vectors,) the group that each vector of a basis belongs to."""
+    if not basis.vectors:
+        return np.zeros(0, np.int64)
+    return np.asarray(group[place[basis.place[basis.start[:-1]]]])
 
 
 def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:

@@ -44,6 +44,8 @@ class Reason(str, Enum):
     """The second-order form of a self-stress is not zero for this motion."""
     REGULAR = "regular"
     """The forms are zero for this motion and change sign beside it: a path begins with it."""
+    AMONG_OTHERS = "among others"
+    """It is inside of sheets or wires, and can be so chosen among those inside of them."""
     PATH = "path"
     """It was followed."""
     ORDER = "order"

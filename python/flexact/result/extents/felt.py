@@ -38,17 +38,15 @@ class Felt:
         order = np.searchsorted(held.columns, 3 * node_place[node] + axis)
         placed = spaces.data.arrays.node_kind[node] <= NodeKind.POSITION
         self._places, self._factor = order, np.where(placed, 1.0 / held.size, 1.0)
-        told = column_weights(spaces, component.columns)
+        told = column_weights(spaces)[component.columns]
         motions = _dense(spaces.motion_space, component.motions)[component.columns]
         self.motions = _orthonormal(self.of(motions / told[:, None]))
         element, deformation = spaces.raw.row_label - 1
         rows = np.flatnonzero(element_place[element] >= 0)
-        places = np.searchsorted(
-            held.rows, 6 * element_place[element[rows]] + deformation[rows]
-        )
+        places = np.searchsorted(held.rows, 6 * element_place[element[rows]] + deformation[rows])
         stresses = _dense(spaces.stress_space, component.stresses)[rows]
         made = np.zeros((held.rows.size, len(component.stresses)))
-        made[places] = stresses / row_weights(spaces, rows)[:, None]
+        made[places] = stresses / row_weights(spaces)[rows][:, None]
         kinds = spaces.data.arrays.element_kind[element[rows]]
         turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
         made[places] *= np.where(turns, 1.0, held.size)[:, None]

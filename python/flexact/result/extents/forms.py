@@ -64,9 +64,7 @@ def _rate(felt: Felt, motion: FloatArray) -> tuple[FloatArray, float]:
     best, error = None, np.inf
     before: list[FloatArray] = []
     for step in _STEPS.tolist():
-        ahead, behind = (
-            _pressed(felt, sign * step * motion) for sign in (1.0, -1.0)
-        )
+        ahead, behind = (_pressed(felt, sign * step * motion) for sign in (1.0, -1.0))
         now = [(ahead - behind) / (2.0 * step)]
         for k, other in enumerate(before):
             factor = 16.0 ** (k + 1)

@@ -83,5 +83,6 @@ def _begins(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> bo
     """Whether there is a path near, on which other motions fall behind."""
     found = least_along(reduced, unit, sign * _NEAR)
     limit = TRUE / 100.0 + _ROUNDED * floor * _NEAR
-    is_path = found is not None and found.strain <= limit
-    return is_path and beside(found, unit, sign * _NEAR) <= _BESIDE
+    if found is None or found.strain > limit:
+        return False
+    return beside(found, unit, sign * _NEAR) <= _BESIDE
