@@ -187,7 +187,9 @@ def test_advice_keeps_what_it_promises(name: str) -> None:
         for body in one["bodies"]:
             assert np.linalg.norm(body["axis"]) == pytest.approx(1.0)
             assert (body["point"] is None) == (body["kind"] == "translation")
-    for step in {(step.purpose, bool(step.change.coordinates)): step for step in made[::-1]}.values():
+    for step in {
+        (step.purpose, bool(step.change.coordinates)): step for step in made[::-1]
+    }.values():
         deck = edited_deck(analysis.given, step.apply().data)
         after = analyse(flexact.read_text(deck), prove=False)
         assert after.verdict is step.after.verdict, step

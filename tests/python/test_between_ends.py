@@ -5,6 +5,8 @@ How many there are follows from the rank of the columns of D(c) that belong to t
 numpy; of the paper's mechanisms it is known.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from reference_decks import ROOT
@@ -50,7 +52,7 @@ def folded(points: list[tuple[float, float, float]], clamped: bool) -> tuple[Mod
     """Sheets in series whose widths are along y; the nodes of their folds."""
     model = Model()
     nodes = [model.node(*point) for point in points]
-    for k, (p, q) in enumerate(zip(nodes, nodes[1:], strict=False), start=1):
+    for k, (p, q) in enumerate(pairwise(nodes), start=1):
         model.sheet(p, q, (0, 1, 0), name=f"sheet {k}")
     model.fix(*([nodes[0], nodes[-1]] if clamped else nodes[:1]))
     return model, {n for node in nodes[1:-1] for n in (node.position, node.orientation)}

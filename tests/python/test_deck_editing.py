@@ -57,7 +57,10 @@ def changes(old: str, new: bytes) -> list[str]:
         (Change(), []),
         (
             Change(deformations=((1, 3, Class.DEPENDENT),)),
-            ["-  rlse 1 2 5 6     # what it leaves free", "+  rlse 1 2 3 5 6     # what it leaves free"],
+            [
+                "-  rlse 1 2 5 6     # what it leaves free",
+                "+  rlse 1 2 3 5 6     # what it leaves free",
+            ],
         ),
         (Change(deformations=((3, 2, Class.DEPENDENT),)), ["+RLSE 3 2"]),
         (

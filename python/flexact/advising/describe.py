@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from ..advice.proposal import Purpose
 from ..base.plain_text import harmless
 from ..result.verdict import Verdict
-from ..text.advising.spaces import spaces_lines
-from ..text.advising.sentences import in_a_row
-from ..text.describe import MOST_MODES, verdict_in_words
 from ..text.advising.extents import finite_in_words
+from ..text.advising.sentences import in_a_row
+from ..text.advising.spaces import spaces_lines
+from ..text.describe import MOST_MODES, verdict_in_words
 from ..text.motions import internal_in_words
 from ..text.naming import counted
 from ..text.sentences import Line, Pieces, filled, plain, sentence

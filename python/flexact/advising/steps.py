@@ -101,7 +101,8 @@ class Step(Frozen):
         if not 1 <= choice <= len(choices):
             there = f"choices 1 to {len(choices)}" if len(choices) > 1 else "no other choice"
             raise model_error(
-                "no-such-choice", f"there is no choice {choice} of step {self.number}: it has {there}"
+                "no-such-choice",
+                f"there is no choice {choice} of step {self.number}: it has {there}",
             )
         return choices[choice - 1].apply(self.analysis.given)
 

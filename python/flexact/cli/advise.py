@@ -148,13 +148,14 @@ class _Work:
                 if not advice.analysis.under_constrained + advice.analysis.over_constrained:
                     there = "it is exactly constrained, and there is nothing to mend"
             raise AskedError(f"there is no step {number}: {there}", "no-such-step")
-        step = advice[number - 1]
+        step: Step = advice[number - 1]
         step.apply(choice)
         return step
 
     def _words(self, advice: Advice) -> str:
         if self.chosen.json:
-            return load("json").dumps(line_of(advice), allow_nan=False)
+            text: str = load("json").dumps(line_of(advice), allow_nan=False)
+            return text
         return f"{describe(advice)}\n"
 
     def _written(self, advice: Advice, step: Step | None) -> str:

@@ -10,8 +10,8 @@ from ..core.basis import Basis
 from .mode_basis import (
     internal_motions,
     is_large,
-    moves_within,
     motion_basis,
+    moves_within,
     scaled_motions,
     scaled_stresses,
     stress_basis,
