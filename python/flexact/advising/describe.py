@@ -16,7 +16,7 @@ from ..text.advising.sentences import in_a_row
 from ..text.advising.spaces import spaces_lines
 from ..text.describe import MOST_MODES, verdict_in_words
 from ..text.motions import internal_in_words
-from ..text.naming import counted
+from ..text.naming import counted, counts_in_words
 from ..text.sentences import Line, Pieces, filled, plain, sentence
 from .left_out import left_out
 
@@ -33,7 +33,7 @@ _AIMS = {
     Purpose.RELEASE: "To stop nothing twice",
     Purpose.DECLARE: "To leave nothing free that is not declared",
     Purpose.HOLD: "To leave nothing free that is not declared",
-    Purpose.ADD_WIRE: "To stop what is not wanted with a wire",
+    Purpose.ADD_WIRE: "To stop with a wire what is free and not wanted",
 }
 
 
@@ -79,8 +79,11 @@ def _motions(advice: Advice, known: _Known) -> Iterator[str]:
     told_at = {each.motion.index + 1: each.sentences for each in told}
     yield from _modes(told_at, "motion", known)
     yield from _more(len(told) - MOST_MODES, "motion", "s")
-    if internal := internal_in_words(advice.analysis):
-        yield filled(sentence(f"  {internal}"))
+    whole = advice.analysis.with_internal_declared
+    if whole is not None and (internal := internal_in_words(advice.analysis)):
+        counts = counts_in_words(whole.under_constrained, whole.over_constrained)
+        as_one = f"With each of them as one beam (flexact declare) the mechanism is {counts}."
+        yield filled(sentence(f"  {internal} {as_one}"), hanging=True)
     for line in finite_in_words(advice.extents) if len(told) > 1 else ():
         yield filled(line._replace(head=("  ", *line.head)))
 
