@@ -137,6 +137,23 @@ class Held:
         both = (motion.displacement / self.size + motion.rotation).ravel()
         return np.asarray(both[self.columns])
 
+    def reach(self, change: FloatArray) -> float:
+        """How far a change moves the node that it moves farthest, by the size or in radians."""
+        nodes = np.zeros(self.arrays.coordinate_class.size)
+        nodes[self.columns] = change
+        return float(np.linalg.norm(nodes.reshape(-1, 3), axis=1).max())
+
+    def difference(self, one: Configuration, other: Configuration) -> FloatArray:
+        """(n,) the change that leads from a configuration to another one."""
+        delta = np.zeros((one.kinds.size, 3))
+        placed = one.kinds <= NodeKind.POSITION
+        delta[placed] = (other.value - one.value)[placed, :3]
+        plane = one.kinds == NodeKind.ANGLE
+        delta[plane, 2] = (other.value - one.value)[plane, 0]
+        turned = self._turning
+        delta[turned] = _rotation_between(one.value[turned], other.value[turned])
+        return np.asarray(delta.ravel()[self.columns] / self._column_factor)
+
     def at(self, here: Configuration, change: FloatArray | None = None) -> Place:
         """The held deformations after a change (n,) of the coordinates, as a `direction`.
 
@@ -216,6 +233,20 @@ class Held:
         bent = np.abs(self._raw(here).deformation) > _NO_BENDING * self._lengths
         over = (bends & bent).any(axis=0)
         return (int(np.argmax(over)), "bending") if over.any() else None
+
+
+def _rotation_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(k, 3) rotation vectors that turn Euler parameters (k, 4) into others."""
+    a, u = one[:, :1], one[:, 1:]
+    b, v = other[:, :1], other[:, 1:]
+    scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
+    vector = v * a - b * u - np.cross(v, u)
+    sine = np.linalg.norm(vector, axis=1, keepdims=True)
+    flip = np.where(scalar < 0.0, -1.0, 1.0)
+    angle = 2.0 * np.arctan2(sine, np.abs(scalar))
+    size = np.where(sine > 0.0, sine, 1.0)
+    factor = np.where(sine > 1.0e-9, angle / size, 2.0 / np.where(scalar == 0.0, 1.0, abs(scalar)))
+    return np.asarray(flip * factor * vector)
 
 
 def _left_jacobian(vector: FloatArray) -> FloatArray:
