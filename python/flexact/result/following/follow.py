@@ -8,7 +8,7 @@ D(x) = 0 across it. A step that fails is halved; they grow again.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,8 @@ from .chart import Chart, Near
 from .ending import Ending, Stop
 from .held import Held
 from .least import across, descend
-from .station import Station, station_at
+from .passing import passing
+from .station import Between, Station, station_at
 
 #: Held deformations up to this part of the size are zero.
 TRUE = 1.0e-12
@@ -38,6 +39,8 @@ _EASY, _GROWTH = 0.06, 1.5
 _CURVED = 0.35
 #: Back at the start a path is closed: nearer to it than this.
 _CLOSED = 1.0e-8
+#: A closed path has so many stations at least.
+_FEWEST = 6
 
 
 @dataclass(frozen=True)
@@ -145,7 +148,7 @@ class _Walk:
                 stop = Stop(Ending.STEPS, step)
                 break
             left = self.wishes.length - self.stations[-1].arc
-            if left <= 1.0e-9 * self.wishes.length:
+            if left < max(1.0e-9 * self.wishes.length, self.wishes.least):
                 stop = Stop(Ending.LENGTH, step)
                 break
             found = self._onward(chart, min(step, left))
@@ -160,6 +163,10 @@ class _Walk:
     def _arrive(self, there: Station) -> Stop | None:
         """Take a station, unless something came before it; why to stop there, if at all."""
         last = self.stations[-1]
+        if self._is_back(last, there):
+            start = self.stations[0]
+            self.stations.append(replace(start, arc=self._arc_of_start(last, there)))
+            return Stop(Ending.CLOSED)
         branch = branch_between(self.held, last, there, self.zero)
         if branch is not None:
             self.branches.append(branch)
@@ -168,6 +175,31 @@ class _Walk:
                 return Stop(Ending.BRANCHES, 0.0, branch.residual, branch.directions)
         self.stations.append(there)
         return None
+
+    def _is_back(self, last: Station, there: Station) -> bool:
+        """Whether the path passes its start, the same way as it left it."""
+        start, held = self.stations[0], self.held
+        before = held.difference(start.within, last.within)
+        behind = held.difference(start.within, there.within)
+        is_near = max(map(held.reach, (before, behind))) < 2.0 * (there.arc - last.arc)
+        if len(self.stations) < _FEWEST or not is_near:
+            return False
+        passed = passing(
+            Between(held, last, there),
+            lambda near: float(
+                start.tangent @ held.difference(start.within, near.place.configuration)
+            ),
+        )
+        if passed is None or start.tangent @ passed.tangent < _STRAIGHT:
+            return False
+        return held.reach(held.difference(start.within, passed.where)) < _CLOSED
+
+    def _arc_of_start(self, last: Station, there: Station) -> float:
+        start = self.stations[0].within
+        before, behind = (
+            self.held.reach(self.held.difference(start, each.within)) for each in (last, there)
+        )
+        return last.arc + (there.arc - last.arc) * before / (before + behind)
 
     def _onward(self, chart: Chart, step: float) -> tuple[Station, Chart, float] | None:
         """The next station with its chart, and the step to try from there; None without any."""

@@ -139,9 +139,13 @@ class Held:
 
     def reach(self, change: FloatArray) -> float:
         """How far a change moves the node that it moves farthest, by the size or in radians."""
-        nodes = np.zeros(self.arrays.coordinate_class.size)
-        nodes[self.columns] = change
-        return float(np.linalg.norm(nodes.reshape(-1, 3), axis=1).max())
+        return float(np.linalg.norm(self.at_nodes(change), axis=1).max())
+
+    def at_nodes(self, change: FloatArray) -> FloatArray:
+        """(nodes, 3) a change of the coordinates: by the size, or in radians."""
+        made = np.zeros(self.arrays.coordinate_class.size)
+        made[self.columns] = change
+        return made.reshape(-1, 3)
 
     def difference(self, one: Configuration, other: Configuration) -> FloatArray:
         """(n,) the change that leads from a configuration to another one."""
@@ -149,7 +153,8 @@ class Held:
         placed = one.kinds <= NodeKind.POSITION
         delta[placed] = (other.value - one.value)[placed, :3]
         plane = one.kinds == NodeKind.ANGLE
-        delta[plane, 2] = (other.value - one.value)[plane, 0]
+        angle = (other.value - one.value)[plane, 0]
+        delta[plane, 2] = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
         turned = self._turning
         delta[turned] = _rotation_between(one.value[turned], other.value[turned])
         return np.asarray(delta.ravel()[self.columns] / self._column_factor)
@@ -188,6 +193,18 @@ class Held:
         flat = np.bincount(place, raw.value[there], m * n).astype(np.float64)
         error = raw.deformation.T.ravel()[self.rows] * self._row_factor
         return error, self._row_factor[:, None] * flat.reshape(m, n) * self._column_factor
+
+    def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
+        """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
+        raw = self._raw(here)
+        mine = raw.row_of == row
+        full = np.zeros(self.arrays.coordinate_class.size)
+        full[self.columns] = change * self._column_factor
+        return float(raw.value[mine] @ full[raw.column_of[mine]])
+
+    def deformation(self, here: Configuration, row: int) -> float:
+        """A deformation, held or not, by its row, in the unit if it is a length, else [rad]."""
+        return float(self._raw(here).deformation.T.ravel()[row])
 
     def _raw(self, here: Configuration) -> RawAssembly:
         return calls.assemble(self._packed, here.value.T, np.zeros(self.arrays.element_number.size))
