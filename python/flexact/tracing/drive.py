@@ -26,12 +26,7 @@ class Drive(NamedTuple):
     @property
     def unit(self) -> str:
         """Of its value, m or rad."""
-        part, owner = self.freedom.place
-        arrays = self.held.arrays
-        if self.freedom.is_coordinate:
-            return "m" if arrays.node_kind[owner] <= NodeKind.POSITION else "rad"
-        turns = dual_table()[arrays.element_kind[owner], part] == Dual.MOMENT
-        return "rad" if turns else "m"
+        return drive_unit(self.freedom)
 
     def rate(self, where: Configuration, along: FloatArray) -> float:
         """How fast it changes along a direction (n,)."""
@@ -60,3 +55,13 @@ class Drive(NamedTuple):
 def drive_of(shown: Selection, held: Held) -> Drive | None:
     """What drives the path of a declared degree of freedom; None of another motion."""
     return None if shown.freedom is None else Drive(shown.freedom, held)
+
+
+def drive_unit(freedom: Freedom) -> str:
+    """Of a declared coordinate or deformation: m or rad."""
+    part, owner = freedom.place
+    arrays = freedom.analysis.data.arrays
+    if freedom.is_coordinate:
+        return "m" if arrays.node_kind[owner] <= NodeKind.POSITION else "rad"
+    turns = dual_table()[arrays.element_kind[owner], part] == Dual.MOMENT
+    return "rad" if turns else "m"

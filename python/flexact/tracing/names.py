@@ -13,6 +13,9 @@ from ..core.elements import NodeKind
 from ..model.parts.parts import natural
 from ..result.result import Result
 
+#: Before the name of a body that only turns back in its rotation.
+ROTATION = "rotation of "
+
 
 class Point(NamedTuple):
     """A position node of the model as given."""
@@ -57,7 +60,7 @@ class Names:
             if mine <= rests:
                 names.add(name)
             elif turned and turned <= rests:
-                names.add(f"rotation of {name}")
+                names.add(f"{ROTATION}{name}")
         return tuple(sorted(names, key=natural))
 
     @cached_property
@@ -90,3 +93,18 @@ class Names:
             )
             for node, name in zip(nodes, own, strict=True)
         )
+
+    def bodies(self, most: int) -> tuple[Point, ...]:
+        """An orientation node of each body that can turn, with the body's name; at most so many."""
+        kinds = self.result.given.arrays.node_kind
+        classes = self.result.given.arrays.coordinate_class
+        made: list[Point] = []
+        for k, body in enumerate(self.parts.bodies):
+            turns = [
+                node
+                for node in body.orientations
+                if kinds[node] > NodeKind.POSITION and bool((classes[:, node] > 1).any())
+            ]
+            if turns and len(made) < most:
+                made.append(Point(turns[0], self.parts.of_body(k).name))
+        return tuple(made)

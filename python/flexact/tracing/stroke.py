@@ -22,7 +22,7 @@ from ..result.following.passing import passing
 from ..result.following.station import Between
 from ..result.result import Result
 from .drive import Drive, drive_of
-from .names import Names
+from .names import ROTATION, Names
 from .values import DeadPoint, Step, rank_of
 
 #: Velocities, with that of the fastest node one: below this a node rests, and above that it moves.
@@ -31,6 +31,8 @@ _RESTS, _MOVES = 1.0e-7, 1.0e-9
 _ONE_PLACE = 1.0e-5
 #: At a dead point singular values up to here are zero.
 _ZERO_AT_DEAD = 1.0e-7
+#: How many of the smallest singular values are kept.
+_KEPT = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +67,18 @@ class Stroke:
             made += [self._of_found(each) for each in found]
             if id(other) not in branches:
                 made.append(self._of_station(other))
+        if len(stations) > 1 and id(stations[-1]) in branches:
+            made[-1] = self._at_last_branch(made[-1], stations[-2], stations[-1])
         return made
+
+    def _at_last_branch(self, step: Step, before: Station, last: Station) -> Step:
+        """The step where the path ends, with what comes to rest there."""
+        moved = np.linalg.norm(self._speeds(before), axis=1) > _RESTS
+        rests = np.linalg.norm(self._speeds(last), axis=1) <= _RESTS
+        names = self.names.turning(np.flatnonzero(rests & moved).tolist(), rests, rests)
+        rate = 1.0 if self.drive is None else self.drive.rate(last.within, last.tangent)
+        dead = DeadPoint(names, abs(rate) <= _RESTS, last.directions)
+        return replace(step, dead=dead)
 
     def at_reference(self, steps: Sequence[Step], ways: Sequence[Followed]) -> tuple[Step, ...]:
         """The steps of both ways, with what is special at the reference."""
@@ -79,8 +92,11 @@ class Stroke:
         if len(beside) == 2:
             before, behind = -self._speeds(beside[0]), self._speeds(beside[1])
             resting = np.linalg.norm(self._speeds(start), axis=1) <= _RESTS
-            turns = resting & (np.sum(before * behind, axis=1) < 0.0)
+            moves = _least_norm(before, behind) > _MOVES
+            turns = resting & moves & (np.sum(before * behind, axis=1) < 0.0)
+            # What moves to second order only turns a little on both sides: that is none.
             names = self.names.turning(np.flatnonzero(turns).tolist(), resting, turns)
+            names = tuple(name for name in names if not name.startswith(ROTATION))
             is_drive = self._drive_turns(beside)
         if names or directions or is_drive:
             dead = DeadPoint(names, is_drive, directions)
@@ -98,6 +114,8 @@ class Stroke:
         return self.held.at_nodes(station.tangent) / self.held.reach(station.tangent)
 
     def _of_station(self, station: Station, rank: int | None = None) -> Step:
+        if rank is None and self.judged is self.held:
+            rank = station.rank
         return self._step(station.within, station.arc, station.residual, self.zero, rank)
 
     def _of_found(self, found: _Found) -> Step:
@@ -118,7 +136,7 @@ class Stroke:
         zero: float,
         rank: int | None = None,
     ) -> Step:
-        values = np.linalg.svd(self.judged.scaled(where), compute_uv=False)
+        values = self.judged.values(where)
         known = rank_of(values, zero) if rank is None else rank
         rows, columns = self.judged.rows.size, self.judged.columns.size
         (pose,) = poses_with_inner_nodes(self.result.condensed, [pose_in(self.held, where)])
@@ -126,7 +144,7 @@ class Stroke:
             arc * self.held.size,
             pose,
             residual,
-            np.array(values[::-1][:6], np.float64),
+            values[::-1][:_KEPT].copy(),
             columns - known,
             rows - known,
             np.nan if self.drive is None else self.drive.value(where, pose),
@@ -153,7 +171,7 @@ class Stroke:
 
     def _turning(self, one: Station, other: Station) -> list[int]:
         before, behind = self._speeds(one), self._speeds(other)
-        moves = np.minimum(*(np.linalg.norm(each, axis=1) for each in (before, behind))) > _MOVES
+        moves = _least_norm(before, behind) > _MOVES
         return np.flatnonzero(moves & (np.sum(before * behind, axis=1) < 0.0)).tolist()
 
     def _difference(self, one: Station, other: Station, node: int) -> FloatArray:
@@ -173,6 +191,10 @@ class Stroke:
         one, other = self._speeds(way.one), self._speeds(way.other)
         turns = rests & (np.sum(one * other, axis=1) < 0.0)
         return place, np.flatnonzero(turns).tolist() if turns[node] else []
+
+
+def _least_norm(one: FloatArray, other: FloatArray) -> FloatArray:
+    return np.asarray(np.minimum(np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)))
 
 
 class _Way:

@@ -23,6 +23,9 @@ from .values import Trace, Way
 
 #: How far each way by default, in sizes of the model, and by how many steps.
 LENGTH, STEPS = 1.0, 50
+#: What ends both ways within so small a part of the size is no path: held deformations have not
+#: become larger than what counts as zero.
+_NO_PATH = 1.0e-3
 #: Halved so often a step is too small.
 _LEAST = 2.0**-11
 #: Singular values up to here are zero away from the reference, where nothing smaller is not.
@@ -139,7 +142,7 @@ def _traced(
     steps = (*(replace(step, arc=-step.arc) for step in against[:0:-1]), *along)
     whole = stroke.at_reference(steps, ways)
     ends = (Way(way.length * held.size, way.stop) for way in ways)
-    return Trace(result, shown, whole, *ends)
+    return Trace(result, shown, held.size, whole, *ends)
 
 
 def _zero_of(result: Result) -> float:
@@ -164,13 +167,15 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
     Raises:
         TraceError: It does not.
     """
-    if any(len(way.stations) > 1 for way in ways):
+    far = max(way.length for way in ways)
+    ends = all(way.stop.ending is Ending.NOT_ZERO for way in ways)
+    if far > 0.0 and not (ends and far < _NO_PATH):
         return
     start, stop = ways[1].stations[0], ways[1].stop
     if stop.ending is Ending.ELEMENT:
         element = int(result.data.arrays.element_number[stop.element])
         raise TraceError(f"the path cannot be begun: element {element} is at the end of its range")
-    tried = f"after {stop.step * held.size:.2g} m along it"
+    tried = f"after {(far + stop.step) * held.size:.2g} m along it"
     if start.directions > 1:
         raise TraceError(
             f"the path cannot be begun: the mechanism can move in {start.directions} independent "

@@ -96,6 +96,7 @@ class Trace(Frozen):
     Attributes:
         result: The analysis of the reference.
         shown: The motion that was followed.
+        size: Of the model [m]: the diagonal of the box round all positions; 1 without extent.
         steps: Along the path, from the end against the motion to the end along it; dead points
             are among them.
         against: How far it was followed against the motion.
@@ -104,6 +105,7 @@ class Trace(Frozen):
 
     result: Result
     shown: Selection
+    size: float
     steps: tuple[Step, ...]
     against: Way
     along: Way

@@ -9,11 +9,13 @@ from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
 from .chart import Chart
 from .held import Held
-from .passing import passing
+from .passing import passing, touching
 from .station import Between, Station, station_at
 
 #: At a branch singular values up to here are zero: its place is known to about as many digits.
 _ZERO_AT_BRANCH = 1.0e-7
+#: A singular value may touch zero if it is no more than so many times what it falls in a step.
+_MAY_REACH = 1.5
 
 
 def sign_between(one: Chart, other: Chart) -> float:
@@ -43,8 +45,7 @@ class Signed:
             return 0.0
         jacobian = self.held.at(where).jacobian
         sign = np.linalg.slogdet(self.chart.left.T @ jacobian @ self.chart.right)[0]
-        values = np.linalg.svd(self.held.scaled(where), compute_uv=False)
-        return float(sign * values[self.rank - 1])
+        return float(sign * self.held.values(where)[self.rank - 1])
 
 
 def branch_between(held: Held, one: Station, other: Station, zero: float) -> Station | None:
@@ -58,14 +59,37 @@ def branch_between(held: Held, one: Station, other: Station, zero: float) -> Sta
     found = passing(way, lambda near: signed(near.place.configuration))
     if found is None:
         return None
-    return station_there(held, found.where, found.arc, one.tangent, zero)
+    return station_there(held, found.where, found.arc, found.tangent, zero)
+
+
+def branch_about(
+    held: Held, one: Station, middle: Station, other: Station, zero: float
+) -> Station | None:
+    """The station near the middle one of three at which singular values touch zero.
+
+    So they do where two pass it together: the sign stays.
+    """
+    if not one.rank == middle.rank == other.rank or one.signed * other.signed <= 0.0:
+        return None
+    values = np.abs([one.signed, middle.signed, other.signed])
+    falls = max(values[0], values[2]) - values[1]
+    if values[1] > min(values[0], values[2]) or values[1] > _MAY_REACH * falls:
+        return None
+    way = Between(held, middle, other)
+    signed = Signed(held, middle.within, middle.rank)
+    low = -(middle.arc - one.arc) / (other.arc - middle.arc)
+    found = touching(way, lambda near: signed(near.place.configuration), low)
+    if found is None:
+        return None
+    made = station_there(held, found.where, found.arc, found.tangent, zero)
+    return made if made.rank < middle.rank else None
 
 
 def station_there(
     held: Held, where: Configuration, arc: float, along: FloatArray, zero: float
 ) -> Station:
     """The station at a singular place that was found between two others."""
-    values = np.linalg.svd(held.scaled(where), compute_uv=False)
+    values = held.values(where)
     rank = int(np.count_nonzero(values > max(zero, _ZERO_AT_BRANCH)))
     residual = held.at(where).residual
-    return station_at(held, where, rank, along, arc, residual, 0.0)
+    return station_at(held, where, rank, along, arc, residual, 0.0, values)

@@ -14,15 +14,14 @@ import numpy as np
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
-from ...model.configuration import Configuration
 from ..velocities import Velocities
-from .branches import branch_between, sign_between
+from .branches import branch_about, branch_between, sign_between
 from .chart import Chart, Near
 from .ending import Ending, Stop
 from .held import Held
 from .least import across, descend
 from .passing import passing
-from .station import Between, Station, station_at
+from .station import Between, Station, arc_between, station_at
 
 #: Held deformations up to this part of the size are zero.
 TRUE = 1.0e-12
@@ -141,7 +140,9 @@ class _Walk:
         start, along = self.held.reference, direction / np.linalg.norm(direction)
         chart = Chart(self.held, start, rank)
         residual = self.held.at(start).residual
-        self.stations.append(station_at(self.held, start, rank, along, 0.0, residual, 1.0))
+        values = self.held.values(start)
+        first = station_at(self.held, start, rank, along, 0.0, residual, 1.0, values)
+        self.stations.append(first)
         step, stop = self.wishes.first, None
         while stop is None:
             if len(self.stations) > self.wishes.steps:
@@ -168,9 +169,14 @@ class _Walk:
             self.stations.append(replace(start, arc=self._arc_of_start(last, there)))
             return Stop(Ending.CLOSED)
         branch = branch_between(self.held, last, there, self.zero)
+        if branch is None and len(self.stations) > 1:
+            before = self.stations[-2]
+            branch = branch_about(self.held, before, last, there, self.zero)
         if branch is not None:
             self.branches.append(branch)
             if not self.wishes.through:
+                if branch.arc <= last.arc:
+                    self.stations.pop()
                 self.stations.append(branch)
                 return Stop(Ending.BRANCHES, 0.0, branch.residual, branch.directions)
         self.stations.append(there)
@@ -245,7 +251,9 @@ class _Walk:
         if beyond is not None:
             self.failed = Stop(Ending.ELEMENT, step, residual, 0, *beyond)
             return None
-        chart = Chart(self.held, where, self._rank_at(where))
+        values = self.held.values(where)
+        rank = int(np.count_nonzero(values > self.zero))
+        chart = Chart(self.held, where, rank)
         # What came last, as it is carried along by what was done.
         along = chart.null @ (chart.null.T @ here.tangent)
         straight = float(np.linalg.norm(along))
@@ -254,14 +262,7 @@ class _Walk:
                 self.failed = Stop(Ending.TURNS_BACK, step, residual)
             return None
         sign = sign_between(last, chart) * float(np.sign(here.signed) or 1.0)
-        change = self.held.difference(here.within, where)
-        # An arc of a circle over its chord.
-        bow = 1.0 + np.arccos(min(straight, 1.0)) ** 2 / 24.0
-        arc = here.arc + self.held.reach(change) * float(bow)
-        rank = chart.right.shape[1]
-        made = station_at(self.held, where, rank, along / straight, arc, residual, sign)
+        arc = here.arc + arc_between(self.held, here, where, along)
+        along /= straight
+        made = station_at(self.held, where, rank, along, arc, residual, sign, values)
         return made, chart
-
-    def _rank_at(self, where: Configuration) -> int:
-        values = np.linalg.svd(self.held.scaled(where), compute_uv=False)
-        return int(np.count_nonzero(values > self.zero))

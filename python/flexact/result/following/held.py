@@ -26,7 +26,7 @@ from ...model.data import ModelData
 from ..velocities import Velocities
 
 #: More coordinates than these are not followed: each step solves a dense system.
-MOST_COORDINATES = 2_000
+MOST_COORDINATES = 1_000
 #: A length below this part of its own at first is none; a sine above this is no bending.
 _NO_LENGTH = 1.0e-6
 _NO_BENDING = 0.999
@@ -224,6 +224,10 @@ class Held:
         full[:, np.repeat(self.arrays.node_kind > NodeKind.POSITION, 3)] /= self._mean_length
         norm = np.linalg.norm(full, axis=1, keepdims=True)
         return np.asarray(full[:, self.columns] / np.where(norm > 0.0, norm, 1.0))
+
+    def values(self, here: Configuration) -> FloatArray:
+        """All singular values of the scaled matrix, descending."""
+        return np.asarray(np.linalg.svd(self.scaled(here), compute_uv=False), np.float64)
 
     @cached_property
     def _lengths(self) -> FloatArray:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where between two stations a function passes zero.
+"""Where between two stations a function passes zero, or touches it.
 
 Near a branch of the path, rounding over the smallest singular value spoils what is computed. So
 the zero is bracketed by bisection, and then found, with the place there, by the polynomial
@@ -16,11 +16,14 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
 from .chart import Chart, Near
-from .station import Between
+from .station import Between, arc_between
 
 #: Halvings, and the points on both sides, as shares of the way from one station to the other.
 _HALVINGS = 9
 _POINTS = 0.02 * np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
+#: Golden sections before a touch is refined.
+_SECTIONS = 12
+_GOLDEN = (5.0**0.5 - 1.0) / 2.0
 #: Scaled singular values up to here are left alone when the place is put on the path.
 _SMALL = 1.0e-5
 
@@ -54,17 +57,34 @@ def passing(way: Between, function: Function) -> Passing | None:
             low = high = middle
             break
         low, high = (middle, high) if np.sign(value) == sign else (low, middle)
-    return _refined(way, function, 0.5 * (low + high))
+    return _refined(way, function, 0.5 * (low + high), is_touching=False)
 
 
-def _refined(way: Between, function: Function, about: float) -> Passing | None:
+def touching(way: Between, function: Function, low: float) -> Passing | None:
+    """Where a function is least between a share `low` and 1; None where it cannot be found.
+
+    By golden section, and then by the polynomial through the squares of its values: of singular
+    values that pass zero together these are smooth.
+    """
+    first, last = low, 1.0
+    for _ in range(_SECTIONS):
+        inner = first + (1.0 - _GOLDEN) * (last - first), first + _GOLDEN * (last - first)
+        places = [way.near(share) for share in inner]
+        values = [np.inf if near is None else abs(function(near)) for near in places]
+        first, last = (first, inner[1]) if values[0] <= values[1] else (inner[0], last)
+    return _refined(way, lambda near: function(near) ** 2, 0.5 * (first + last), is_touching=True)
+
+
+def _refined(
+    way: Between, function: Function, about: float, *, is_touching: bool
+) -> Passing | None:
     shares = about + _POINTS
     places = [way.near(share) for share in shares.tolist()]
     known = [near for near in places if near is not None]
     if len(known) < len(places):
         return None
     values = np.array([function(near) for near in known])
-    share = _root(_POINTS, values)
+    share = _root(_POINTS, values, is_touching)
     if share is None:
         return None
     weights = _lagrange(_POINTS, share)
@@ -73,17 +93,22 @@ def _refined(way: Between, function: Function, about: float) -> Passing | None:
     where = way.held.at(way.chart.middle, change).configuration
     tangents = np.array([way.direction(near) for near in known])
     tangent = weights @ tangents
-    rank = int(np.count_nonzero(np.linalg.svd(way.held.scaled(where), compute_uv=False) > _SMALL))
+    rank = int(np.count_nonzero(way.held.values(where) > _SMALL))
     near = Chart(way.held, where, rank).near(np.zeros(change.size))
     if near is not None:
         where = near.place.configuration
-    arc = way.arc(about + share)
-    return Passing(about + share, arc, where, tangent / np.linalg.norm(tangent))
+    tangent = tangent / np.linalg.norm(tangent)
+    arc = way.one.arc + arc_between(way.held, way.one, where, tangent)
+    if about + share < 0.0:
+        arc = 2.0 * way.one.arc - arc
+    return Passing(about + share, arc, where, tangent)
 
 
-def _root(points: FloatArray, values: FloatArray) -> float | None:
+def _root(points: FloatArray, values: FloatArray, of_slope: bool) -> float | None:
     """The zero, near 0, of the polynomial through values at some points; None without any."""
     fit = np.polynomial.Polynomial.fit(points, values, points.size - 1)
+    if of_slope:
+        fit = fit.deriv()
     slope, at = fit.deriv(), 0.0
     for _ in range(30):
         steep = float(slope(at))

@@ -57,11 +57,11 @@ def station_at(
     arc: float,
     residual: float,
     sign: float,
+    values: FloatArray,
 ) -> Station:
-    """A station of a given rank and sign, with its singular values."""
-    values = np.linalg.svd(held.scaled(where), compute_uv=False)
+    """A station of a given rank and sign, with all singular values, descending."""
     smallest = sign * float(values[rank - 1]) if rank else 0.0
-    kept = np.array(values[::-1][:_KEPT], np.float64)
+    kept = values[::-1][:_KEPT].copy()
     return Station(held.outside(where), where, arc, residual, tangent, kept, rank, smallest)
 
 
@@ -82,10 +82,6 @@ class Between:
         """The place at a share of the way, also a little outside of it."""
         return self.chart.near(self._ahead * (1.0 - share if self.is_backward else share))
 
-    def arc(self, share: float) -> float:
-        """How far it is along the path."""
-        return self.one.arc + share * (self.other.arc - self.one.arc)
-
     def direction(self, near: Near) -> FloatArray:
         """(n,) the tangent at a place, of norm 1."""
         jacobian = self.held.at(near.place.configuration).jacobian
@@ -97,3 +93,13 @@ class Between:
     def change_to(self, share: float, near: Near) -> FloatArray:
         """(n,) the change of the coordinates that leads to a place, from the chart's middle."""
         return self._ahead * (1.0 - share if self.is_backward else share) + near.across
+
+
+def arc_between(held: Held, here: Station, where: Configuration, along: FloatArray) -> float:
+    """How far the node goes that moves farthest: on arcs of circles over the chords."""
+    chord = np.linalg.norm(held.at_nodes(held.difference(here.within, where)), axis=1)
+    before, behind = held.at_nodes(here.tangent), held.at_nodes(along)
+    sizes = np.linalg.norm(before, axis=1) * np.linalg.norm(behind, axis=1)
+    cosine = np.sum(before * behind, axis=1) / np.where(sizes > 0.0, sizes, 1.0)
+    half = 0.5 * np.arccos(np.clip(np.where(sizes > 0.0, cosine, 1.0), 0.0, 1.0))
+    return float(np.max(chord / np.sinc(half / np.pi)))
