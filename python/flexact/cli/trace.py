@@ -77,9 +77,9 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and trace the motion."""
     deck, target = one_deck(chosen), chosen.output
     if target is not None:
+        _plan(deck, target)
         with unwinding():
             require_suffix(target)
-        _plan(deck, target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:

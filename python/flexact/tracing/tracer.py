@@ -15,7 +15,7 @@ from ..deck.models import read
 from ..drawing.selection import Selection, select_motion
 from ..model.model import Model
 from ..result.decompose import asked_for
-from ..result.following import Ending, Followed, Held, Wishes, follow, is_followed
+from ..result.following import Ending, Followed, Held, Wishes, follow, is_followed, least_error
 from ..result.following.held import MOST_COORDINATES
 from ..result.result import Result, result_of
 from .stroke import Stroke
@@ -26,6 +26,8 @@ LENGTH, STEPS = 1.0, 50
 #: What ends both ways within so small a part of the size is no path: held deformations have not
 #: become larger than what counts as zero.
 _NO_PATH = 1.0e-3
+#: Where held deformations are looked at if there is no path, a part of the size.
+_TRIED = 0.01
 #: Halved so often a step is too small.
 _LEAST = 2.0**-11
 #: Singular values up to here are zero away from the reference, where nothing smaller is not.
@@ -175,16 +177,17 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
     if stop.ending is Ending.ELEMENT:
         element = int(result.data.arrays.element_number[stop.element])
         raise TraceError(f"the path cannot be begun: element {element} is at the end of its range")
-    tried = f"after {(far + stop.step) * held.size:.2g} m along it"
+    least = least_error(held, start.tangent, _TRIED)
+    tried = (
+        f"{_TRIED * held.size:.2g} m along it, held deformations of {least.largest:.2g} of the "
+        "model's size are left at the least"
+    )
     if start.directions > 1:
         raise TraceError(
             f"the path cannot be begun: the mechanism can move in {start.directions} independent "
-            f"directions here, and a path leads along none that is near this one ({tried} no "
-            "configuration has held deformations of zero). Where paths cross, trace from a "
-            "configuration a little way along one of them"
+            f"directions here, and no path leads along this one: {tried}. Where paths cross, "
+            "trace from a configuration a little way along one of them"
         )
     raise TraceError(
-        "the path cannot be begun: the motion is infinitesimal, or ends here. "
-        f"{tried[0].upper()}{tried[1:]} held deformations of {stop.residual:.2g} of the model's "
-        "size are left at the least"
+        f"the path cannot be begun: the motion is infinitesimal, or ends here; {tried}"
     )
