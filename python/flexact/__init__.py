@@ -48,6 +48,8 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .tracing.tracer import trace
+    from .tracing.values import Trace
     from .variants.search.crossing import Crossing, Crossings
     from .variants.sweep import sweep
     from .variants.sweeps.parameters import grid
@@ -78,6 +80,8 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
+    "tracing.tracer": ("trace",),
+    "tracing.values": ("Trace",),
     "variants.search.crossing": ("Crossing", "Crossings"),
     "variants.sweeps.parameters": ("grid",),
     "variants.sweep": ("sweep",),
@@ -123,6 +127,7 @@ __all__ = [
     "Step",
     "Table",
     "Tolerances",
+    "Trace",
     "Verdict",
     "Wire",
     "__version__",
@@ -134,6 +139,7 @@ __all__ = [
     "read_text",
     "sweep",
     "tolerances",
+    "trace",
 ]
 
 

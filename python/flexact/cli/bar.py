@@ -65,6 +65,10 @@ class Bar:
         """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
         self.show_work("drawing", done)
 
+    def show_steps(self, done: float) -> None:
+        """Draw the bar of a path, of which a part from 0 to 1 is traced; always wanted."""
+        self.show_work("tracing", done)
+
     def show_work(self, what: str, done: float) -> None:
         """Draw the bar of other work, of which a part from 0 to 1 is done; always wanted."""
         self._wanted = True

@@ -26,7 +26,7 @@ from ...model.data import ModelData
 from ..velocities import Velocities
 
 #: More coordinates than these are not followed: each step solves a dense system.
-MOST_COORDINATES = 2_000
+MOST_COORDINATES = 1_000
 #: A length below this part of its own at first is none; a sine above this is no bending.
 _NO_LENGTH = 1.0e-6
 _NO_BENDING = 0.999
@@ -137,6 +137,28 @@ class Held:
         both = (motion.displacement / self.size + motion.rotation).ravel()
         return np.asarray(both[self.columns])
 
+    def reach(self, change: FloatArray) -> float:
+        """How far a change moves the node that it moves farthest, by the size or in radians."""
+        return float(np.linalg.norm(self.at_nodes(change), axis=1).max())
+
+    def at_nodes(self, change: FloatArray) -> FloatArray:
+        """(nodes, 3) a change of the coordinates: by the size, or in radians."""
+        made = np.zeros(self.arrays.coordinate_class.size)
+        made[self.columns] = change
+        return made.reshape(-1, 3)
+
+    def difference(self, one: Configuration, other: Configuration) -> FloatArray:
+        """(n,) the change that leads from a configuration to another one."""
+        delta = np.zeros((one.kinds.size, 3))
+        placed = one.kinds <= NodeKind.POSITION
+        delta[placed] = (other.value - one.value)[placed, :3]
+        plane = one.kinds == NodeKind.ANGLE
+        angle = (other.value - one.value)[plane, 0]
+        delta[plane, 2] = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
+        turned = self._turning
+        delta[turned] = _rotation_between(one.value[turned], other.value[turned])
+        return np.asarray(delta.ravel()[self.columns] / self._column_factor)
+
     def at(self, here: Configuration, change: FloatArray | None = None) -> Place:
         """The held deformations after a change (n,) of the coordinates, as a `direction`.
 
@@ -194,6 +216,18 @@ class Held:
         sums = [np.bincount(column, value * each[row], many) for each in stresses.T]
         return np.stack(sums, axis=1) if sums else np.zeros((many, 0))
 
+    def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
+        """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
+        raw = self._raw(here)
+        mine = raw.row_of == row
+        full = np.zeros(self.arrays.coordinate_class.size)
+        full[self.columns] = change * self._column_factor
+        return float(raw.value[mine] @ full[raw.column_of[mine]])
+
+    def deformation(self, here: Configuration, row: int) -> float:
+        """A deformation, held or not, by its row, in the unit if it is a length, else [rad]."""
+        return float(self._raw(here).deformation.T.ravel()[row])
+
     def _raw(self, here: Configuration) -> RawAssembly:
         return calls.assemble(self._packed, here.value.T, np.zeros(self.arrays.element_number.size))
 
@@ -212,6 +246,10 @@ class Held:
         full[:, np.repeat(self.arrays.node_kind > NodeKind.POSITION, 3)] /= self._mean_length
         norm = np.linalg.norm(full, axis=1, keepdims=True)
         return np.asarray(full[:, self.columns] / np.where(norm > 0.0, norm, 1.0))
+
+    def values(self, here: Configuration) -> FloatArray:
+        """All singular values of the scaled matrix, descending."""
+        return np.asarray(np.linalg.svd(self.scaled(here), compute_uv=False), np.float64)
 
     @cached_property
     def _lengths(self) -> FloatArray:
@@ -238,6 +276,20 @@ class Held:
         bent = np.abs(self._raw(here).deformation) > _NO_BENDING * self._lengths
         over = (bends & bent).any(axis=0)
         return (int(np.argmax(over)), "bending") if over.any() else None
+
+
+def _rotation_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(k, 3) rotation vectors that turn Euler parameters (k, 4) into others."""
+    a, u = one[:, :1], one[:, 1:]
+    b, v = other[:, :1], other[:, 1:]
+    scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
+    vector = v * a - b * u - np.cross(v, u)
+    sine = np.linalg.norm(vector, axis=1, keepdims=True)
+    flip = np.where(scalar < 0.0, -1.0, 1.0)
+    angle = 2.0 * np.arctan2(sine, np.abs(scalar))
+    size = np.where(sine > 0.0, sine, 1.0)
+    factor = np.where(sine > 1.0e-9, angle / size, 2.0 / np.where(scalar == 0.0, 1.0, abs(scalar)))
+    return np.asarray(flip * factor * vector)
 
 
 def _left_jacobian(vector: FloatArray) -> FloatArray:
