@@ -100,6 +100,11 @@ class ScrewSpace(Frozen):
         """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space."""
         return self.distance(screw) <= limit
 
+    def sine_to(self, other: ScrewSpace) -> float:
+        """The sine of the largest angle of this space with another one about the same point."""
+        rest = self.scaled - (self.scaled @ other.scaled.T) @ other.scaled
+        return float(np.linalg.norm(rest, 2)) if rest.size else 0.0
+
     def nearest(self, screw: FloatArray) -> FloatArray:
         """(6,) the part of a twist or a wrench that is in the space."""
         scaled = screw * self._factors

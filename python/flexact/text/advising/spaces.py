@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...advice.change import AddedWire
+from ...advice.change import AddedSheet, AddedWire
 from ...advice.proposal import Proposal
 from ...advice.spaces.families import Family, FamilyKind
 from ...advice.spaces.screw_space import ScrewSpace
@@ -27,6 +27,9 @@ from ..places import (
 )
 from ..sentences import Line, Named, Pieces, sentence
 from .screws import Geometry
+
+#: How many motions a sheet stops.
+_HELD_BY_A_SHEET = 3
 
 
 def spaces_lines(result: Result, spaces: Spaces) -> tuple[Line, ...]:
@@ -77,10 +80,10 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
         yield sentence(_impossible(spaces))
     if not spaces.tried:
         yield sentence("The mechanism is so large that no wires were tried.")
+    what = " and nothing that is wanted" if had else ""
     single = [each for each in spaces.proposals if len(each.change.wires) == 1]
     if single:
         which = "To stop it" if count == 1 else "To stop one of them"
-        what = " and nothing that is wanted" if had else ""
         yield Line(
             (f"{which}{what}, add: ",),
             tuple(wire_in_words(result, each) for each in single),
@@ -91,6 +94,13 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
             which = "all" if many == count else in_words(many)
             items = tuple(_wire(geometry, wire) for wire in proposal.change.wires)
             yield Line((f"To stop {which} of them, add all of: ",), items)
+    sheets = [each for each in spaces.proposals if each.change.sheets]
+    if sheets:
+        which = "all" if count == _HELD_BY_A_SHEET else "three"
+        yield Line(
+            (f"To stop {which} of them{what}, add: ",),
+            tuple(wire_in_words(result, each) for each in sheets),
+        )
 
 
 def _impossible(spaces: Spaces) -> str:
@@ -109,9 +119,10 @@ def _impossible(spaces: Spaces) -> str:
 
 
 def wire_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """The wires of a proposal: where they end on the body, and along what they run."""
-    geometry = Geometry(result)
-    wires = [_wire(geometry, wire) for wire in proposal.change.wires]
+    """The wires or the sheet of a proposal: where they end on the body, along what they run."""
+    geometry, change = Geometry(result), proposal.change
+    added: list[AddedWire | AddedSheet] = [*change.wires, *change.sheets]
+    wires = [_wire(geometry, each) for each in added]
     made: list[Named | str] = []
     for place, wire in enumerate(wires):
         before = "" if not place else " and " if place == len(wires) - 1 else ", "
@@ -119,19 +130,21 @@ def wire_in_words(result: Result, proposal: Proposal) -> Pieces:
     return tuple(made)
 
 
-def _wire(geometry: Geometry, wire: AddedWire) -> Pieces:
+def _wire(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
     """Such as "a wire from the stage, where sheet 1 ends, along y"."""
     result = geometry.outcome
     parts = result.parts
     node = parts.data.node_index[wire.position]
     end, ground = np.array(wire.end), np.array(wire.ground)
-    along = f" along {direction_words(ground - end)}"
+    along, word = f" along {direction_words(ground - end)}", "wire"
+    if isinstance(wire, AddedSheet):
+        along, word = f"{along}, wide along {axis_words(np.array(wire.width))}", "sheet"
     body = parts.body_at.get(parts.data.node_index[wire.orientation])
     owner = "" if body is None else part_words(parts.of_body(body))
     there = place_words(parts, node)
     if not np.array_equal(parts.data.arrays.node_value[:3, node], end):
         link = Named("node", wire.position, owner or there)
-        return (f"a wire from {geometry.point(end)}, on a link to ", link, f",{along}")
+        return (f"a {word} from {geometry.point(end)}, on a link to ", link, f",{along}")
     here = [part for part in parts.at(node) if part.kind is not PartKind.BODY]
     if there != owner:
         where = ""
@@ -139,7 +152,7 @@ def _wire(geometry: Geometry, wire: AddedWire) -> Pieces:
         where = f", where {others_words(here)} end{'s' * (len(here) == 1)},"
     else:
         where = f" at {geometry.point(end)}"
-    return ("a wire from ", Named("node", wire.position, there), where + along)
+    return (f"a {word} from ", Named("node", wire.position, there), where + along)
 
 
 def _items(geometry: Geometry, space: ScrewSpace, count: int) -> tuple[Pieces, ...]:
