@@ -12,6 +12,7 @@ from spaces_models import SHEETS, WIRES, on_sheets, on_wires
 
 import flexact
 from flexact import Model
+from flexact.advice.spaces.freedom import Freed
 from flexact.advice.spaces.spaces import spaces_of
 from flexact.text.advising.spaces import spaces_lines
 from flexact.text.sentences import plain
@@ -111,3 +112,23 @@ def test_what_is_wanted_stopped_and_impossible_is_said() -> None:
 def test_wires_say_where_they_end() -> None:
     text = words(on_wires(WIRES["guide with lower two parallel"]), "stage: translation z")
     assert re.search(r"a wire from the stage, where wire \d ends, along -?y", text)
+
+
+def test_a_declaration_that_is_taken_back_is_said() -> None:
+    model = on_wires(WIRES["guide with lower two parallel"])
+    model.independent("stage", "z")
+    text = words(model, "stage: rotation x")
+    assert "the declaration is taken back of: the stage along z" in text
+
+
+def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of very large mechanisms the core keeps only some of the motions."""
+    result = flexact.analyse(on_wires(WIRES["guide"]))
+    monkeypatch.setattr(Freed, "is_known", False)
+    assert spaces_of(result) is None
+    (line,) = spaces_lines(result, None)
+    assert "left out" in plain(line.head)
+    with pytest.raises(flexact.ModelError, match="motions, too many"):
+        spaces_of(result, "stage")
+    trusses = flexact.analyse("input_decks/paper/twelve_trusses.dat")
+    assert spaces_lines(trusses, spaces_of(trusses)) == ()

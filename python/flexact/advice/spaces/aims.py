@@ -10,8 +10,8 @@ import numpy as np
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
+from .families import SAME
 from .screw_space import ScrewSpace, complement
-from .screw_system import SAME
 
 #: Wanted motions that differ by less are one.
 _APART = 1.0e-3

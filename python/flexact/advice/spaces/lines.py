@@ -20,7 +20,7 @@ from ...core.arrays import FloatArray
 from ...result.screws import sense_of
 from .aims import Aim
 from .attachments import Attachment, Site
-from .screw_system import SAME
+from .families import SAME
 
 #: A line that is weaker than this, by its condition, is none.
 _WEAKEST = 100.0

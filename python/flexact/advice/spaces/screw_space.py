@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, floats
-from .families import Family
-from .screw_system import SAME, families_of, parted, span_of_lines
+from .families import SAME, Family
+from .screw_system import families_of, parted, span_of_lines
 
 
 @dataclass(frozen=True, eq=False)

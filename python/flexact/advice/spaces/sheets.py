@@ -19,12 +19,11 @@ from ..change import Change
 from ..proposal import Proposal
 from .aims import Aim
 from .attachments import Attachment, Site
-from .families import Family, FamilyKind
+from .families import SAME, Family, FamilyKind
 from .freedom import Freed
 from .lines import LINK
 from .placing import sheet_at
 from .screw_space import ScrewSpace
-from .screw_system import SAME
 from .trials import proposed
 
 #: How many sheets are proposed, and tried until so many are found.

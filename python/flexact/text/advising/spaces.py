@@ -12,11 +12,12 @@ from ...advice.proposal import Proposal
 from ...advice.spaces.families import Family, FamilyKind
 from ...advice.spaces.screw_space import ScrewSpace
 from ...advice.spaces.spaces import Spaces
+from ...advice.spaces.subjects import subjects_of
 from ...advice.spaces.wanted import Wanted
 from ...model.parts.parts import Part, PartKind, natural
 from ...result.result import Result
 from ...result.screws import ScrewKind
-from ..naming import in_words
+from ..naming import coordinate_in_words, in_words, named_element
 from ..places import (
     axis_words,
     direction_words,
@@ -32,9 +33,21 @@ from .screws import Geometry
 _HELD_BY_A_SHEET = 3
 
 
-def spaces_lines(result: Result, spaces: Spaces) -> tuple[Line, ...]:
-    """What a body can do, what holds it, and what may be added to it."""
-    return tuple(_lines(result, spaces))
+def spaces_lines(result: Result, spaces: Spaces | None) -> tuple[Line, ...]:
+    """What a body can do, what holds it, and what may be added to it.
+
+    Without spaces it is said why, where there are bodies after all.
+    """
+    if spaces is not None:
+        return tuple(_lines(result, spaces))
+    if not subjects_of(result):
+        return ()
+    return (
+        sentence(
+            "What a body can do was left out: the mechanism has so many motions, with nothing "
+            "declared, that not all of them are kept."
+        ),
+    )
 
 
 def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
@@ -80,6 +93,7 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
         yield sentence(_impossible(spaces))
     if not spaces.tried:
         yield sentence("The mechanism is so large that no wires were tried.")
+    yield from _taken_back(result, spaces)
     what = " and nothing that is wanted" if had else ""
     single = [each for each in spaces.proposals if len(each.change.wires) == 1]
     if single:
@@ -101,6 +115,17 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
             (f"To stop {which} of them{what}, add: ",),
             tuple(wire_in_words(result, each) for each in sheets),
         )
+
+
+def _taken_back(result: Result, spaces: Spaces) -> Iterator[Line]:
+    """Which declarations of what is not wanted go with the wires."""
+    changes = [proposal.change for proposal in spaces.proposals[:1]]
+    items: list[Pieces] = []
+    for change in changes:
+        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
+        items += [(named_element(result, element),) for element, _, _ in change.deformations]
+    if items:
+        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
 
 
 def _impossible(spaces: Spaces) -> str:
