@@ -128,7 +128,7 @@ def test_geometry_of_the_families() -> None:
     assert parallel(fold.direction, X)
     assert np.allclose(fold.point[2], 0.02, atol=1e-12)
     hinge = only(of("wires to two points").freedom, K.LINE)
-    below = np.array((0.0, 0.0, 0.0)) + (0.0, 0.0, -0.08)
+    below = np.array((0.0, 0.0, -0.08))
     assert parallel(hinge.direction, Z)
     assert np.allclose(np.cross(hinge.point - below, Z), 0.0, atol=1e-12)
 

@@ -16,10 +16,11 @@ from flexact import Model
 from flexact.advice.change import Change
 from flexact.advice.proposal import Proposal, Purpose
 from flexact.advice.spaces.families import FamilyKind
+from flexact.advice.spaces.placing import wire_along
 from flexact.advice.spaces.screw_space import ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
 from flexact.advice.spaces.wanted import Wanted
-from flexact.advice.spaces.wires import wire_along
+from flexact.model.parts.parts import PartKind
 from flexact.result.screws import ScrewKind
 
 X, Y, Z = np.eye(3)
@@ -49,6 +50,11 @@ def applied(model: Model, proposal: Proposal) -> flexact.Analysis:
     return made
 
 
+def stopped(proposal: Proposal) -> int:
+    """How many motions it is to stop: a wire one, a sheet three (Blanding)."""
+    return len(proposal.change.wires) + 3 * len(proposal.change.sheets)
+
+
 def at_middle(space: ScrewSpace, wanted: Wanted) -> np.ndarray:
     """A wanted motion about the middle of the body of another space."""
     if wanted.kind is ScrewKind.TRANSLATION:
@@ -60,11 +66,14 @@ def force_of(model: Model, proposal: Proposal, space: ScrewSpace) -> list[np.nda
     """The lines of the new wires, read off the changed model."""
     changed = proposal.change.apply(model.data)
     parts = flexact.analyse(changed).parts
-    names = [part for part in parts.all if part.name.startswith("new wire")]
     made = []
-    for part in names:
-        p, q = changed.positions[list(part.ends)]
-        made.append(space.line(p, q - p))
+    for part in parts.all:
+        if part.name.startswith(("new wire", "new sheet")):
+            p, q = changed.positions[list(part.ends)]
+            made.append(space.line(p, q - p))
+            if part.kind is PartKind.SHEET:
+                (sheet,) = proposal.change.sheets
+                made += [space.line(p, sheet.width), space.line(q, sheet.width)]
     return made
 
 
@@ -75,14 +84,16 @@ def test_each_wire_stops_one_motion_and_causes_no_self_stress(name: str) -> None
     assert found.unwanted == found.stoppable == found.freedom.dimension
     assert bool(found.proposals) == bool(found.unwanted)
     for proposal in found.proposals:
-        after, wires = applied(model, proposal), len(proposal.change.wires)
-        assert proposal.purpose is Purpose.ADD_WIRE
+        after = applied(model, proposal)
+        assert proposal.purpose is (
+            Purpose.ADD_SHEET if proposal.change.sheets else Purpose.ADD_WIRE
+        )
         assert proposal.condition >= 1.0
-        assert before.under_constrained - after.under_constrained == wires
+        assert before.under_constrained - after.under_constrained == stopped(proposal)
         assert after.over_constrained == before.over_constrained
         assert proposal.after.under_constrained == after.under_constrained
     if found.unwanted > 1:
-        assert len(found.proposals[-1].change.wires) == found.unwanted
+        assert max(len(each.change.wires) for each in found.proposals) == found.unwanted
 
 
 @pytest.mark.parametrize(
@@ -112,7 +123,7 @@ def test_wires_stop_nothing_that_is_wanted(name: str, wanted: list[str]) -> None
     assert found.stoppable == found.unwanted
     assert found.proposals
     for proposal in found.proposals:
-        after, count = applied(model, proposal), len(proposal.change.wires)
+        after, count = applied(model, proposal), stopped(proposal)
         assert before.under_constrained - after.under_constrained == count
         assert after.over_constrained == before.over_constrained
         then = spaces_of(after, "stage")
@@ -147,9 +158,7 @@ def test_a_wire_along_a_redundant_line_only_adds_a_self_stress(name: str) -> Non
     result, found = flexact.analyse(model), spaces(model)
     assert bool(found.redundant) == bool(found.constraint.dimension)
     for family in found.redundant:
-        if family.kind in (FamilyKind.PARALLELS, FamilyKind.EVERY):
-            point = found.constraint.about
-        elif family.kind is FamilyKind.ACROSS:
+        if family.kind in (FamilyKind.PARALLELS, FamilyKind.EVERY, FamilyKind.ACROSS):
             point = found.constraint.about
         else:
             point = family.points[0] if len(family.points) else family.point
@@ -204,7 +213,7 @@ def test_planar_wires() -> None:
     before = flexact.analyse(deck)
     for proposal in found.proposals:
         after = applied(deck, proposal)
-        assert before.under_constrained - after.under_constrained == len(proposal.change.wires)
+        assert before.under_constrained - after.under_constrained == stopped(proposal)
         assert after.over_constrained == before.over_constrained
 
 
@@ -235,8 +244,47 @@ def test_only_some_may_be_stoppable() -> None:
     assert (found.unwanted, found.stoppable) == (4, 3)
     assert max(len(each.change.wires) for each in found.proposals) == 3
     for proposal in found.proposals:
+        assert not proposal.change.sheets
         for wire in proposal.change.wires:
             assert np.allclose(np.subtract(wire.ground, wire.end)[:2], 0.0, atol=1e-12)
+
+
+# Sheets ------------------------------------------------------------------------
+
+
+def sheets_of(found: Spaces) -> list[Proposal]:
+    return [each for each in found.proposals if each.change.sheets]
+
+
+def test_a_sheet_in_its_plane_stops_three_motions_at_once() -> None:
+    """Hale, Blanding: a sheet in the plane z = 0 leaves translation z and rotations x and y."""
+    free = Model()
+    free.body([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0)], "stage")
+    texts = (
+        "translation z",
+        "rotation about (0, 0, 0) along x",
+        "rotation about (0, 0, 0) along y",
+    )
+    found = spaces(free, *(f"stage: {text}" for text in texts))
+    assert (found.unwanted, found.stoppable) == (3, 3)
+    (sheet,) = sheets_of(found)
+    (added,) = sheet.change.sheets
+    assert added.end[2] == added.ground[2] == added.width[2] == 0.0
+    after = applied(free, sheet)
+    assert (after.under_constrained, after.over_constrained) == (3, 0)
+
+
+def test_no_sheet_where_two_motions_are_unwanted_or_no_plane_is_free() -> None:
+    model = on_wires(WIRES["guide with lower two parallel"])
+    assert not sheets_of(spaces(model))
+    # No plane holds only lines that meet two skew lines.
+    free = Model()
+    free.body([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0)], "stage")
+    texts = ("rotation about (0, 0, 0) along x", "rotation about (0, 0, 0.05) along y")
+    skew = spaces(free, *(f"stage: {text}" for text in texts))
+    assert (skew.unwanted, skew.stoppable) == (4, 4)
+    assert skew.proposals
+    assert not sheets_of(skew)
 
 
 # Intent ------------------------------------------------------------------------
@@ -398,7 +446,7 @@ def test_in_the_plane_a_rotation_needs_no_direction() -> None:
 
 
 def test_two_choices_are_two_lines() -> None:
-    for name in MODELS:
+    for name in ("guide", "two skew wires", "one sheet", "helix"):
         found = spaces(MODELS[name])
         single = [each for each in found.proposals if len(each.change.wires) == 1]
         for one, other in itertools.combinations(single, 2):
@@ -413,5 +461,5 @@ def test_decks_of_the_repository_get_wires_that_work() -> None:
         before, found = flexact.analyse(deck), spaces_of(flexact.analyse(deck))
         for proposal in found.proposals if found is not None else ():
             after = applied(deck, proposal)
-            assert before.under_constrained - after.under_constrained == len(proposal.change.wires)
+            assert before.under_constrained - after.under_constrained == stopped(proposal)
             assert after.over_constrained == before.over_constrained

@@ -143,8 +143,8 @@ def test_nothing_and_everything() -> None:
 
 
 def test_a_small_offset_is_none_and_a_larger_one_is_told() -> None:
-    """What is off by less than 1e-5 of the length is not told apart."""
-    one = space(screw(X, 0.0), screw(Y, 0.0, (0, 0, 1e-7)))
+    """What is off by less than 1e-4 of the length is not told apart."""
+    one = space(screw(X, 0.0), screw(Y, 0.0, (0, 0, 1e-6)))
     other = space(screw(X, 0.0), screw(Y, 0.0, (0, 0, 1e-3)))
     assert [each.kind for each in one.families] == [K.PENCIL]
     assert [each.kind for each in other.families] == [K.LINE, K.LINE]

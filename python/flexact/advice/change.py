@@ -12,12 +12,13 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core.elements import Class
 from ..model.data import ModelData
+from ..model.handles import Node
 from ..model.model import Model
 from ..model.names import part_name
 from ..model.variation import with_classes, with_positions, with_vectors
 
-#: What a wire that is added is called.
-_NEW_WIRE = "new wire"
+#: What wires and sheets that are added are called.
+_NEW_WIRE, _NEW_SHEET = "new wire", "new sheet"
 
 
 class AddedWire(NamedTuple):
@@ -35,6 +36,18 @@ class AddedWire(NamedTuple):
     """What the link is called where the body is a single point; empty where it has a name."""
 
 
+class AddedSheet(NamedTuple):
+    """A sheet from a body to the ground; but for the width as of a wire."""
+
+    position: int
+    orientation: int
+    end: tuple[float, float, float]
+    ground: tuple[float, float, float]
+    width: tuple[float, float, float]
+    """Direction from edge to edge."""
+    body: str = ""
+
+
 @dataclass(frozen=True)
 class Change(Frozen):
     """What is done to a mechanism; each part of it may be empty.
@@ -48,6 +61,7 @@ class Change(Frozen):
             the class that it gets.
         places: Number of a position node and where it is put, (x, y, z) [m].
         wires: Wires that are added, from a body to the ground.
+        sheets: Sheets that are added likewise.
         vectors: Number of an element and the vector, y vector or axis, that it gets (x, y, z).
     """
 
@@ -55,6 +69,7 @@ class Change(Frozen):
     coordinates: tuple[tuple[int, str, Class], ...] = ()
     places: tuple[tuple[int, tuple[float, float, float]], ...] = ()
     wires: tuple[AddedWire, ...] = ()
+    sheets: tuple[AddedSheet, ...] = ()
     vectors: tuple[tuple[int, tuple[float, float, float]], ...] = ()
 
     def apply(self, data: ModelData) -> Model:
@@ -78,21 +93,29 @@ class Change(Frozen):
             )
         model = Model.from_data(data)
         for wire in self.wires:
-            _add(model, data, wire)
+            end, ground = _ends(model, data, wire)
+            model.wire(end, ground, name=_free_name(model, _NEW_WIRE))
+            model.fix(ground)
+        for sheet in self.sheets:
+            end, ground = _ends(model, data, sheet)
+            model.sheet(end, ground, sheet.width, name=_free_name(model, _NEW_SHEET))
+            model.fix(ground)
         return model
 
 
-def _add(model: Model, data: ModelData, wire: AddedWire) -> None:
-    """Add a wire, with a link where the body has no node at its end."""
+def _ends(model: Model, data: ModelData, added: AddedWire | AddedSheet) -> tuple[Node, Node]:
+    """Both ends of a wire or sheet, with a link where the body has no node at its own."""
     count = 2 if data.planar else 3
-    own = data.arrays.node_value[:count, data.node_index[wire.position]]
-    end = model.handle(wire.position, wire.orientation)
-    if not np.array_equal(own, wire.end[:count]):
-        place = model.node(wire.end[:count])
-        model.body([end, place], name=wire.body)
+    own = data.arrays.node_value[:count, data.node_index[added.position]]
+    end = model.handle(added.position, added.orientation)
+    if not np.array_equal(own, added.end[:count]):
+        place = model.node(added.end[:count])
+        model.body([end, place], name=added.body)
         end = place
-    ground = model.node(wire.ground[:count])
+    return end, model.node(added.ground[:count])
+
+
+def _free_name(model: Model, word: str) -> str:
     taken = {part_name(name) for name in model.element_names}
-    names = (_NEW_WIRE if k == 1 else f"{_NEW_WIRE} {k}" for k in itertools.count(1))
-    model.wire(end, ground, name=next(name for name in names if name not in taken))
-    model.fix(ground)
+    names = (word if k == 1 else f"{word} {k}" for k in itertools.count(1))
+    return next(name for name in names if name not in taken)

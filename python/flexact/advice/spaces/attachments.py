@@ -52,7 +52,8 @@ class Site:
         self._values = result.given.arrays.node_value[:3].T
 
     @property
-    def _step(self) -> float:
+    def near(self) -> float:
+        """Points nearer than this are one [m]."""
         return _SAME_PLACE * self.result.characteristic_length
 
     @cached_property
@@ -61,7 +62,7 @@ class Site:
         made: list[Attachment] = []
         for node in sorted(self.subject.positions, key=self._key):
             place = self._values[node]
-            if all(np.linalg.norm(place - other.place) > self._step for other in made):
+            if all(np.linalg.norm(place - other.place) > self.near for other in made):
                 made.append(Attachment(place, node, self._turning(node), True, self._key(node)))
         return tuple(made)
 
@@ -84,7 +85,7 @@ class Site:
         made: list[Attachment] = []
         for place in places:
             there = [each.place for each in (*self.own, *made)]
-            if all(np.linalg.norm(place - other) > self._step for other in there):
+            if all(np.linalg.norm(place - other) > self.near for other in there):
                 base = min(self.own, key=lambda each: self._far(each, place))
                 key = ((True,), (), (len(made),))
                 made.append(Attachment(place, base.position, base.orientation, False, key))
@@ -95,14 +96,14 @@ class Site:
         return [each.place for each in self.own]
 
     def _far(self, one: Attachment, place: FloatArray) -> tuple[object, ...]:
-        return round(float(np.linalg.norm(one.place - place)) / self._step), one.key
+        return round(float(np.linalg.norm(one.place - place)) / self.near), one.key
 
     def _key(self, node: int) -> tuple[object, ...]:
         """Named points first, then those where named parts end, then by place."""
         parts = self.result.parts
         name = parts.name_of_point(node)
         here = [part.name for part in parts.at(node) if part.kind is not PartKind.BODY]
-        place = tuple((np.round(self._values[node] / self._step) + 0.0).tolist())
+        place = tuple((np.round(self._values[node] / self.near) + 0.0).tolist())
         return (not name,), natural(name or next(iter(here), "")), place
 
     def _turning(self, position: int) -> int:

@@ -15,6 +15,9 @@ import numpy as np
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 
+#: Directions off by so little [rad], or lines by this part of the characteristic length, are one.
+SAME = 1.0e-4
+
 
 class FamilyKind(str, Enum):
     """What a family is."""

@@ -13,11 +13,11 @@ from ...result.freedoms import Freedom
 from ...result.result import Result
 from ...result.screws import ScrewKind, screw_of
 from ..change import Change
+from .aims import Aim
 from .freedom import Freed
 from .screw_space import ScrewSpace
 from .subjects import Subject
 from .wanted import Wanted, Written, wanted_of
-from .wires import Aim
 
 #: A body whose part in a motion is less stands still.
 _STILL = 1.0e-6

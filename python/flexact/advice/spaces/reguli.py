@@ -12,13 +12,11 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...result.screws import sense_of
-from .families import Family, FamilyKind
+from .families import SAME, Family, FamilyKind
 from .flat_families import line_of
 
 #: How many lines of it are given.
 _SAMPLES = 12
-#: Beside this a direction is none.
-_SAME = 1.0e-5
 
 
 def regulus_of(rows: FloatArray, values: FloatArray, vectors: FloatArray) -> Family:
@@ -31,7 +29,7 @@ def regulus_of(rows: FloatArray, values: FloatArray, vectors: FloatArray) -> Fam
     """
     points, directions = _samples(rows, values, vectors)
     _, sizes, right = np.linalg.svd(rows[:, :3])
-    if sizes[-1] > _SAME:
+    if sizes[-1] > SAME:
         point, axis = _middle(rows)
         return Family(
             FamilyKind.REGULUS, point, direction=axis, points=points, directions=directions
@@ -56,7 +54,7 @@ def _samples(
     points, directions = [], []
     for angle in 2.0 * np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES:
         screw = np.cos(angle) * one + np.sin(angle) * other + scaled[lone]
-        if np.linalg.norm(screw[:3]) > _SAME * np.linalg.norm(screw):
+        if np.linalg.norm(screw[:3]) > SAME * np.linalg.norm(screw):
             point, direction, _ = line_of(screw)
             points.append(point)
             directions.append(direction)

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, floats
-from .families import Family
-from .screw_system import SAME, families_of, parted, span_of_lines
+from .families import SAME, Family
+from .screw_system import families_of, parted, span_of_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +99,11 @@ class ScrewSpace(Frozen):
     def has(self, screw: FloatArray, limit: float = SAME) -> bool:
         """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space."""
         return self.distance(screw) <= limit
+
+    def sine_to(self, other: ScrewSpace) -> float:
+        """The sine of the largest angle of this space with another one about the same point."""
+        rest = self.scaled - (self.scaled @ other.scaled.T) @ other.scaled
+        return float(np.linalg.norm(rest, 2)) if rest.size else 0.0
 
     def nearest(self, screw: FloatArray) -> FloatArray:
         """(6,) the part of a twist or a wrench that is in the space."""

@@ -27,12 +27,10 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...result.screws import ROUNDING, sense_of
-from .families import Family, FamilyKind
+from .families import SAME, Family, FamilyKind
 from .flat_families import directions_of, flat_family, line_of
 from .reguli import regulus_of
 
-#: Directions off by so little, or points by this part of the characteristic length, are one.
-SAME = 1.0e-5
 _ORDER = {kind: place for place, kind in enumerate(FamilyKind)}
 #: How many lines of a congruence are given.
 _SAMPLES = 12
@@ -174,21 +172,30 @@ def _complex(free: FloatArray, lined: FloatArray) -> Family:
 
 
 def _screws(lined: FloatArray, spanned: FloatArray, count: int) -> list[Family]:
-    """The principal screws of a space, where lines and directions do not span it."""
-    rank = int(np.sum(np.linalg.svd(spanned, compute_uv=False) > SAME)) if len(spanned) else 0
-    if rank == count:
+    """The principal screws of a space that its lines and directions do not span."""
+    if _rank(spanned) == count:
         return []
     # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
-    size = np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T)
-    back = np.linalg.inv(size)
+    back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
     form = lined[:, :3] @ lined[:, 3:].T
     vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)[1]
     made = []
     for row in vectors.T @ back @ lined:
-        point, direction, pitch = line_of(row)
-        if abs(pitch) > SAME:
-            made.append(Family(FamilyKind.SCREW, point, direction, pitch=pitch))
+        more = np.concatenate((spanned, row[None]))
+        if _rank(more) > _rank(spanned):
+            spanned = more
+            point, direction, pitch = line_of(row)
+            kind = FamilyKind.SCREW if abs(pitch) > SAME else FamilyKind.LINE
+            made.append(Family(kind, point, direction, pitch=pitch * (kind is FamilyKind.SCREW)))
     return made
+
+
+def _rank(rows: FloatArray) -> int:
+    """How many of some rows are independent."""
+    sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+    if not len(rows):
+        return 0
+    return int(np.sum(np.linalg.svd(rows / sizes, compute_uv=False) > SAME))
 
 
 def _placed(family: Family, about: FloatArray, length: float) -> Family:

@@ -12,14 +12,18 @@ from ...diagnostics.errors import model_error
 from ...model.parts.parts import Part
 from ...result.carriers import Joint
 from ...result.result import Result
+from ..change import Change
 from ..proposal import Proposal
+from .aims import Aim
+from .attachments import Site
 from .families import Family
 from .freedom import Freed
 from .intent import declared_of, not_wanted
 from .screw_space import ScrewSpace
+from .sheets import sheets_for
 from .subjects import Subject, rank_of, subject_named, subjects_of
 from .wanted import Wanted, read, wanted_of
-from .wires import Aim, wires_for
+from .wires import wires_for
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +38,7 @@ class Spaces(Frozen):
         unwanted: In how many further ways it moves.
         stoppable: How many of these wires can stop without stopping anything that is wanted.
         proposals: Wires that do so, each analysed: first single ones, then, where more are
-            needed, a set of them that stops all that can be stopped.
+            needed, a set of them that stops all that can be stopped, and sheets that stop three.
         tried: Whether wires were tried: of mechanisms that are not large.
     """
 
@@ -99,10 +103,14 @@ def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = (
     meant = tuple(wanted_of(result, freedom, each) for each in written)
     meant = meant or declared_of(result, subject, freedom)
     aim = Aim.of(freedom, [each.twist for each in meant if each.is_free])
-    besides = not_wanted(result, subject, aim) if written else None
+    besides = not_wanted(result, subject, aim) if written else Change()
+    site = Site(freed.result, subject)
     return Spaces(
         *(subject, freedom, freedom.reciprocal, meant, len(aim.unwanted), aim.stoppable),
-        *((wires_for(freed, subject, aim, besides), True) if is_small else ((), False)),
+        (*wires_for(freed, site, aim, besides), *sheets_for(freed, site, aim, besides))
+        if is_small
+        else (),
+        is_small,
     )
 
 

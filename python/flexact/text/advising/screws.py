@@ -7,18 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ...advice.spaces.families import Family, FamilyKind
+from ...advice.spaces.families import SAME, Family, FamilyKind
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.parts.parts import Part, PartKind, natural
 from ...result.outcome import Outcome
 from ..motions import line_words
 from ..places import axis_words, listed, part_words, place_words, with_article
-
-#: What is nearer than this part of the characteristic length lies there.
-_THERE = 1.0e-5
-#: Directions that differ by less are one.
-_ALONG = 1.0e-5
 
 
 class Geometry:
@@ -98,7 +93,7 @@ class Geometry:
 
     @property
     def _near(self) -> float:
-        return _THERE * self.outcome.characteristic_length
+        return SAME * self.outcome.characteristic_length
 
     @cached_property
     def _named(self) -> tuple[tuple[str, FloatArray], ...]:
@@ -137,7 +132,7 @@ class Geometry:
             ends = self._values[list(part.ends)]
             if part.kind is PartKind.HINGE:
                 axis = self.outcome.given.frames.frame[part.elements[0]][:, 0]
-                if abs(axis @ direction) > 1.0 - _ALONG and self._is_on(ends[0], point, direction):
+                if abs(axis @ direction) > 1.0 - SAME and self._is_on(ends[0], point, direction):
                     return f"the axis of {part_words(part)}"
             elif all(self._is_on(end, point, direction) for end in ends):
                 return f"the line of {part_words(part)}"
@@ -164,7 +159,7 @@ class Geometry:
             frame = self.outcome.given.frames.frame[part.elements[0]]
             own = np.cross(frame[:, 0], frame[:, int(self.outcome.parts.wide[part.elements[0]])])
             off = (self._values[list(part.ends)] - point) @ normal
-            if abs(own @ normal) > 1.0 - _ALONG and np.abs(off).max() <= self._near:
+            if abs(own @ normal) > 1.0 - SAME and np.abs(off).max() <= self._near:
                 return f"the plane of {part_words(part)}"
         across = axis_words(normal)
         if across in ("x", "y", "z"):

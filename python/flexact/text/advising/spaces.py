@@ -7,16 +7,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...advice.change import AddedWire
+from ...advice.change import AddedSheet, AddedWire
 from ...advice.proposal import Proposal
 from ...advice.spaces.families import Family, FamilyKind
 from ...advice.spaces.screw_space import ScrewSpace
 from ...advice.spaces.spaces import Spaces
+from ...advice.spaces.subjects import subjects_of
 from ...advice.spaces.wanted import Wanted
 from ...model.parts.parts import Part, PartKind, natural
 from ...result.result import Result
 from ...result.screws import ScrewKind
-from ..naming import in_words
+from ..naming import coordinate_in_words, in_words, named_element
 from ..places import (
     axis_words,
     direction_words,
@@ -28,10 +29,25 @@ from ..places import (
 from ..sentences import Line, Named, Pieces, sentence
 from .screws import Geometry
 
+#: How many motions a sheet stops.
+_HELD_BY_A_SHEET = 3
 
-def spaces_lines(result: Result, spaces: Spaces) -> tuple[Line, ...]:
-    """What a body can do, what holds it, and what may be added to it."""
-    return tuple(_lines(result, spaces))
+
+def spaces_lines(result: Result, spaces: Spaces | None) -> tuple[Line, ...]:
+    """What a body can do, what holds it, and what may be added to it.
+
+    Without spaces it is said why, where there are bodies after all.
+    """
+    if spaces is not None:
+        return tuple(_lines(result, spaces))
+    if not subjects_of(result):
+        return ()
+    return (
+        sentence(
+            "What a body can do was left out: the mechanism has so many motions, with nothing "
+            "declared, that not all of them are kept."
+        ),
+    )
 
 
 def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
@@ -77,10 +93,11 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
         yield sentence(_impossible(spaces))
     if not spaces.tried:
         yield sentence("The mechanism is so large that no wires were tried.")
+    yield from _taken_back(result, spaces)
+    what = " and nothing that is wanted" if had else ""
     single = [each for each in spaces.proposals if len(each.change.wires) == 1]
     if single:
         which = "To stop it" if count == 1 else "To stop one of them"
-        what = " and nothing that is wanted" if had else ""
         yield Line(
             (f"{which}{what}, add: ",),
             tuple(wire_in_words(result, each) for each in single),
@@ -91,6 +108,24 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
             which = "all" if many == count else in_words(many)
             items = tuple(_wire(geometry, wire) for wire in proposal.change.wires)
             yield Line((f"To stop {which} of them, add all of: ",), items)
+    sheets = [each for each in spaces.proposals if each.change.sheets]
+    if sheets:
+        which = "all" if count == _HELD_BY_A_SHEET else "three"
+        yield Line(
+            (f"To stop {which} of them{what}, add: ",),
+            tuple(wire_in_words(result, each) for each in sheets),
+        )
+
+
+def _taken_back(result: Result, spaces: Spaces) -> Iterator[Line]:
+    """Which declarations of what is not wanted go with the wires."""
+    changes = [proposal.change for proposal in spaces.proposals[:1]]
+    items: list[Pieces] = []
+    for change in changes:
+        items += [coordinate_in_words(result, node, name) for node, name, _ in change.coordinates]
+        items += [(named_element(result, element),) for element, _, _ in change.deformations]
+    if items:
+        yield Line(("As it is not wanted, the declaration is taken back of: ",), tuple(items))
 
 
 def _impossible(spaces: Spaces) -> str:
@@ -109,9 +144,10 @@ def _impossible(spaces: Spaces) -> str:
 
 
 def wire_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """The wires of a proposal: where they end on the body, and along what they run."""
-    geometry = Geometry(result)
-    wires = [_wire(geometry, wire) for wire in proposal.change.wires]
+    """The wires or the sheet of a proposal: where they end on the body, along what they run."""
+    geometry, change = Geometry(result), proposal.change
+    added: list[AddedWire | AddedSheet] = [*change.wires, *change.sheets]
+    wires = [_wire(geometry, each) for each in added]
     made: list[Named | str] = []
     for place, wire in enumerate(wires):
         before = "" if not place else " and " if place == len(wires) - 1 else ", "
@@ -119,19 +155,21 @@ def wire_in_words(result: Result, proposal: Proposal) -> Pieces:
     return tuple(made)
 
 
-def _wire(geometry: Geometry, wire: AddedWire) -> Pieces:
+def _wire(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
     """Such as "a wire from the stage, where sheet 1 ends, along y"."""
     result = geometry.outcome
     parts = result.parts
     node = parts.data.node_index[wire.position]
     end, ground = np.array(wire.end), np.array(wire.ground)
-    along = f" along {direction_words(ground - end)}"
+    along, word = f" along {direction_words(ground - end)}", "wire"
+    if isinstance(wire, AddedSheet):
+        along, word = f"{along}, wide along {axis_words(np.array(wire.width))}", "sheet"
     body = parts.body_at.get(parts.data.node_index[wire.orientation])
     owner = "" if body is None else part_words(parts.of_body(body))
     there = place_words(parts, node)
     if not np.array_equal(parts.data.arrays.node_value[:3, node], end):
         link = Named("node", wire.position, owner or there)
-        return (f"a wire from {geometry.point(end)}, on a link to ", link, f",{along}")
+        return (f"a {word} from {geometry.point(end)}, on a link to ", link, f",{along}")
     here = [part for part in parts.at(node) if part.kind is not PartKind.BODY]
     if there != owner:
         where = ""
@@ -139,7 +177,7 @@ def _wire(geometry: Geometry, wire: AddedWire) -> Pieces:
         where = f", where {others_words(here)} end{'s' * (len(here) == 1)},"
     else:
         where = f" at {geometry.point(end)}"
-    return ("a wire from ", Named("node", wire.position, there), where + along)
+    return (f"a {word} from ", Named("node", wire.position, there), where + along)
 
 
 def _items(geometry: Geometry, space: ScrewSpace, count: int) -> tuple[Pieces, ...]:
