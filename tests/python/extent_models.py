@@ -143,3 +143,54 @@ def platform_on_equal_legs(angles: Sequence[float], radii: Sequence[float]) -> M
         ends.append((x, y, 1.0))
     model.body(ends, name="platform")
     return model
+
+
+def loop(axes: Sequence[Sequence[float]], places: Sequence[Sequence[float]]) -> Model:
+    """Rigid bodies in a closed loop, the ground among them, with a hinge at each place."""
+    model = Model()
+    joints = [model.node(*place) for place in places]
+    model.fix(joints[0])
+    behind = model.hinge(joints[0], tuple(axes[0]))
+    for joint, axis in zip(joints[1:], axes[1:], strict=True):
+        model.rigid(behind, joint)
+        behind = model.hinge(joint, tuple(axis))
+    model.fix(behind)
+    return model
+
+
+def spherical_loop(degrees: Sequence[float]) -> Model:
+    """Hinges in a plane through one point: a flat vertex of an origami."""
+    axes = [(math.cos(a), math.sin(a), 0.0) for a in np.radians(degrees).tolist()]
+    return loop(axes, axes)
+
+
+def loop_across_a_line() -> Model:
+    """Six hinges whose axes meet the z axis: it alone is reciprocal to all of them."""
+    axes = np.array(
+        [[0.5, 0.3, 0.8], [-0.6, 0.7, 0.2], [0.1, -0.9, 0.4], [0.8, 0.5, -0.3], [0.2, 0.6, 0.7]]
+        + [[-0.4, 0.3, 0.9]]
+    )
+    heights = np.array([0.0, 0.5, -0.7, 1.1, -0.3, 0.8])
+    far = np.array([1.0, 1.3, 0.8, 1.1, 0.9, 1.2])
+    places = heights[:, None] * (0.0, 0.0, 1.0) + far[:, None] * axes
+    return loop(axes.tolist(), places.tolist())
+
+
+def orthogonal_bricard() -> Model:
+    """Six hinges, each at right angles to the next, on the edges of a cube (Bricard 1927)."""
+    places = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1), (0, 0, 1)]
+    # Each link is the common normal of its axes, so that the axes are across two edges.
+    ways = np.diff(np.array([*places, places[0]]), axis=0)
+    axes = [np.cross(ways[k - 1], ways[k]) for k in range(6)]
+    return loop([axis.tolist() for axis in axes], places)
+
+
+def third_order(height: float) -> Model:
+    """The planar pair of third order, its last joint fixed at some height.
+
+    C turns about A(0, 0) at radius 1 and about D(0, height): after a share t the circles are
+    apart by t**2 |1 - 1/(1 - height)| / 2, by which A moves across its two bars in a line. So
+    the least strain grows as t**4, and is zero where both are one circle, of height 0.
+    """
+    places = [(-1, 0), (1, 0), (0, height), (0, 0), (0, 1)]
+    return bars(places, [(0, 3), (1, 3), (3, 4), (4, 2)], (0, 1, 2), planar=True)

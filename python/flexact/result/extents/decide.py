@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+
 import numpy as np
 
+from ...base.loading import load
 from ...core.arrays import FloatArray
 from ..spaces import Spaces
 from .components import Component, components_of
@@ -32,10 +35,12 @@ def extents_of(spaces: Spaces) -> Extents:
         return Extents((extent,) * many, None)
     felt, free = components_of(spaces)
     told = _told_in(spaces, felt)
-    decided = [
-        _of_component(spaces, component, mine, k < _MOST_COMPONENTS)
-        for k, (component, mine) in enumerate(zip(felt, told, strict=True))
-    ]
+    # Matrices are so small that more threads would slow them down.
+    with load("threadpoolctl").threadpool_limits(1) if felt else nullcontext():
+        decided = [
+            _of_component(spaces, component, mine, k < _MOST_COMPONENTS)
+            for k, (component, mine) in enumerate(zip(felt, told, strict=True))
+        ]
     parts: list[list[Extent]] = [[_FREE] for _ in range(many)]
     for each in decided:
         for k, extent in each.motions.items():

@@ -16,10 +16,12 @@ from ..following.follow import TRUE
 from .reduced import Here, Reduced, across
 
 #: How far off, from the reference, farther, and from the positions that were found.
-_OFF, _FAR, _NEAR = 0.03, 0.1, 2.0e-3
+_OFF, _FAR, _NEAR = 0.03, 0.1, 5.0e-4
 #: Of that a position has come back to the reference where no more than the first part is left,
 #: and has not where the second is; between them it is open.
-_BACK, _AWAY = 0.1, 0.3
+_BACK, _AWAY = 0.1, 0.15
+#: How far other motions may have gone beside those that are given, as a part of them.
+_BESIDE = 0.3
 #: Strains up to here are rounding.
 _ROUNDING = 1.0e-14
 #: Directions are independent where a singular value is above the second part of the largest.
@@ -50,7 +52,7 @@ def is_without_strain(reduced: Reduced, cone: FloatArray) -> bool:
         found = reduced.least(start, base, share)
         if found is None or found.strain > TRUE / 10.0:
             return False
-        if _norm(found.shares - start) > _AWAY * share:
+        if _norm(found.shares - start) > _BESIDE * share:
             return False
     return True
 
@@ -67,34 +69,38 @@ def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -
     random = np.random.default_rng(width)
     starts = [sign * each for each in also for sign in (1.0, -1.0)]
     starts += [cone @ each for each in random.standard_normal((2 * width + 4, width))]
-    dimension, is_open, looked_at = 0, False, 0
+    dimension, is_open, looked_at, unclear, lost = 0, False, 0, 0, 0
     lines: list[FloatArray] = []
     for start in starts:
         found = reduced.least(_OFF * start / np.linalg.norm(start), np.eye(many), _OFF)
         far = np.inf if found is None else _norm(found.shares) / _OFF
         if far <= _BACK:
             continue
-        if found is None or far <= _AWAY or found.strain > _ROUNDING:
+        if found is None or found.strain > _ROUNDING:
+            lost += 1
+            continue
+        if far <= _AWAY:
             is_open = True
             continue
         if looked_at == _MOST_LOOKED_AT:
             break
         looked_at += 1
         here = _dimension_at(reduced, found, random)
-        is_open |= here is None
+        unclear += here is None
         dimension = max(dimension, here or 0)
         if here == 1:
             lines.append(_refined(reduced, found.shares))
         if dimension == width:
             return Near(width, tuple(lines))
+    is_open |= 2 * unclear > looked_at or 2 * lost > len(starts)
     return Near(None if is_open else dimension, tuple(lines))
 
 
 def _refined(reduced: Reduced, gone: FloatArray) -> FloatArray:
     """(N,) the direction in which a path begins that has gone somewhere, of unit norm."""
     for share in (0.1, 0.1, 0.1):
-        found = reduced.least(share * gone, np.eye(gone.size), _AWAY * _norm(share * gone))
-        if found is None or _norm(found.shares - share * gone) > _AWAY * _norm(share * gone):
+        found = reduced.least(share * gone, np.eye(gone.size), _BESIDE * _norm(share * gone))
+        if found is None or _norm(found.shares - share * gone) > _BESIDE * _norm(share * gone):
             break
         gone = found.shares
     return np.asarray(gone / np.linalg.norm(gone))

@@ -142,8 +142,9 @@ class Judge:
     def _dimension(
         self, motions: dict[int, Extent], vectors: dict[int, FloatArray]
     ) -> tuple[int | None, tuple[Branch, ...]]:
-        if self._is_indefinite and self.motions > 2:
-            return self.motions - 1, ()
+        if self._is_indefinite:
+            lines = _lines_of(self.forms.matrix[0]) if self.motions == 2 else ()
+            return self.motions - 1, branches_of(lines, vectors)
         if self.reduced is None:
             return None, ()
         basis = self.cone.basis
@@ -153,9 +154,17 @@ class Judge:
             return None, ()
         units = [each / np.linalg.norm(each) for each in vectors.values()]
         near = positions_near(self.reduced, basis, units)
-        dimension = self.motions - 1 if self._is_indefinite else near.dimension
+        dimension = near.dimension
         if dimension == 0 and any(each.kind is Kind.FINITE for each in motions.values()):
             dimension = None
         if dimension != 1 or any(each.kind is Kind.FINITE for each in motions.values()):
             return dimension, ()
         return dimension, branches_of(near.lines, vectors)
+
+
+def _lines_of(form: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Both directions, (2,) each, in which an indefinite form of two motions is zero."""
+    values, vectors = np.linalg.eigh(form)
+    one, other = np.sqrt(np.abs(values[::-1])).tolist()
+    lines = [vectors @ np.array([one, sign * other]) for sign in (1.0, -1.0)]
+    return lines[0] / np.linalg.norm(lines[0]), lines[1] / np.linalg.norm(lines[1])

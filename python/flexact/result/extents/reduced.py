@@ -20,6 +20,8 @@ from .felt import Felt
 _MOST_STEPS = 14
 #: A correction below this is rounding, where it no longer gets smaller.
 _SETTLED, _ROUNDING, _SHRINKS = 1.0e-15, 1.0e-10, 0.7
+#: What is left of g where it is zero, and where that may be rounding, so that steps have to gain.
+_ZERO, _ROUNDED, _GAIN_IN_ROUNDING = 1.0e-18, 1.0e-15, 0.5
 #: The steps to the least of g: how many, their damping times its square, and what ends them.
 _MOST_DESCENTS, _DAMPING, _MOST_DAMPING, _GAIN = 100, 1.0, 1.0e12, 1.0e-9
 
@@ -100,11 +102,12 @@ class Reduced:
             return here
         for _ in range(_MOST_DESCENTS):
             best = float(here.left @ here.left)
-            if best == 0.0 or damping > _MOST_DAMPING:
+            if best <= _ZERO**2 or damping > _MOST_DAMPING:
                 break
             u, s, vt = np.linalg.svd(here.slope @ basis, full_matrices=False)
             along, there = u.T @ here.left, None
-            while damping <= _MOST_DAMPING:
+            most = _MOST_DAMPING if best > _ROUNDED**2 else 64.0 * damping
+            while damping <= most:
                 factor = s / (s**2 + damping * best + np.finfo(float).tiny)
                 factor[np.abs(factor * along) > reach] = 0.0
                 change = -basis @ (vt.T @ (factor * along))
@@ -116,7 +119,7 @@ class Reduced:
                 break
             gain = 1.0 - float(there.left @ there.left) / best
             here, damping = there, max(damping / 8.0, 1.0e-12)
-            if gain < _GAIN:
+            if gain < (_GAIN if best > _ROUNDED**2 else _GAIN_IN_ROUNDING):
                 break
         return here
 
