@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from counted_sets import releases_counted, self_stresses
 from known_models import folded_sheet, ring, twelve_trusses
 from random_models import framework, mechanism
 from reference_decks import NAMES, text_of, transform
@@ -16,65 +17,15 @@ from turned_elements import turned
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.advice.proposal import Proposal, Purpose
+from flexact.advice.proposal import Purpose
 from flexact.advice.releases.releases import releases_of
-from flexact.core import calls
-from flexact.core.elements import Class, NodeKind
-from flexact.model.data import ModelData
+from flexact.core.elements import Class
 from flexact.text.advising.releases import release_in_words
 from flexact.text.sentences import Named, plain
-
-#: More sets than these are not counted one by one.
-_MOST = 40_000
-#: Singular values below this part of the largest are zero: where tests count, there is a gap.
-_ZERO = 1.0e-9
 
 
 def of_deck(name: str) -> Analysis:
     return analyse(flexact.read_text(text_of(name), name))
-
-
-def jacobian(data: ModelData) -> tuple[np.ndarray, np.ndarray]:
-    """D(c) of a model as it stands, without what is condensed, and which rows are fixed."""
-    arrays = data.arrays
-    whole = calls.assemble(data.packed, arrays.node_value, np.zeros(arrays.element_number.size))
-    full = np.zeros((6 * arrays.element_number.size, 3 * arrays.node_number.size))
-    np.add.at(full, (whole.row_of, whole.column_of), whole.value)
-    deformation = arrays.deformation_class.T.ravel()
-    rows = np.isin(deformation, (Class.FIXED, Class.INDEPENDENT))
-    columns = arrays.coordinate_class.T.ravel() == Class.DEPENDENT
-    turns = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)[columns]
-    chosen = full[np.ix_(rows, columns)]
-    size = float(np.ptp(arrays.node_value[:3], axis=1).max()) or 1.0
-    chosen[:, turns] /= size
-    norms = np.linalg.norm(chosen, axis=1, keepdims=True)
-    return chosen / np.where(norms > 0.0, norms, 1.0), deformation[rows] == Class.FIXED
-
-
-def rank(matrix: np.ndarray) -> int:
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return int(np.count_nonzero(values > _ZERO * values.max(initial=0.0)))
-
-
-def counted(data: ModelData) -> int | None:
-    """How many sets there are, block by block of the left null space by numpy."""
-    matrix, is_fixed = jacobian(data)
-    size = matrix.shape[0] - rank(matrix)
-    if not size:
-        return 0
-    space = np.linalg.svd(matrix)[0][:, matrix.shape[0] - size :]
-    able = np.flatnonzero(is_fixed & (np.linalg.norm(space, axis=1) > _ZERO))
-    if math.comb(able.size, size) > _MOST:
-        return None
-    sets = np.array(list(combinations(able.tolist(), size)), np.int64).reshape(-1, size)
-    values = np.linalg.svd(space[sets], compute_uv=False)[:, -1:]
-    return int(np.count_nonzero(values > _ZERO))
-
-
-def self_stresses(data: ModelData, proposal: Proposal) -> int:
-    """How many are left of a model once it is changed, by numpy."""
-    matrix, _ = jacobian(proposal.change.apply(data).data)
-    return matrix.shape[0] - rank(matrix)
 
 
 def test_the_twelve_trusses_have_twelve_releases() -> None:
@@ -117,12 +68,12 @@ def test_counts_that_follow_by_hand(name: str, size: int, count: int) -> None:
 def test_of_every_deck_the_count_is_right_and_the_sets_work(name: str) -> None:
     analysis = of_deck(name)
     releases = releases_of(analysis)
-    truth = counted(analysis.given)
+    truth = releases_counted(analysis.given)
     assert truth is None or releases.count == truth
     assert bool(releases.sets) == (releases.count != 0)
     for proposal in (*releases.sets, *releases.supports):
         assert proposal.purpose is Purpose.RELEASE
-        assert self_stresses(analysis.given, proposal) == 0
+        assert self_stresses(proposal.change.apply(analysis.given).data) == 0
         assert proposal.condition >= 1.0 - 1.0e-9 or proposal in releases.supports
     for proposal in releases.sets:
         assert len(proposal.change.deformations) == releases.size
@@ -142,7 +93,7 @@ def test_of_random_models_the_count_is_right(seed: int) -> None:
             analysis = analyse(made)
         except flexact.ModelError:
             continue
-        truth = counted(analysis.given)
+        truth = releases_counted(analysis.given)
         if truth is None:
             continue
         releases = releases_of(analysis)

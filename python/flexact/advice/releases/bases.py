@@ -25,14 +25,16 @@ from ...model.parts.bodies import groups_of
 
 #: Rows, by their numbers.
 Rows = frozenset[int]
-#: Whether the block of a set of k rows is regular, of which the numbers here do not tell.
-Judge = Callable[[Rows], bool]
+#: Whether the block of a set of k rows is regular, of which the numbers here do not tell; None
+#: where that is not known either.
+Judge = Callable[[Rows], bool | None]
 
 #: Up to this multiple of its error, and below this part of what it is the difference of, an
 #: entry is zero.
 _ZERO, _TINY = 10.0, 1.0e-9
-#: From this multiple of its error, and this part of what it is the difference of, it is not.
-_CLEAR, _LARGE = 1.0e3, 1.0e-5
+#: From this multiple of its error, and this part of what it is the difference of, it is not; of
+#: what nobody knows from a smaller part on.
+_CLEAR, _LARGE, _FAIR = 1.0e3, 3.0e-3, 1.0e-6
 #: Rows that differ by more than this part are no multiples of each other.
 _NEAR = 0.1
 #: Bases found on the way beyond which little more is done: so many divisions of a matroid that
@@ -127,8 +129,9 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     form = echelon_of(matrix, _ZERO * error)
     if form is None:
         return 0
+    whole = frozenset(form.basis.tolist())
     is_clear = form.smallest >= max(_CLEAR * error, _LARGE)
-    if not is_clear and not judge(frozenset(form.basis.tolist())):
+    if not is_clear and not _is_regular(judge, whole, form.smallest >= _FAIR):
         return 0
     error /= form.smallest
     basis, others = (
@@ -138,6 +141,14 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     errors = np.full(form.factor.shape, error)
     start = _Minor(form.factor, errors, basis, others, frozenset())
     return _Counter(judge).count(start.cleared(judge))
+
+
+def _is_regular(judge: Judge, rows: Rows, is_fair: bool) -> bool:
+    """Whether a block is regular that may be; where nobody knows only if it seems so."""
+    known = judge(rows)
+    if known is None and not is_fair:
+        raise TooManyError
+    return is_fair if known is None else known
 
 
 @dataclass
@@ -179,7 +190,8 @@ class _Minor:
         is_zero = looked_at & (value <= limit)
         is_clear = value >= np.maximum(_CLEAR * self.error, _LARGE * size)
         for i, j in np.argwhere(looked_at & ~is_zero & ~is_clear).tolist():
-            is_zero[i, j] = not judge(self.exchanged((i,), (j,)))
+            is_fair = bool(value[i, j] >= max(_CLEAR * self.error[i, j], _FAIR * size[i, j]))
+            is_zero[i, j] = not _is_regular(judge, self.exchanged((i,), (j,)), is_fair)
         self.factor[is_zero] = 0.0
 
     def without(self, rows: NDArray[np.integer], columns: NDArray[np.integer]) -> _Minor:
@@ -340,7 +352,8 @@ class _Counter:
         doubtful = rest > np.minimum(_ZERO * off, _TINY * size)
         for q in np.flatnonzero(doubtful).tolist():
             out, into = ((a, b), (p, q)) if is_row else ((p, q), (a, b))
-            if self.judge(minor.exchanged(out, into)):
+            is_fair = bool(rest[q] >= max(_CLEAR * off[q], _FAIR * size[q]))
+            if _is_regular(self.judge, minor.exchanged(out, into), is_fair):
                 return False
         return True
 

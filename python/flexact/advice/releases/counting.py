@@ -9,6 +9,7 @@ import numpy as np
 
 from ...base.errors import FlexactError
 from ...result.result import Result
+from ...result.verdict import Alternative
 from ..change import Change
 from .bases import Rows, TooManyError, count_bases
 from .reach import Reach
@@ -16,19 +17,22 @@ from .stands import standing
 
 #: Rows times vectors squared beyond which a count is not begun.
 _MOST_WORK = 2.0e9
-#: Rows of D(c) of all analyses that a count may ask for.
-_MOST_ROWS_ASKED = 60_000
+#: How many blocks are tried that the numbers leave in doubt, and rows of D(c) in all of them.
+_MOST_TRIES, _MOST_ROWS_TRIED = 400, 40_000
 #: Of a null vector so many times the noise over the gap may be rounding.
 _OF_NOISE = 10.0
 
+#: What is left of what is to be removed, of a result or of what may be meant instead.
+Left = Callable[[Result | Alternative], int]
 
-def counted(stands: Result, reach: Reach, left: Callable[[Result], int]) -> int | None:
+
+def counted(stands: Result, reach: Reach, left: Left) -> int | None:
     """How many sets of rows span their space; None where there are too many to be counted.
 
     A block that the numbers leave in doubt is tried: the mechanism is changed so and analysed.
 
     Args:
-        stands: That of the deck as it stands, whose rows they are.
+        stands: The result of the deck as it stands, whose rows they are.
         reach: The rows over the null space.
         left: What is left of what is to be removed.
     """
@@ -39,13 +43,15 @@ def counted(stands: Result, reach: Reach, left: Callable[[Result], int]) -> int 
         return None
     known: dict[Rows, bool] = {}
 
-    def judge(chosen: Rows) -> bool:
+    def judge(chosen: Rows) -> bool | None:
         if chosen not in known:
-            if len(known) * max(stands.rows, 1) > _MOST_ROWS_ASKED:
-                raise TooManyError
+            tries = len(known) + 1
+            if tries > _MOST_TRIES or tries * stands.rows > _MOST_ROWS_TRIED:
+                return None
             change = joined([reach.change(int(reach.index[i])) for i in sorted(chosen)])
             try:
-                known[chosen] = left(standing(stands, change.apply(stands.given).data)) == 0
+                after = standing(stands, change.apply(stands.given).data)
+                known[chosen] = removes_all(stands, after, left)
             except FlexactError:
                 known[chosen] = False
         return known[chosen]
@@ -54,6 +60,21 @@ def counted(stands: Result, reach: Reach, left: Callable[[Result], int]) -> int 
         return count_bases(reach.rows, error_of(stands), judge)
     except TooManyError:
         return None
+
+
+def removes_all(before: Result, after: Result, left: Left) -> bool:
+    """Whether nothing is left, and what rounding of the geometry may have hidden neither.
+
+    What may be left besides was in doubt before.
+    """
+    if left(after):
+        return False
+    return _at_most(after, left) <= _at_most(before, left) - left(before)
+
+
+def _at_most(result: Result, left: Left) -> int:
+    """What is left if all is so that is in doubt."""
+    return max(left(result), *(left(one) for one in result.alternatives), 0)
 
 
 def error_of(result: Result) -> float:

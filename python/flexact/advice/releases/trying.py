@@ -14,7 +14,7 @@ from ...result.result import Result
 from ..change import Change
 from ..proposal import After, Proposal, Purpose, after, analysed
 from .candidates import Candidate
-from .counting import joined
+from .counting import joined, removes_all
 from .kinds import kind_of
 from .reach import Reach
 
@@ -121,31 +121,36 @@ def proposals_of(
             if turn >= len(group) or left <= 0:
                 continue
             left -= 1
-            one = _tried(result, group[turn], change(group[turn]))
-            if one is not None and _does(result, purpose, one.after):
-                works.append(one)
-            else:
+            one = _tried(result, purpose, group[turn], change(group[turn]))
+            if one is None:
                 failed += 1
+            else:
+                works.append(one)
     place = {candidate.members: i for i, candidate in enumerate(found)}
     works.sort(key=lambda one: place[one.candidate.members])
     made = _together(purpose, works, kinds)[:most]
     return Outcome(tuple(made), failed, len(found) - len(works) - failed)
 
 
-def _tried(result: Result, candidate: Candidate, change: Change) -> _Try | None:
+def _tried(result: Result, purpose: Purpose, candidate: Candidate, change: Change) -> _Try | None:
+    """What came of a candidate; None where it does not do what it is to do."""
     try:
         made = analysed(result, change)
     except FlexactError:
+        return None
+    if not _does(result, purpose, made):
         return None
     whole = made.with_internal_declared or made
     return _Try(candidate, change, after(made), whole.scaled_singular_values)
 
 
-def _does(result: Result, purpose: Purpose, then: After) -> bool:
+def _does(result: Result, purpose: Purpose, then: Result) -> bool:
     """Whether a change does all that it is to do, and no harm."""
     if purpose is Purpose.RELEASE:
-        return then.over_constrained == 0 and then.under_constrained <= result.under_constrained
-    return then.under_constrained == 0 and then.over_constrained <= result.over_constrained
+        is_done = removes_all(result, then, lambda one: one.over_constrained)
+        return is_done and then.under_constrained <= result.under_constrained
+    is_done = removes_all(result, then, lambda one: one.under_constrained)
+    return is_done and then.over_constrained <= result.over_constrained
 
 
 def _together(
