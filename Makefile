@@ -15,7 +15,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
          builder_words builder_bodies builder_edits gallery sweep crossings notebooks
 
 # Tests that compare words with files.
-WORDED := wording broken_decks appearance docs element_table gallery
+WORDED := wording advice_wording broken_decks appearance docs element_table gallery
 
 .PHONY: demo test check core-test lint wording gallery attack fuzz bench clean
 

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .advising import Advice, advice_of
+from .base.loading import load
 from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.models import read
@@ -30,6 +30,8 @@ from .text.warnings import warning_of, warnings_of
 
 if TYPE_CHECKING:
     import meshio
+
+    from .advising import Advice
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -123,7 +125,9 @@ class Analysis(Result):
         Raises:
             ModelError: no body has this name, or a text is not understood.
         """
-        return advice_of(self, body, wanted)
+        # Few ask for it, and it takes a while to load.
+        made: Advice = load("flexact.advising").advice_of(self, body, wanted)
+        return made
 
     def describe(self) -> str:
         """The result in plain English: verdict, counts, decision, motions and self-stresses."""

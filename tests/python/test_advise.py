@@ -56,7 +56,8 @@ def test_steps_are_a_sequence_in_the_order_of_their_numbers() -> None:
     assert steps[0] in steps and steps[-1] is steps[len(steps) - 1]
     assert [step.number for step in steps[1:3]] == [2, 3]
     order = [
-        *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD, Purpose.ADD_WIRE),
+        *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
+        *(Purpose.ADD_WIRE, Purpose.ADD_SHEET),
     ]
     places = [order.index(step.purpose) for step in steps]
     assert places == sorted(places)
@@ -261,10 +262,26 @@ def test_choices_are_written_by_their_number(
     assert one == same != other
 
 
+def test_steps_are_taken_together(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a cross hinge one release and one declaration make it exactly constrained."""
+    made, target = advice("flexures/cross_hinge_undeclared"), tmp_path / "new.dat"
+    path, numbers = str(INPUT / "flexures" / "cross_hinge_undeclared.dat"), made.exact_by
+    assert [made[number - 1].purpose for number in numbers] == [Purpose.RELEASE, Purpose.DECLARE]
+    both = ",".join(map(str, numbers))
+    assert f"--apply {both}" in made.describe()
+    code, out, _ = run(capsys, path, "--apply", both, "-o", str(target))
+    assert code == 0 and "written to" in out and "exactly constrained" in out
+    assert analyse(target).verdict is flexact.Verdict.EXACT
+    assert advice("paper/six_folded_sheets").exact_by == ()
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (["--apply", "1"], "-o"),
+        (["--apply", "1,1", "-o", "new.dat"], "number of a step"),
+        (["--apply", "1,,2", "-o", "new.dat"], "number of a step"),
+        (["--apply", "1,99", "-o", "new.dat"], "there is no step 99"),
         (["--apply", "1", "-o", "{deck}"], "would overwrite"),
         (["-o", "new.dat"], "--apply"),
         (["--apply", "0", "-o", "new.dat"], "number of a step"),

@@ -19,13 +19,17 @@ from ..core.progress import Progress
 from ..result.extents.decide import extents_of
 from ..result.extents.extent import Extents
 from ..result.result import Result
+from ..result.verdict import Verdict
 from .describe import describe, html_of
 from .json_advice import dictionary_of
 from .motions import AdvisedMotion, AdvisedStress
-from .steps import Step
+from .steps import Step, together
 
 #: Kinds of steps in the order in which they are shown.
-_ORDER = (Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD, Purpose.ADD_WIRE)
+_ORDER = (
+    *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
+    *(Purpose.ADD_WIRE, Purpose.ADD_SHEET),
+)
 #: What takes time, in the order in which it is found, and what is said meanwhile.
 _PIECES = {
     "causes": "finding causes",
@@ -105,6 +109,22 @@ class Advice(Frozen, Sequence[Step]):
         if self.analysis.with_internal_declared is None:
             return one
         return replace(one, after=tried(self.analysis, one.change))
+
+    @cached_property
+    def exact_by(self) -> tuple[int, ...]:
+        """Numbers of steps, one of each kind that it takes, that make it exactly constrained.
+
+        They are the best of each kind, analysed together; none where no single kind is needed
+        besides another, or where they do not do it.
+        """
+        firsts = {step.purpose: step.number for step in reversed(self.steps)}
+        able = [firsts[kind] for kind in (Purpose.RELEASE, Purpose.DECLARE) if kind in firsts]
+        is_both = self.analysis.verdict is Verdict.BOTH and Purpose.MEND not in firsts
+        if not is_both or len(able) < 2:
+            return ()
+        change = together(self.steps[number - 1].change for number in able)
+        is_exact = tried(self.analysis, change).verdict is Verdict.EXACT
+        return tuple(able) if is_exact else ()
 
     def found(self, progress: Progress | None = None) -> Advice:
         """The advice itself, when all of it is found; `progress` is told how far that is."""

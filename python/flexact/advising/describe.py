@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING
 from ..advice.proposal import Purpose
 from ..base.plain_text import harmless
 from ..result.verdict import Verdict
+from ..text.advising.causes import both_in_words
 from ..text.advising.extents import finite_in_words
-from ..text.advising.sentences import in_a_row
+from ..text.advising.sentences import begun, ended, in_a_row
 from ..text.advising.spaces import spaces_lines
 from ..text.describe import MOST_MODES, verdict_in_words
 from ..text.motions import internal_in_words
 from ..text.naming import counted, counts_in_words
+from ..text.places import listed
 from ..text.sentences import Line, Pieces, filled, plain, sentence
 from .left_out import left_out
 
@@ -33,7 +35,8 @@ _AIMS = {
     Purpose.RELEASE: "To stop nothing twice",
     Purpose.DECLARE: "To leave nothing free that is not declared",
     Purpose.HOLD: "To leave nothing free that is not declared",
-    Purpose.ADD_WIRE: "To stop with a wire what is free and not wanted",
+    Purpose.ADD_WIRE: "To stop with wires what is free and not wanted",
+    Purpose.ADD_SHEET: "To stop with a sheet what is free and not wanted",
 }
 
 
@@ -95,6 +98,9 @@ def _stresses(advice: Advice, known: _Known) -> Iterator[str]:
     told_at = {each.stress.index + 1: each.sentences for each in advice.self_stresses}
     yield from _modes(told_at, "self-stress", known)
     yield from _more(advice.analysis.over_constrained - MOST_MODES, "self-stress", "es")
+    if both := both_in_words(advice.analysis, advice.causes):
+        yield ""
+        yield filled(Line(ended(begun(both))))
 
 
 def _modes(told_at: Mapping[int, Sequence[Pieces]], what: str, known: _Known) -> Iterator[str]:
@@ -143,13 +149,17 @@ def _steps(advice: Advice, most: int | None) -> Iterator[str]:
         yield filled(sentence(f"{aim}; then it is {outcome}"))
         yield from (_item(step.number, step.pieces) for step in told[:most])
         yield from _more(len(told) - len(told[:most]), "such way", "s")
+    if numbers := advice.exact_by:
+        steps_told = listed(list(map(str, numbers)))
+        how = f"--apply {','.join(map(str, numbers))}"
+        yield ""
+        yield f"Steps {steps_told} together make it exactly constrained ({how})."
     if missing := tuple(left_out(advice)):
         yield filled(Line(("Left out: ",), tuple((each,) for each in missing)))
 
 
 def _spaces(advice: Advice) -> Iterator[str]:
-    if advice.spaces is not None:
-        yield from map(filled, spaces_lines(advice.analysis, advice.spaces))
+    yield from map(filled, spaces_lines(advice.analysis, advice.spaces))
 
 
 def _item(number: int, pieces: Pieces) -> str:

@@ -126,6 +126,15 @@ def _change(change: Change) -> Entries:
             {"node": wire.position, "end": list(wire.end), "ground": list(wire.ground)}
             for wire in change.wires
         ],
+        "sheets": [
+            {
+                "node": sheet.position,
+                "end": list(sheet.end),
+                "ground": list(sheet.ground),
+                "width": list(sheet.width),
+            }
+            for sheet in change.sheets
+        ],
     }
 
 

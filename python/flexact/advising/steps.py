@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields
 from functools import cached_property
+from itertools import chain
 
 from ..advice.change import Change
 from ..advice.proposal import After, Proposal, Purpose
@@ -26,7 +27,15 @@ _WORDS: dict[Purpose, Callable[[Result, Proposal], Pieces]] = {
     Purpose.DECLARE: declaration_in_words,
     Purpose.HOLD: declaration_in_words,
     Purpose.ADD_WIRE: wire_in_words,
+    Purpose.ADD_SHEET: wire_in_words,
 }
+
+
+def together(changes: Iterable[Change]) -> Change:
+    """Several changes as one."""
+    every = tuple(changes)
+    parts = ([getattr(each, field.name) for each in every] for field in fields(Change))
+    return Change(*(tuple(chain.from_iterable(part)) for part in parts))
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,7 +81,8 @@ class Step(Frozen):
     def pieces(self) -> Pieces:
         """What is done."""
         words = _WORDS[self.purpose](self.analysis, self.proposal)
-        return sentence(("add ", *words) if self.purpose is Purpose.ADD_WIRE else words)
+        is_added = self.purpose in (Purpose.ADD_WIRE, Purpose.ADD_SHEET)
+        return sentence(("add ", *words) if is_added else words)
 
     @property
     def outcome(self) -> str:
@@ -95,6 +105,10 @@ class Step(Frozen):
         Raises:
             ModelError: there is no such choice.
         """
+        return self.chosen(choice).apply(self.analysis.given)
+
+    def chosen(self, choice: int = 1) -> Change:
+        """What is done by one of its choices, as `apply` counts them; raises as that does."""
         choices = (self.change, *self.alternatives)
         if isinstance(choice, bool) or not isinstance(choice, int):
             raise TypeError(f"a choice is a whole number from 1, not {type(choice).__name__}")
@@ -104,7 +118,7 @@ class Step(Frozen):
                 "no-such-choice",
                 f"there is no choice {choice} of step {self.number}: it has {there}",
             )
-        return choices[choice - 1].apply(self.analysis.given)
+        return choices[choice - 1]
 
     def __repr__(self) -> str:
         """Number and words."""

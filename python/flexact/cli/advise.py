@@ -8,9 +8,12 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-from flexact.advising import Advice, Step, advice_of
+from flexact.advice.change import Change
+from flexact.advice.proposal import After, tried
+from flexact.advising import Advice, advice_of
 from flexact.advising.describe import describe
 from flexact.advising.json_advice import line_of
+from flexact.advising.steps import together
 from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
 from flexact.base.loading import load
@@ -24,8 +27,13 @@ from flexact.deck.editing import edited_deck
 from flexact.diagnostics.errors import ModelError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import plan_file, write_together
+from flexact.result.verdict import Verdict
 from flexact.saving import PAGES
 from flexact.text.margin import verdict_word
+from flexact.text.naming import counts_in_words
+from flexact.text.places import listed
+
+_STEP = re.compile(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?")
 
 
 class AskedError(BatchError):
@@ -64,9 +72,10 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
     parser.add_argument(
         "--apply",
-        type=chosen_step,
+        type=chosen_steps,
         metavar="K",
-        help="take step K; K.2, K.3, ... take the alternatives that symmetry gives it",
+        help="take step K, or several, such as 1,8; K.2, K.3, ... take the alternatives that "
+        "symmetry gives it",
     )
     parser.add_argument(
         "-o",
@@ -80,20 +89,31 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=advise_decks)
 
 
-def chosen_step(text: str) -> Chosen:
-    """Number of a step, and maybe of one of its choices behind a point, as an option's type."""
-    found = re.fullmatch(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?", text)
-    if found is None:
+def chosen_steps(text: str) -> tuple[Chosen, ...]:
+    """Numbers of steps, and maybe of one of their choices behind a point, as an option's type."""
+    found = [_STEP.fullmatch(part.strip()) for part in text.split(",")]
+    made = tuple(Chosen(int(one[1]), int(one[2] or 1)) for one in found if one is not None)
+    if len(made) < len(found) or len({one.step for one in made}) < len(made):
         raise argparse.ArgumentTypeError(
-            f"the number of a step is wanted, such as 1, or 1.2 for its second choice, not {text!r}"
+            "the number of a step is wanted, such as 1, or 1.2 for its second choice, or of "
+            f"several, such as 1,8, not {text!r}"
         )
-    return Chosen(int(found[1]), int(found[2] or 1))
+    return made
 
 
 def advise_decks(chosen: argparse.Namespace) -> ExitCode:
     """Advise on the decks that were asked for."""
     decks = find_decks(chosen.decks)
     return take(decks, _Work(chosen, decks).step, as_json=chosen.json)
+
+
+class Taken(NamedTuple):
+    """Steps that are taken together."""
+
+    words: str
+    """Such as "steps 1 and 8"."""
+    change: Change
+    after: After
 
 
 class _Work:
@@ -127,30 +147,29 @@ class _Work:
             try:
                 advice = advice_of(result, self.chosen.body, self.chosen.wanted)
                 advice.found(bar.show_work)
-                step = None if self.chosen.apply is None else self._step(advice)
+                taken = None if self.target is None else self._taken(advice)
             except ModelError as error:
                 raise _in_short(error) from None
             with unwinding():
                 words = self._words(advice)
-                written = self._written(advice, step)
-        if self.target is None or self.chosen.json:
+                written = "" if taken is None else self._written(advice, taken)
+        if taken is None or self.chosen.json:
             say(words)
         if written:
             complain(written) if self.chosen.json else say(written)
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(result))
 
-    def _step(self, advice: Advice) -> Step:
-        number, choice = self.chosen.apply
-        if number > len(advice):
-            there = f"there are {len(advice)}" if len(advice) > 1 else "there is one"
-            if not len(advice):
-                there = "nothing was found that would mend this mechanism"
-                if not advice.analysis.under_constrained + advice.analysis.over_constrained:
-                    there = "it is exactly constrained, and there is nothing to mend"
-            raise AskedError(f"there is no step {number}: {there}", "no-such-step")
-        step: Step = advice[number - 1]
-        step.apply(choice)
-        return step
+    def _taken(self, advice: Advice) -> Taken:
+        """The steps that were asked for; of a page by default the first."""
+        asked = self.chosen.apply or (Chosen(1, 1),)
+        for one in asked:
+            if one.step > len(advice):
+                raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
+        steps = [(advice[one.step - 1], one.choice) for one in asked]
+        change = together(step.chosen(choice) for step, choice in steps)
+        after = steps[0][0].after if len(steps) == 1 else tried(advice.analysis, change)
+        numbers = listed([str(one.step) for one in asked])
+        return Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after)
 
     def _words(self, advice: Advice) -> str:
         if self.chosen.json:
@@ -158,18 +177,25 @@ class _Work:
             return text
         return f"{describe(advice)}\n"
 
-    def _written(self, advice: Advice, step: Step | None) -> str:
-        """Write what was asked for, and say so; empty where nothing was."""
-        if self.target is None:
-            return ""
-        name = harmless(str(self.target))
+    def _written(self, advice: Advice, taken: Taken) -> str:
+        """Write what was asked for, and say so."""
+        assert self.target is not None
+        model = taken.change.apply(advice.analysis.given)
         if self._is_page:
             raise NotImplementedError
-        assert step is not None
-        model = step.apply(self.chosen.apply.choice)
         write_together({self.target: edited_deck(advice.analysis.given, model.data)})
-        deck = harmless(advice.analysis.name)
-        return f"{deck}: step {step.number} written to {name}, {step.outcome}"
+        counts = counts_in_words(taken.after.under_constrained, taken.after.over_constrained)
+        deck, name = harmless(advice.analysis.name), harmless(str(self.target))
+        return f"{deck}: {taken.words} written to {name}, {counts}"
+
+
+def _there(advice: Advice) -> str:
+    """Which steps there are."""
+    if len(advice):
+        return f"there are {len(advice)}" if len(advice) > 1 else "there is one"
+    if advice.analysis.verdict is Verdict.EXACT:
+        return "it is exactly constrained, and there is nothing to mend"
+    return "nothing was found that would mend this mechanism"
 
 
 def _in_short(error: ModelError) -> AskedError:
