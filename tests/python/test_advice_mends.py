@@ -13,7 +13,7 @@ from reference_decks import text_of
 import flexact
 from flexact import Model
 from flexact.advice.causes.causes import causes_of
-from flexact.advice.causes.mends import Mend
+from flexact.advice.causes.mend import Mend
 from flexact.advice.change import Change
 from flexact.advice.proposal import Purpose
 
