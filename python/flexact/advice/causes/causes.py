@@ -12,9 +12,11 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...result.modes import Motion
 from ...result.result import Result
+from ..proposal import Proposal
 from .cause import Cause, CauseKind, Causes, Relation
 from .generic import generic_rank
 from .gradients import Gradients, are_affordable
+from .joint_moves import joint_move
 from .kinds import Lifted, Told, all_alike, by_count, told_apart
 from .lifts import Lifts
 from .mends import mends_of
@@ -100,9 +102,17 @@ class _Special:
         return Causes(
             _made(self._motions_told(motions), of_motion),
             _made(self._stresses_told(stresses), of_stress),
-            mends_of(self.whole, merged(chain(*self._relations.values())), self._motions),
+            self._mends(),
             self.rank,
             trials,
+        )
+
+    def _mends(self) -> tuple[Proposal, ...]:
+        if not self.whole.is_told_by_parts:
+            return ()
+        relations = merged(chain(*self._relations.values()))
+        return mends_of(self.whole, relations, self._motions) or joint_move(
+            self.whole, self.gradients
         )
 
     # Which are special ------------------------------------------------------

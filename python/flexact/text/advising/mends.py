@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from math import degrees
 
+import numpy as np
+
+from ...advice.causes.joint_moves import JointMove
 from ...advice.causes.mend import Mend
 from ...advice.proposal import Proposal
 from ...result.result import Result
@@ -13,17 +16,28 @@ from ..motions import line_words
 from ..naming import counts_in_words, in_words, named_element, named_node
 from ..places import axis_words, direction_words, part_words, place_words
 from ..sentences import Named, Pieces
+from ..units import length_in_words
 from .relations import limb_names, limbs_in_words, row_of
 
 
 def mend_in_words(result: Result, proposal: Proposal) -> Pieces:
     """Which constraint repeats which while what is free, and how the limb is turned."""
+    if isinstance(proposal, JointMove):
+        return _moved(result, proposal)
     if not isinstance(proposal, Mend):
         return ()
     limb = limbs_in_words(result, proposal.parts)
     angle = f" by {degrees(abs(proposal.angle)):.4g} degrees about {_line(result, proposal)}"
     stops = "" if proposal.stops is None else f", so that it stops this {_word(proposal.stops)}"
     return (*_repeats(result, proposal), "turn ", *limb, f"{angle}{stops}", *_after(proposal))
+
+
+def _moved(result: Result, move: JointMove) -> Pieces:
+    size = float(np.linalg.norm(move.step))
+    way = direction_words(move.step)
+    joint = named_node(result, move.node)
+    far = f" by {length_in_words(size)} along {way}, out of the special position"
+    return ("unless the motion is wanted, move ", joint, far, *_after(move))
 
 
 def _repeats(result: Result, mend: Mend) -> Pieces:
@@ -43,7 +57,7 @@ def _repeats(result: Result, mend: Mend) -> Pieces:
     return (*held, ", while nothing stops ", *free, "; unless this is wanted, ")
 
 
-def _after(mend: Mend) -> Pieces:
+def _after(mend: Proposal) -> Pieces:
     after = mend.after
     counts = counts_in_words(after.under_constrained, after.over_constrained)
     made = f". Then the mechanism is {counts}"
@@ -51,7 +65,8 @@ def _after(mend: Mend) -> Pieces:
         made += f" (smallest singular value {after.smallest:.2g})"
     many = len(mend.alternatives)
     if many:
-        made += f"; {in_words(many)} other turn{' does' if many == 1 else 's do'} the same"
+        what = "turn" if isinstance(mend, Mend) else "move"
+        made += f"; {in_words(many)} other {what}{' does' if many == 1 else 's do'} the same"
     return (made,)
 
 
