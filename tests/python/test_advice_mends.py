@@ -13,9 +13,11 @@ from reference_decks import text_of
 import flexact
 from flexact import Model
 from flexact.advice.causes.causes import causes_of
-from flexact.advice.causes.mends import Mend
+from flexact.advice.causes.joint_moves import JointMove
+from flexact.advice.causes.mend import Mend
 from flexact.advice.change import Change
 from flexact.advice.proposal import Purpose
+from flexact.result.screws import Screw
 
 SYMMETRIC = "paper/five_folded_sheets_symmetric"
 
@@ -77,6 +79,46 @@ def test_members_keep_their_lengths_and_sheets_their_angles() -> None:
 def test_what_any_geometry_has_is_not_turned() -> None:
     _, mends = mends_of_deck("flexures/parallel_guide_undeclared")
     assert mends == ()
+
+
+@pytest.mark.parametrize(
+    "name", ["paper/twelve_trusses", "frameworks/k33_circle", "frameworks/ring_6"]
+)
+def test_a_joint_is_moved_where_no_limb_can_be_turned(name: str) -> None:
+    model = flexact.read_text(text_of(name), name)
+    (move,) = causes_of(flexact.analyse(model)).mends
+    assert isinstance(move, JointMove)
+    for change in (move.change, *move.alternatives):
+        after = flexact.analyse(change.apply(model.data))
+        assert (after.under_constrained, after.over_constrained) == (0, 0)
+        assert after.gap.smallest_nonzero == pytest.approx(move.after.smallest, rel=1e-4)
+
+
+def test_a_turn_says_what_it_stops_only_where_it_does() -> None:
+    """A wire in line with another, turned about its end, leaves what does not move that end."""
+    model = Model()
+    for k, (ground, end) in enumerate((((0, 0, 0), (0.1, 0, 0)), ((0.3, 0, 0), (0.2, 0, 0)))):
+        model.wire(ground, end, name=f"wire {k + 1}")
+        model.fix(ground)
+    model.body([(0.1, 0, 0), (0.2, 0, 0)], name="stage")
+    result = flexact.analyse(model)
+    mends = causes_of(result).mends
+    assert mends
+    for mend in mends:
+        assert isinstance(mend, Mend)
+        if mend.stops is None:
+            continue
+        after = flexact.analyse(mend.change.apply(model.data))
+        twists = np.array(
+            [[*screw.rotation, *screw.at((0, 0, 0))] for screw in _screws(after, "stage")]
+        )
+        mine = np.array([*mend.stops.rotation, *mend.stops.at((0, 0, 0))])
+        rank = np.linalg.matrix_rank(twists, tol=1e-9)
+        assert np.linalg.matrix_rank(np.vstack((twists, mine)), tol=1e-9) == rank + 1
+
+
+def _screws(result: flexact.Analysis, body: str) -> list[Screw]:
+    return [motion.of(body) for motion in result.motions if motion.of(body)]
 
 
 def test_a_changed_vector_is_written_and_read() -> None:

@@ -78,6 +78,7 @@ class LineKind(str, Enum):
 
     FORCE = "line of force"
     AXIS = "axis"
+    SHEET = "plane of a sheet"
     MEMBER = "member"
     JOINT = "joint"
 

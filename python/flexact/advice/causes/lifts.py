@@ -36,7 +36,7 @@ class Lifts:
     def _found(self, at_nodes: FloatArray, by_turning: FloatArray) -> Lift:
         result = self._result
         moves, turns = _largest(at_nodes), _largest(by_turning)
-        node = _first(moves, lambda i: _node_key(result, i))
+        node = _first(moves, lambda i: node_key(result, i))
         element = _first(turns, lambda i: _element_key(result, i))
         by_move = float(moves[node]) if node is not None else 0.0
         by_turn = float(turns[element]) if element is not None else 0.0
@@ -76,7 +76,7 @@ def _first(sizes: FloatArray, key: object) -> int | None:
     return int(min(able, key=key))  # type: ignore[call-overload]
 
 
-def _node_key(result: Result, node: int) -> tuple[object, ...]:
+def node_key(result: Result, node: int) -> tuple[object, ...]:
     """Joints and bodies that move before what is held; then by name and place."""
     given = int(result.condensed.nodes[node])
     parts = result.parts

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What makes the geometry of a special self-stress special: a ladder of simple relations.
 
-First the axes of hinges, then members in one line or plane, then the lines of force along which
-limbs press on a body, then joints on a circle or conic, then a symmetry; what none of these
-explains is a special position.
+First the axes of hinges, then members in one line or plane, then planes of sheets, then the lines
+of force along which limbs press on a body, then joints on a circle or conic, then a symmetry; what
+none of these explains is a special position.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.parts.parts import Part, PartKind, natural
-from ...result.modes import SelfStress
+from ...result.modes import Motion, SelfStress
 from ...result.order import without_sense
 from ...result.result import Result
 from .axes import of_axes
@@ -26,6 +27,7 @@ from .force_lines import of_forces
 from .in_common import in_common
 from .limbs import Limbs
 from .lines import Line, Lines
+from .sheet_planes import of_sheets
 from .symmetry import symmetry_of
 from .trials import Trials
 
@@ -36,12 +38,15 @@ _MOST_ENTRIES = 600
 _SAME = 1.0e-6
 
 
-def relations_of(result: Result, stresses: Sequence[int]) -> tuple[Relation, ...]:
+def relations_of(
+    result: Result, stresses: Sequence[int], motions: Sequence[Motion]
+) -> tuple[Relation, ...]:
     """What makes the geometry of some self-stresses special, the most telling first.
 
     Args:
         result: A result told by parts.
         stresses: Indices of self-stresses that are special, or of those among which some are.
+        motions: Its special motions.
 
     Returns:
         At most three; none where so many parts are stressed that this would take long.
@@ -49,22 +54,26 @@ def relations_of(result: Result, stresses: Sequence[int]) -> tuple[Relation, ...
     entries = [result.stress_basis.entries(k)[0].size for k in stresses]
     if sum(entries) > _MOST_ENTRIES:
         return ()
-    return _Ladder(result, [result.self_stresses[k] for k in stresses]).found()
+    return _Ladder(result, [result.self_stresses[k] for k in stresses], motions).found()
 
 
 class _Ladder:
-    def __init__(self, result: Result, stresses: list[SelfStress]) -> None:
-        self.result, self.stress = result, stresses[-1]
+    def __init__(
+        self, result: Result, stresses: list[SelfStress], motions: Sequence[Motion]
+    ) -> None:
+        self.result, self.stress, self.motions = result, stresses[-1], motions
         self.limbs, self.trials = Limbs(result), Trials(result)
         found = dict.fromkeys(one.part for stress in stresses for one in stress.parts)
         self.parts = tuple(sorted(found, key=self._key))
         self.are_bars = all(part.kind is PartKind.BAR for part in self.parts)
 
     def found(self) -> tuple[Relation, ...]:
+        result = self.result
         for rung in (
-            lambda: of_axes(self.result, self.parts, self.trials),
+            lambda: of_axes(result, self.parts, self.trials),
             self._of_members,
-            lambda: of_forces(self.result, self.stress, self.limbs),
+            lambda: of_sheets(result, self.stress, self.limbs, self.motions),
+            lambda: of_forces(result, self.stress, self.limbs),
             self._of_clusters,
             self._of_joints,
             self._of_symmetry,
@@ -151,3 +160,25 @@ class _Ladder:
         found = symmetry_of(self.result, self.parts, self.trials) if self.are_bars else None
         if found is not None:
             yield found
+
+
+def merged(relations: Iterable[Relation]) -> tuple[Relation, ...]:
+    """Each relation once; lines that are parallel to the same direction all together."""
+    made: list[Relation] = []
+    for one in relations:
+        same = next((k for k, other in enumerate(made) if _go_together(one, other)), None)
+        if same is None:
+            made.append(one)
+            continue
+        parts = dict.fromkeys((*made[same].parts, *one.parts))
+        ordered = sorted(parts, key=lambda part: (natural(part.name), part.elements))
+        made[same] = replace(made[same], parts=tuple(ordered))
+    return tuple(made)
+
+
+def _go_together(one: Relation, other: Relation) -> bool:
+    if one.kind is not other.kind or one.of is not other.of:
+        return False
+    if one.kind is not RelationKind.PARALLEL and one.parts != other.parts:
+        return False
+    return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= _SAME)

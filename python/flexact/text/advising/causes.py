@@ -4,28 +4,20 @@
 from __future__ import annotations
 
 import math
-from math import degrees
 
 from ...advice.causes.cause import Cause, CauseKind, Causes, Lift
-from ...advice.causes.mends import Mend
-from ...advice.proposal import Proposal
+from ...advice.causes.mend import Mend
+from ...model.parts.parts import PartKind
 from ...result.modes import Motion
 from ...result.result import Result
-from ...result.screws import Screw, ScrewKind
-from ..motions import line_words
-from ..naming import counts_in_words, in_words, named_element, named_node
-from ..places import (
-    axis_words,
-    direction_words,
-    listed,
-    part_words,
-    place_words,
-    with_article,
-)
+from ..naming import in_words, named_element, named_node
+from ..places import listed, part_words, with_article
 from ..self_stresses import conflict_in_words
 from ..sentences import Named, Piece, Pieces
 from ..units import angle_in_words, length_in_words
-from .relations import limb_names, limbs_in_words, relations_in_words, row_of
+from .mends import hub_name, motion_of
+from .mends import mend_in_words as mend_in_words
+from .relations import relations_in_words
 
 _UNKNOWN: Pieces = ("whether another geometry would have it was not looked at",)
 #: The misalignment for which a lift is told: the power of ten below this part of the size.
@@ -77,8 +69,8 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
         return ()
     mend = next((one for one in causes.mends if isinstance(one, Mend) and one.stops), None)
     if mend is not None and mend.stops is not None:
-        on: Pieces = (_hub(result, mend.end),)
-        return (*held, ", while nothing stops ", *_motion(mend.stops, on))
+        on: Pieces = (hub_name(result, mend.end),)
+        return (*held, ", while nothing stops ", *motion_of(mend.stops, on))
     return (*held, *_free(result.motions[k]))
 
 
@@ -94,93 +86,11 @@ def _free(motion: Motion) -> Pieces:
     names = [part_words(part) for part in first.bodies] or [
         with_article(str(joint)) for joint in first.joints
     ]
-    return (", while nothing stops ", *_motion(first.screw, (listed(names[:_MOST_NAMES]),)))
+    return (", while nothing stops ", *motion_of(first.screw, (listed(names[:_MOST_NAMES]),)))
 
 
 #: How many modes are looked through, and how many bodies are named.
 _MOST, _MOST_NAMES = 20, 3
-
-
-def mend_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """Which constraint repeats which while what is free, and how the limb is turned."""
-    if not isinstance(proposal, Mend):
-        return ()
-    limb = limbs_in_words(result, proposal.parts)
-    angle = f" by {degrees(abs(proposal.angle)):.4g} degrees about {_line(result, proposal)}"
-    return (
-        *_repeats(result, proposal),
-        *("turn ", *limb, angle),
-        *_stops(result, proposal),
-        *_after(proposal),
-    )
-
-
-def _repeats(result: Result, mend: Mend) -> Pieces:
-    """Such as "the constraint of lower 0 repeats that of lower 180, while nothing stops …"."""
-    others = limb_names(result, mend.repeats)
-    if not others:
-        return ()
-    limb = limbs_in_words(result, mend.parts)
-    if len(others) == 1:
-        held: Pieces = ("the constraint of ", *limb, " repeats that of ", *others)
-    else:
-        between = ("the constraints of ", *limb, " and of ", *row_of(others))
-        held = (*between, " depend on each other")
-    if mend.stops is None:
-        return (*held, ": ")
-    free = _motion(mend.stops, (_hub(result, mend.end),))
-    return (*held, ", while nothing stops ", *free, ": ")
-
-
-def _stops(result: Result, mend: Mend) -> Pieces:
-    if mend.stops is None:
-        return ()
-    on = () if mend.repeats else (_hub(result, mend.end),)
-    return ("; then it stops ", *_motion(mend.stops, on))
-
-
-def _after(mend: Mend) -> Pieces:
-    after = mend.after
-    counts = counts_in_words(after.under_constrained, after.over_constrained)
-    made = f", and the mechanism is {counts}"
-    if after.smallest is not None:
-        made += f" (smallest singular value {after.smallest:.2g})"
-    many = len(mend.alternatives)
-    if many:
-        made += f"; {in_words(many)} other turn{' does' if many == 1 else 's do'} the same"
-    return (made,)
-
-
-def _line(result: Result, mend: Mend) -> str:
-    """The line about which a limb is turned, right-handed."""
-    place = place_words(result.parts, mend.end)
-    if result.given.planar:
-        where = place if mend.is_in_place else line_words(result, mend.point, mend.direction)
-        return f"{where}, {'anticlockwise' if mend.angle > 0.0 else 'clockwise'}"
-    direction = mend.direction if mend.angle > 0.0 else -mend.direction
-    if mend.is_in_place:
-        return f"the line along {direction_words(direction)} through {place}"
-    return line_words(result, mend.point, direction)
-
-
-def _hub(result: Result, end: int) -> Named:
-    """The body or point that a limb holds."""
-    body = result.parts.body_at.get(end)
-    arrays = result.given.arrays
-    if body is None:
-        return named_node(result, int(arrays.node_number[end]))
-    part = result.parts.of_body(body)
-    return named_element(result, int(arrays.element_number[part.elements[0]]))
-
-
-def _motion(screw: Screw, on: Pieces) -> Pieces:
-    """Such as "the rotation of the stage about y"."""
-    axis = axis_words(screw.direction)
-    of = (" of ", *on) if on else ()
-    if screw.kind is ScrewKind.TRANSLATION:
-        return ("the translation", *of, f" along {axis}")
-    word = "rotation" if screw.kind is ScrewKind.ROTATION else "screw motion"
-    return (f"the {word}", *of, f" about {axis}")
 
 
 # Special ------------------------------------------------------------------------
@@ -215,7 +125,7 @@ def _lift(result: Result, cause: Cause) -> Pieces:
     if lift.node is not None:
         step = _step(result.characteristic_length)
         made += [
-            *("Moving ", named_node(result, lift.node), f" by {length_in_words(step)}"),
+            *("Moving ", _point(result, lift.node), f" by {length_in_words(step)}"),
             f" lifts its singular value from zero to {lift.by_move * step:.2g}",
             f" ({lift.by_move:.2g} per metre)",
         ]
@@ -227,6 +137,18 @@ def _lift(result: Result, cause: Cause) -> Pieces:
             f"{lift.by_turn * _ANGLE:.2g} ({lift.by_turn:.2g} per radian)",
         ]
     return tuple(made)
+
+
+def _point(result: Result, node: int) -> Named:
+    """A node; where one part ends at a body, this end."""
+    parts = result.parts
+    index = parts.data.node_index[node]
+    body = parts.body_at.get(index)
+    others = [part for part in parts.at(index) if part.kind is not PartKind.BODY]
+    if body is None or len(others) != 1 or parts.name_of_point(index):
+        return named_node(result, node)
+    words = f"the end of {part_words(others[0])} at {part_words(parts.of_body(body))}"
+    return Named("node", node, words)
 
 
 def _step(length: float) -> float:

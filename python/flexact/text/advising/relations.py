@@ -35,7 +35,9 @@ def relations_in_words(
     """
     made: list[Piece] = []
     for k, one in enumerate(relations):
-        made += [", and "] * (k > 0) + list(_relation(result, one, in_short))
+        words = _relation(result, one, in_short)
+        same = k > 0 and one.parts == relations[k - 1].parts and one.of is relations[k - 1].of
+        made += [" and" if same else ", and "] * (k > 0) + list(words[-1:] if same else words)
     if in_short:
         return tuple(made)
     about = [one.couple for one in relations if one.couple.any()]
@@ -105,20 +107,40 @@ def _relation(result: Result, one: Relation, in_short: bool) -> Pieces:
         return (f"what is stressed is symmetric about {_plane(result, one)}{tried}",)
     if kind is RelationKind.POSITION:
         return (*of, " stand in a special position together")
-    words = _common(one, axis, line)
+    if one.of is LineKind.SHEET and kind is not RelationKind.ONE_PLANE:
+        return _of_sheets(result, one, axis, line, in_short)
+    words = _common(result, one, axis, line)
     return (*of, f" {words.partition(', so that')[0] if in_short else words}")
 
 
-def _common(one: Relation, axis: str, line: str) -> str:
+def _of_sheets(result: Result, one: Relation, axis: str, line: str, in_short: bool) -> Pieces:
+    """Sheets whose planes contain one line, or that are parallel, and wires with them."""
+    sheets = limb_names(result, [part for part in one.parts if part.kind is PartKind.SHEET])
+    wires = limb_names(result, [part for part in one.parts if part.kind is not PartKind.SHEET])
+    many, s = len(sheets) > 1, "s" if len(wires) == 1 else ""
+    made: list[Piece] = [*row_of(sheets)]
+    if one.kind is RelationKind.ACROSS:
+        made.append(" are parallel" if many else f" lies across {axis}")
+        if wires:
+            made += [" and ", *row_of(wires), f" lie{s} along {'them' if many else 'it'}"]
+        what = f"the translation along {axis}"
+    else:
+        made = [f"the plane{'s' if many else ''} of ", *made, f" contain{'' if many else 's'}"]
+        made += [" one line"] + ([" that ", *row_of(wires), f" meet{s}"] if wires else [])
+        what = f"the rotation about {line}"
+    return tuple(made) if in_short else (*made, f", so that none of them stops {what}")
+
+
+def _common(result: Result, one: Relation, axis: str, line: str) -> str:
     """What lines have in common."""
-    x, y, z = (f"{value + 0.0:.4g}" for value in one.point)
+    point = _point(result, one.point)
     turn = f"the rotation about {line}"
     move = f"the translation along {axis}"
     words = {
         RelationKind.ONE_LINE: "lie along one line",
         RelationKind.PARALLEL: "are parallel",
         RelationKind.ONE_PLANE: "lie in one plane",
-        RelationKind.CONCURRENT: f"meet in one point, ({x}, {y}, {z}) m",
+        RelationKind.CONCURRENT: f"meet in one point, {point} m",
         RelationKind.ONE_TRANSVERSAL: f"all meet one line, so that none of them stops {turn}",
         RelationKind.ACROSS: f"all lie across {axis}, so that none of them stops {move}",
         RelationKind.REGULUS: "lie on one hyperboloid, so that turns about them cancel out",
@@ -152,8 +174,11 @@ def _line(result: Result, point: FloatArray, direction: FloatArray) -> str:
 
 
 def _plane(result: Result, one: Relation) -> str:
-    numbers = (
-        0.0 if abs(value) < _ZERO * result.characteristic_length else value for value in one.point
-    )
-    point = ", ".join(f"{value:.4g}" for value in numbers)
-    return f"the plane through ({point}) m across {axis_words(one.direction)}"
+    point = _point(result, one.point)
+    return f"the plane through {point} m across {axis_words(one.direction)}"
+
+
+def _point(result: Result, place: FloatArray) -> str:
+    small = _ZERO * result.characteristic_length
+    numbers = [0.0 if abs(value) < small else value for value in place.tolist()]
+    return f"({', '.join(f'{value:.4g}' for value in numbers[: 2 if result.given.planar else 3])})"
