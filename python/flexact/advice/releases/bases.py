@@ -34,7 +34,7 @@ Judge = Callable[[Rows], bool | None]
 _ZERO, _TINY = 10.0, 1.0e-9
 #: From this multiple of its error, and this part of what it is the difference of, it is not; of
 #: what nobody knows from a smaller part on.
-_CLEAR, _LARGE, _FAIR = 1.0e3, 3.0e-3, 1.0e-6
+_CLEAR, _LARGE, _FAIR = 1.0e3, 1.0e-6, 1.0e-8
 #: Rows that differ by more than this part are no multiples of each other.
 _NEAR = 0.1
 #: Bases found on the way beyond which little more is done: so many divisions of a matroid that

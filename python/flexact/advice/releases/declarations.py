@@ -69,16 +69,16 @@ def declarations_of(result: Result) -> Declarations:
     reach = reaches.of_columns(stands)
     count = counted(stands, reach, lambda after: after.under_constrained)
     whole = complete(result) if result.condensed.chains else stands
-    tried = Outcome((), 0, 0)
+    tried = Outcome((), NOTHING_LEFT_OUT)
     for source in dict.fromkeys(one for one in (whole, stands) if one.under_constrained == size):
         tried = _listed(result, source)
         if tried.proposals:
             break
     is_told = whole.under_constrained == size and result.with_internal_declared is None
-    holds = _holds(result, whole) if is_told else Outcome((), 0, 0)
+    holds = _holds(result, whole) if is_told else Outcome((), NOTHING_LEFT_OUT)
     return Declarations(
         *(size, count, tried.proposals, holds.proposals),
-        LeftOut(tried.untried, tried.failed),
+        tried.left_out,
     )
 
 

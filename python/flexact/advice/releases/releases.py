@@ -72,7 +72,7 @@ def releases_of(result: Result) -> Releases:
         return Releases(size, None, left_out=LeftOut(is_too_large=True))
     reach = reaches.of_rows(stands)
     count = counted(stands, reach, lambda after: after.over_constrained)
-    tried = Outcome((), 0, 0)
+    tried = Outcome((), NOTHING_LEFT_OUT)
     for source in _sources(result, stands):
         tried = _listed(result, source) if count != 0 else tried
         if tried.proposals:
@@ -80,7 +80,7 @@ def releases_of(result: Result) -> Releases:
     supports = _supports(result, _whole(result, stands))
     return Releases(
         *(size, count, tried.proposals, supports.proposals),
-        LeftOut(tried.untried, tried.failed),
+        tried.left_out,
     )
 
 
@@ -117,7 +117,7 @@ def _listed(result: Result, source: Result) -> Outcome:
 def _supports(result: Result, source: Result) -> Outcome:
     space = source.stress_space
     if source.over_constrained != space.vectors or not reaches.fits(space):
-        return Outcome((), 0, 0)
+        return Outcome((), NOTHING_LEFT_OUT)
     reach = reaches.of_supports(source)
     found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))
     return listed(result, reach, Purpose.RELEASE, found, _MOST_SUPPORTS)

@@ -14,7 +14,7 @@ from ...result.result import Result
 from ..change import Change
 from ..proposal import After, Proposal, Purpose, after, analysed
 from .candidates import Candidate
-from .counting import joined, removes_all
+from .counting import Left, joined, removes_all
 from .kinds import kind_of
 from .reach import Reach
 
@@ -28,16 +28,6 @@ _MOST_TRIES, _FEWEST_TRIES, _MOST_OPERATIONS = 60, 4, 6.0e10
 _EQUAL, _TINY = 1.0e-6, 1.0e-9
 
 
-class Outcome(NamedTuple):
-    """What came of trying candidates."""
-
-    proposals: tuple[Proposal, ...]
-    failed: int
-    """How many did not do what they were to do."""
-    untried: int
-    """How many were left."""
-
-
 class LeftOut(NamedTuple):
     """What was not looked at, or did not work."""
 
@@ -45,8 +35,17 @@ class LeftOut(NamedTuple):
     """Sets that look right and were not tried, of those that were looked at."""
     failed: int = 0
     """Sets that were tried and did not work."""
+    doubtful: int = 0
+    """Sets that work for the numbers as they are, though rounding may hide that they do not."""
     is_too_large: bool = False
     """Whether there are so many self-stresses, or motions, that no sets were looked for."""
+
+
+class Outcome(NamedTuple):
+    """What came of trying candidates."""
+
+    proposals: tuple[Proposal, ...]
+    left_out: LeftOut
 
 
 #: Nothing was left out.
@@ -58,6 +57,8 @@ class _Try(NamedTuple):
     change: Change
     after: After
     spectrum: FloatArray
+    is_certain: bool
+    """Whether it does so however the geometry was rounded."""
 
 
 def tries_of(result: Result) -> int:
@@ -116,20 +117,31 @@ def proposals_of(
         groups.setdefault((candidate.rank, kinds(candidate)), []).append(candidate)
     left, failed = tries_of(result), 0
     works: list[_Try] = []
-    for turn in range(1 + _MOST_ALTERNATIVES):
-        for group in list(groups.values())[:most]:
-            if turn >= len(group) or left <= 0:
-                continue
-            left -= 1
-            one = _tried(result, purpose, group[turn], change(group[turn]))
-            if one is None:
-                failed += 1
-            else:
-                works.append(one)
+    good: list[list[Candidate]] = []
+    for group in groups.values():
+        if len(good) == most or not left:
+            break
+        left -= 1
+        one = _tried(result, purpose, group[0], change(group[0]))
+        if one is None:
+            failed += 1
+        else:
+            works.append(one)
+            good.append(group)
+    for turn in range(1, 1 + _MOST_ALTERNATIVES):
+        for group in good:
+            if turn < len(group) and left:
+                left -= 1
+                one = _tried(result, purpose, group[turn], change(group[turn]))
+                works += [] if one is None else [one]
+                failed += one is None
+    untried = len(found) - len(works) - failed
     place = {candidate.members: i for i, candidate in enumerate(found)}
     works.sort(key=lambda one: place[one.candidate.members])
-    made = _together(purpose, works, kinds)[:most]
-    return Outcome(tuple(made), failed, len(found) - len(works) - failed)
+    certain = [one for one in works if one.is_certain]
+    doubtful = len(works) - len(certain) if certain else 0
+    made = _together(purpose, certain or works, kinds)[:most]
+    return Outcome(tuple(made), LeftOut(untried, failed, doubtful))
 
 
 def _tried(result: Result, purpose: Purpose, candidate: Candidate, change: Change) -> _Try | None:
@@ -138,19 +150,24 @@ def _tried(result: Result, purpose: Purpose, candidate: Candidate, change: Chang
         made = analysed(result, change)
     except FlexactError:
         return None
-    if not _does(result, purpose, made):
+    left = _left_of(purpose)
+    if left(made) or _other(purpose, made) > _other(purpose, result):
         return None
     whole = made.with_internal_declared or made
-    return _Try(candidate, change, after(made), whole.scaled_singular_values)
+    is_certain = removes_all(result, made, left)
+    return _Try(candidate, change, after(made), whole.scaled_singular_values, is_certain)
 
 
-def _does(result: Result, purpose: Purpose, then: Result) -> bool:
-    """Whether a change does all that it is to do, and no harm."""
+def _left_of(purpose: Purpose) -> Left:
+    """What is left of what is to be removed."""
     if purpose is Purpose.RELEASE:
-        is_done = removes_all(result, then, lambda one: one.over_constrained)
-        return is_done and then.under_constrained <= result.under_constrained
-    is_done = removes_all(result, then, lambda one: one.under_constrained)
-    return is_done and then.over_constrained <= result.over_constrained
+        return lambda one: one.over_constrained
+    return lambda one: one.under_constrained
+
+
+def _other(purpose: Purpose, result: Result) -> int:
+    """What must not become more."""
+    return result.under_constrained if purpose is Purpose.RELEASE else result.over_constrained
 
 
 def _together(
