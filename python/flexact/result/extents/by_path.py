@@ -12,7 +12,7 @@ from .orders import fit_of, measured
 from .reduced import Reduced
 from .walking import GOAL, Walk, walk
 
-_WISHES = Wishes(length=GOAL, through=True)
+_WISHES = Wishes(length=GOAL, steps=200, through=True)
 
 
 def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:

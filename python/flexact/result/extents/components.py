@@ -17,6 +17,9 @@ from ...core.basis import Basis
 from ...core.elements import Class
 from ..spaces import Spaces
 
+#: Entries of a vector of unit norm that are rounding.
+_UNSEEN = 1.0e-10
+
 
 @dataclass(frozen=True, eq=False)
 class Component(Frozen):
@@ -54,8 +57,7 @@ def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
         (spaces.stress_space, spaces.raw.row_label[0] - 1 + columns),
     )
     for basis, place in both:
-        where = place[basis.place]
-        groups.join(where, where[basis.start[:-1]][basis.of_entries()] if where.size else where)
+        groups.join(*_within_vectors(basis, place))
     group = groups.found()
     moving, stressed = (_of_vectors(group, place, basis) for basis, place in both)
     felt = np.intersect1d(moving, stressed)
@@ -81,9 +83,26 @@ def _of_vectors(
     group: NDArray[np.integer], place: NDArray[np.integer], basis: Basis
 ) -> NDArray[np.integer]:
     """(vectors,) the group that each vector of a basis belongs to."""
-    if not basis.vectors:
-        return np.zeros(0, np.int64)
-    return np.asarray(group[place[basis.place[basis.start[:-1]]]])
+    made = np.zeros(basis.vectors, np.int64)
+    seen = _seen(basis)
+    made[basis.of_entries()[seen]] = group[place[basis.place[seen]]]
+    return made
+
+
+def _within_vectors(
+    basis: Basis, place: NDArray[np.integer]
+) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """Places that a vector reaches, each beside one of them."""
+    seen = _seen(basis)
+    where, vector = place[basis.place[seen]], basis.of_entries()[seen]
+    one = np.zeros(basis.vectors, np.int64)
+    one[vector] = where
+    return where, one[vector]
+
+
+def _seen(basis: Basis) -> NDArray[np.bool_]:
+    """Entries of vectors of unit norm that are more than rounding."""
+    return np.abs(basis.value) > _UNSEEN
 
 
 def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:

@@ -10,6 +10,7 @@ import numpy as np
 from ...base.loading import load
 from ...core.arrays import FloatArray
 from ..spaces import Spaces
+from ..weights import column_weights
 from .components import Component, components_of
 from .extent import EvidenceKind, Extent, Extents, Kind, Reason
 from .judge import Decided, Judge
@@ -18,6 +19,8 @@ from .judge import Decided, Judge
 #: components than this.
 _MOST_MOTIONS, _MOST_NUMBERS, _MOST_WORK = 400, 4_000_000, 400_000
 _MOST_COMPONENTS = 60
+#: A told motion has no part in a component where it is below this.
+_UNSEEN = 1.0e-9
 _FREE = Extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS)
 
 
@@ -68,8 +71,11 @@ def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int
         owner[component.columns] = index
         there[component.columns] = np.arange(component.columns.size)
         made.append(dict[int, FloatArray]())
-    vector = told.of_entries()
-    pairs = np.unique(np.stack([owner[told.place], vector]), axis=1)
+    vector, weighted = told.of_entries(), np.abs(told.value * column_weights(spaces)[told.place])
+    largest = np.zeros(told.vectors)
+    np.maximum.at(largest, vector, weighted)
+    seen = weighted > _UNSEEN * largest[vector]
+    pairs = np.unique(np.stack([owner[told.place], vector])[:, seen], axis=1)
     for index, k in pairs.T.tolist():
         if index < 0:
             continue

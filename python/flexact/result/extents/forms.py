@@ -18,7 +18,7 @@ from ...core.arrays import FloatArray
 from .felt import Felt
 
 #: Steps of the central differences, in parts of the size; the best of their table is taken.
-_STEPS = 0.02 * 0.25 ** np.arange(5)
+_STEPS = 0.02 * 0.25 ** np.arange(7)
 #: A value is told from zero where it is this multiple of its error, and this part of the terms
 #: that it is the sum of.
 _CLEARLY, _PART = 1.0e3, 1.0e-9
