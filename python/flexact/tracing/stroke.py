@@ -142,6 +142,7 @@ class Stroke:
         (pose,) = poses_with_inner_nodes(self.result.condensed, [pose_in(self.held, where)])
         return Step(
             arc * self.held.size,
+            self.held.outside(where),
             pose,
             residual,
             values[::-1][:_KEPT].copy(),

@@ -14,6 +14,7 @@ from ..base.loading import load
 from ..core.arrays import FloatArray
 from ..drawing.pose import Pose
 from ..drawing.selection import Selection
+from ..model.configuration import Configuration
 from ..result.following import Stop
 from ..result.result import Result
 from ..result.verdict import Verdict
@@ -48,6 +49,7 @@ class Step(Frozen):
     Attributes:
         arc: Where it is along the path [m]: how far the node has gone that moves farthest, a
             rotation of 1 rad counting as the model's size; negative against the motion.
+        configuration: Of the model as it was analysed, such as `flexact.deformations` takes.
         pose: Where all nodes of the model as given are.
         residual: The largest held deformation, lengths by the model's size, angles in radians.
         values: The smallest singular values of the scaled D(c), theory.md (2), ascending, at
@@ -60,6 +62,7 @@ class Step(Frozen):
     """
 
     arc: float
+    configuration: Configuration
     pose: Pose
     residual: float
     values: FloatArray

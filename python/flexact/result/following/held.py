@@ -91,7 +91,6 @@ class Held:
         held = (classes == Class.FIXED) | (classes == Class.INDEPENDENT)
         self.rows = np.flatnonzero(held.T.ravel())
         self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
-        self._turning = np.flatnonzero(self.arrays.node_kind == NodeKind.ORIENTATION)
         by_size = self.sizes.size / self.sizes.unit
         turns = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
         self._row_factor = np.where(turns, 1.0, 1.0 / by_size)
@@ -100,8 +99,15 @@ class Held:
         place = np.full(classes.size, -1)
         place[self.rows] = np.arange(self.rows.size)
         self._row_place = place
+        # Of an orientation all three rotations count, even if one of them is not dependent.
+        free = (self.arrays.coordinate_class == Class.DEPENDENT).any(axis=0)
+        self._turning = np.flatnonzero(free & (self.arrays.node_kind == NodeKind.ORIENTATION))
+        whole = (3 * self._turning[:, None] + np.arange(3)).ravel()
+        wide = np.union1d(self.columns, whole)
+        self._narrow = np.searchsorted(wide, self.columns)
+        self._wide_size = wide.size
         place = np.full(self.arrays.coordinate_class.size, -1)
-        place[self.columns] = np.arange(self.columns.size)
+        place[wide] = np.arange(wide.size)
         self._column_place = place
 
     @property
@@ -165,13 +171,9 @@ class Held:
         The derivatives are with respect to the change.
         """
         if change is None or not change.any():
-            return Place(here, *self._assembled(here))
+            return self._placed(here, np.zeros((self.arrays.node_kind.size, 3)))
         delta = self._delta(change)
-        there = here.moved(delta)
-        error, jacobian = self._assembled(there)
-        if self._turning.size:
-            jacobian = jacobian @ self._turn_of(delta)
-        return Place(there, error, jacobian)
+        return self._placed(here.moved(delta), delta)
 
     def moved(self, here: Configuration, change: FloatArray) -> Configuration:
         """The nodes after a change (n,) of the coordinates."""
@@ -182,25 +184,26 @@ class Held:
         delta.ravel()[self.columns] = change * self._column_factor
         return delta
 
-    def _turn_of(self, delta: FloatArray) -> FloatArray:
-        """(n, n) small rotations made by a change of rotation vectors, exp(T dv) exp(v)."""
-        made = np.eye(self.columns.size)
-        block = _left_jacobian(delta[self._turning])
-        for node, turn in zip(self._turning.tolist(), block, strict=True):
-            place = self._column_place[3 * node : 3 * node + 3]
-            there = place >= 0
-            made[np.ix_(place[there], place[there])] = turn[np.ix_(there, there)]
-        return made
-
-    def _assembled(self, here: Configuration) -> tuple[FloatArray, FloatArray]:
-        raw = self._raw(here)
+    def _placed(self, there: Configuration, delta: FloatArray) -> Place:
+        """The place to which a change, (nodes, 3), has led."""
+        raw = self._raw(there)
         row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
-        there = (row >= 0) & (column >= 0)
-        m, n = self.rows.size, self.columns.size
-        place = row[there] * n + column[there]
-        flat = np.bincount(place, raw.value[there], m * n).astype(np.float64)
+        known = (row >= 0) & (column >= 0)
+        m, n = self.rows.size, self._wide_size
+        place = row[known] * n + column[known]
+        wide = np.bincount(place, raw.value[known], m * n).astype(np.float64).reshape(m, n)
+        if self._turning.size and delta.any():
+            self._turn(wide, delta)
         error = raw.deformation.T.ravel()[self.rows] * self._row_factor
-        return error, self._row_factor[:, None] * flat.reshape(m, n) * self._column_factor
+        jacobian = self._row_factor[:, None] * wide[:, self._narrow] * self._column_factor
+        return Place(there, error, jacobian)
+
+    def _turn(self, wide: FloatArray, delta: FloatArray) -> None:
+        """Make derivatives by rotation vectors of those by small rotations, exp(T dv) exp(v)."""
+        first = self._column_place[3 * self._turning]
+        columns = first[:, None] + np.arange(3)
+        blocks = wide[:, columns]
+        wide[:, columns] = np.einsum("mkx,kxy->mky", blocks, _left_jacobian(delta[self._turning]))
 
     def pressed(self, here: Configuration, stresses: FloatArray) -> FloatArray:
         """(n, s) u' D of some stresses (m, s), without the matrix in full.
@@ -211,10 +214,11 @@ class Held:
         row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
         there = (row >= 0) & (column >= 0)
         row, column = row[there], column[there]
-        value = raw.value[there] * self._row_factor[row] * self._column_factor[column]
-        many = self.columns.size
-        sums = [np.bincount(column, value * each[row], many) for each in stresses.T]
-        return np.stack(sums, axis=1) if sums else np.zeros((many, 0))
+        value = raw.value[there] * self._row_factor[row]
+        sums = [np.bincount(column, value * each[row], self._wide_size) for each in stresses.T]
+        if not sums:
+            return np.zeros((self.columns.size, 0))
+        return np.stack(sums, axis=1)[self._narrow] * self._column_factor[:, None]
 
     def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
         """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
