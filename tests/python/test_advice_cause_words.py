@@ -7,7 +7,9 @@ import re
 
 import numpy as np
 import pytest
+from divided import Division
 from reference_decks import text_of, transform
+from test_advice_causes import wires
 from turned_elements import plain as told_plainly
 from turned_elements import turned
 
@@ -25,11 +27,9 @@ from flexact.text.sentences import plain
 DECKS = [
     "flexures/five_wires_lower_two_parallel",
     "flexures/parallel_guide_undeclared",
-    "flexures/six_folded_sheets_undeclared",
     "frameworks/collinear_bars_space",
     "frameworks/k33_circle",
     "frameworks/octahedral_platform_yaw_90",
-    "frameworks/prism_twist_30",
     "frameworks/ring_4",
     "linkages/bennett",
     "linkages/four_bar_in_space",
@@ -78,8 +78,18 @@ def test_the_words_stay_where_the_deck_is_told_otherwise(name: str) -> None:
 def test_the_words_stay_where_elements_are_told_otherwise(name: str) -> None:
     data = flexact.read_text(text_of(name), name).data
     expected = words_of(Model.from_data(told_plainly(data)))
-    for seed in range(2):
-        assert words_of(turned(data, seed)) == expected
+    assert words_of(turned(data, 1)) == expected
+
+
+def test_the_words_stay_where_wires_are_divided() -> None:
+    expected = words_of(wires(Division()))
+    assert words_of(wires(Division(beams=3))) == expected
+    undeclared = words_of(wires(Division(beams=3, declared=False)))
+    assert [words for words in undeclared if not words.startswith("generic")] == expected
+    # Bent by a tenth of a millimetre it has no self-stress as it stands.
+    bent = flexact.analyse(wires(Division(beams=3, declared=False, amplitude=1e-4, seed=2)))
+    assert bent.over_constrained == 0
+    assert causes_of(bent).self_stresses == ()
 
 
 def test_a_designer_is_told_the_names_of_parts() -> None:
@@ -101,8 +111,8 @@ def test_a_guide_is_told_what_both_sheets_hold_and_what_is_free() -> None:
 def test_small_misalignments_are_in_units_of_the_workshop() -> None:
     model = flexact.read_text(text_of("paper/five_folded_sheets_symmetric"))
     (motion, *_) = words_of(model)
-    assert re.search(r"by 100 um .* to [\d.e-]+ \([\d.]+ per metre\)", motion)
-    assert re.search(r"by 1 mrad to [\d.e-]+ \([\d.]+ per radian\)", motion)
+    assert re.search(r"by 100 um .* to about [\d.e-]+ \([\d.]+ per metre\)", motion)
+    assert re.search(r"by 1 mrad to about [\d.e-]+ \([\d.]+ per radian\)", motion)
 
 
 def test_a_stress_of_nothing_but_internal_motions_is_not_both() -> None:

@@ -70,8 +70,8 @@ class Shares(Frozen):
         told = self.result.self_stresses
         whole = self.whole
         own = self.own_stresses
-        if whole is self.result:
-            return own
+        if whole is self.result or not len(told):
+            return own[:, : len(told)]
         of_whole = _loads_of(list(whole.self_stresses))
         of_told = _loads_of(list(told))
         keys = {key: i for i, key in enumerate(sorted({*of_whole, *of_told}))}

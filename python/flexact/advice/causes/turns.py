@@ -44,20 +44,17 @@ def change_of(result: Result, limbs: Limbs, turn: Turn) -> Change | None:
     found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist())
     matrix = _rotation(turn.direction, turn.angle)
     places = arrays.node_value[:3].T
+    after = places.copy()
     made = {}
     for node in sorted(found):
-        place = turn.point + matrix @ (places[node] - turn.point)
-        step = _TOO_NEAR * result.characteristic_length
-        if float(np.linalg.norm(place - places[node])) <= _ZERO * result.characteristic_length:
+        after[node] = turn.point + matrix @ (places[node] - turn.point)
+        way = float(np.linalg.norm(after[node] - places[node]))
+        if way <= _ZERO * result.characteristic_length:
             continue
         if not _is_own(result, limbs, turn.limb, node):
             return None
-        others = [n for n in _positions(result) if n not in found]
-        apart = np.linalg.norm(places[others] - place, axis=1)
-        if apart.min(initial=np.inf) < step:
-            return None
-        made[node] = _rounded(place, result.characteristic_length)
-    if not made:
+        made[node] = _rounded(after[node], result.characteristic_length)
+    if not made or _is_in_the_way(result, turn.limb, after):
         return None
     numbers = arrays.node_number
     return Change(
@@ -66,9 +63,34 @@ def change_of(result: Result, limbs: Limbs, turn: Turn) -> Change | None:
     )
 
 
-def _positions(result: Result) -> list[int]:
-    slots = result.given.arrays.element_node[[0, 2]]
-    return sorted(set((slots - 1).ravel().tolist()) - {-1})
+def _is_in_the_way(result: Result, limb: Limb, places: FloatArray) -> bool:
+    """Whether a member of a limb goes through a point of another one, or the other way round.
+
+    Of divided sheets and wires their ends count.
+    """
+    arrays, condensed = result.data.arrays, result.condensed
+    mine = np.isin(condensed.elements, [index for part in limb.parts for index in part.elements])
+    ends = arrays.element_node[[0, 2]] - 1
+    both = (ends >= 0).all(axis=0)
+    near = _TOO_NEAR * result.characteristic_length
+    own = set(ends[:, mine & both].ravel().tolist())
+    others = set(ends[:, ~mine & both].ravel().tolist()) - own
+    at = places[condensed.nodes]
+    for chosen, points in ((mine & both, others), (~mine & both, own)):
+        for p, q in ends[:, chosen].T.tolist():
+            beside = [node for node in points if node not in (p, q)]
+            if beside and _distances(at[beside], at[p], at[q]).min() < near:
+                return True
+    return False
+
+
+def _distances(points: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """(points,) from a segment."""
+    way = last - first
+    size = float(way @ way)
+    share = np.clip((points - first) @ way / size, 0.0, 1.0) if size > 0.0 else 0.0 * points[:, 0]
+    made: FloatArray = np.linalg.norm(points - first - share[:, None] * way, axis=1)
+    return made
 
 
 def _is_own(result: Result, limbs: Limbs, limb: Limb, node: int) -> bool:

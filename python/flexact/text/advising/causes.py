@@ -19,6 +19,7 @@ from .mends import hub_name, motion_of
 from .mends import mend_in_words as mend_in_words
 from .relations import relations_in_words
 
+_LIFTS = "lifts its singular value from zero to about"
 _UNKNOWN: Pieces = ("whether another geometry would have it was not looked at",)
 #: The misalignment for which a lift is told: the power of ten below this part of the size.
 _SMALL, _ANGLE = 1.0e-2, 1.0e-3
@@ -126,14 +127,14 @@ def _lift(result: Result, cause: Cause) -> Pieces:
         step = _step(result.characteristic_length)
         made += [
             *("Moving ", _point(result, lift.node), f" by {length_in_words(step)}"),
-            f" lifts its singular value from zero to {lift.by_move * step:.2g}",
+            f" {_LIFTS} {lift.by_move * step:.2g}",
             f" ({lift.by_move:.2g} per metre)",
         ]
     if lift.element is not None:
         made += [
             *(", turning " if made else "Turning ", named_element(result, lift.element)),
             f" by {angle_in_words(_ANGLE)}",
-            f" {'to' if lift.node is not None else 'lifts its singular value from zero to'} "
+            f" {'to about' if lift.node is not None else _LIFTS} "
             f"{lift.by_turn * _ANGLE:.2g} ({lift.by_turn:.2g} per radian)",
         ]
     return tuple(made)
