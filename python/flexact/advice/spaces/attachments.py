@@ -71,14 +71,16 @@ class Site:
         places = [self.middle]
         for family in (each for space in spaces for each in space.lines):
             places += [self._nearest(family, near) for near in (self.middle, *self._own_places)]
+            places += list(self._feet(family, self.middle)) if len(family.points) > 2 else []
         return self._carried(places)
 
     @property
     def reached(self) -> tuple[Attachment, ...]:
         """Points that a longer link would carry, along and across flexures from the middle."""
         arm = _LENGTH * self.result.characteristic_length
+        ways = (*self.directions, *np.eye(3)[: 2 if self.result.given.planar else 3])
         return self._carried(
-            [self.middle + side * arm * each for each in self.directions for side in (1.0, -1.0)]
+            [self.middle + side * arm * each for each in ways for side in (1.0, -1.0)]
         )
 
     def _carried(self, places: Sequence[FloatArray]) -> tuple[Attachment, ...]:
@@ -121,12 +123,18 @@ class Site:
         if family.kind in (FamilyKind.PLANE, FamilyKind.PARALLELS_IN_PLANE):
             return place - (arm @ family.normal) * family.normal
         if len(family.points):
-            arms = place - family.points
-            along = np.sum(arms * family.directions, axis=1)[:, None] * family.directions
-            feet = family.points + along
+            feet = self._feet(family, place)
             made: FloatArray = feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))]
             return made
         return place
+
+    @staticmethod
+    def _feet(family: Family, place: FloatArray) -> FloatArray:
+        """(n, 3) the point of each line of a family that is nearest to a place."""
+        arms = place - family.points
+        along = np.sum(arms * family.directions, axis=1)[:, None]
+        made: FloatArray = family.points + along * family.directions
+        return made
 
     @cached_property
     def directions(self) -> FloatArray:

@@ -45,7 +45,8 @@ def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Prop
     single = (_wires(freed, site, aim, (line,), besides) for line in lines)
     made = list(islice(filter(None, single), _MOST_PROPOSALS))
     if len(aim.unwanted) > 1:
-        sets = (chosen for line in lines if len(chosen := _set_from(site, aim, line)) > 1)
+        sets = [chosen for line in lines if len(chosen := _set_from(site, aim, line)) > 1]
+        sets.sort(key=len, reverse=True)
         whole = (_wires(freed, site, aim, chosen, besides) for chosen in sets)
         made += islice(filter(None, whole), 1)
     return tuple(made)
