@@ -14,7 +14,7 @@ from ..change import Change
 from ..proposal import analysed
 
 #: Rows and columns of D(c) up to which null vectors are computed that were left out.
-_MOST_DENSE = 2_500
+_MOST_DENSE = 1_000
 
 
 def as_it_stands(result: Result) -> Result:
