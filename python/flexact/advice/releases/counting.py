@@ -13,7 +13,7 @@ from ...result.verdict import Alternative
 from ..change import Change
 from .bases import Rows, TooManyError, count_bases
 from .reach import Reach
-from .stands import standing
+from .stands import changed
 
 #: Rows times vectors squared beyond which a count is not begun.
 _MOST_WORK = 2.0e9
@@ -50,7 +50,7 @@ def counted(stands: Result, reach: Reach, left: Left) -> int | None:
                 return None
             change = joined([reach.change(int(reach.index[i])) for i in sorted(chosen)])
             try:
-                after = standing(stands, change.apply(stands.given).data)
+                after = changed(stands, change)
                 known[chosen] = removes_all(stands, after, left)
             except FlexactError:
                 known[chosen] = False

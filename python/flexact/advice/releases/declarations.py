@@ -18,6 +18,7 @@ from .counting import counted
 from .kinds import LINK, tier_of_node
 from .reach import Reach
 from .stands import as_it_stands, complete
+from .steps import by_steps
 from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many sets of released deformations that may be held are listed.
@@ -65,7 +66,9 @@ def declarations_of(result: Result) -> Declarations:
     if not size:
         return Declarations(0, 0)
     if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
-        return Declarations(size, None, left_out=LeftOut(is_too_large=True))
+        one = by_steps(stands, Purpose.DECLARE, reaches.of_columns, _tiers)
+        sets = () if one is None else (one,)
+        return Declarations(size, None, sets, left_out=LeftOut(is_too_large=True))
     reach = reaches.of_columns(stands)
     count = counted(stands, reach, lambda after: after.under_constrained)
     whole = complete(result) if result.condensed.chains else stands
@@ -85,8 +88,7 @@ def declarations_of(result: Result) -> Declarations:
 def _listed(result: Result, source: Result) -> Outcome:
     reach = _without_repeats(source, reaches.of_columns(source))
     nodes = source.raw.column_label[0, reach.index] - 1
-    given = source.condensed.nodes[nodes]
-    tiers = np.array([tier_of_node(source, int(i)) for i in given], float)
+    tiers = _tiers(source, reach)
     turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
 
     def ranking(sets: Places, condition: FloatArray) -> FloatArray:
@@ -96,6 +98,12 @@ def _listed(result: Result, source: Result) -> Outcome:
 
     found = candidates(reach, ranking, tiers)
     return listed(result, reach, Purpose.DECLARE, _one_inside(found, tiers))
+
+
+def _tiers(source: Result, reach: Reach) -> FloatArray:
+    """(n,) how late coordinates are declared."""
+    nodes = source.condensed.nodes[source.raw.column_label[0, reach.index] - 1]
+    return np.array([tier_of_node(source, int(i)) for i in nodes], float)
 
 
 def _one_inside(found: list[Candidate], tiers: FloatArray) -> list[Candidate]:

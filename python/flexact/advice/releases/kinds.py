@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-
 import numpy as np
 
 from ...core.elements import NodeKind, Role, role_table
@@ -14,6 +12,8 @@ from ..change import Change
 
 #: What is changed first, last and in between.
 FLEXURE, BODY, LINK = 0, 1, 2
+#: What it is of, when it is changed, and two numbers that say what it is.
+Kind = tuple[str, int, int, int]
 _BENDINGS = {
     Role.BENDING_XZ_P: 2,
     Role.BENDING_XZ_Q: 2,
@@ -41,20 +41,14 @@ def tier_of_node(result: Result, given: int) -> int:
     return FLEXURE if given in result.parts.body_at else BODY
 
 
-def kind_of(result: Result, change: Change) -> Hashable:
-    """Of what kind the deformations and coordinates of a change are, however it is turned."""
-    deformations = tuple(
-        sorted(
-            _of_deformation(result, element, number) for element, number, _ in change.deformations
-        )
-    )
-    coordinates = tuple(
-        sorted(_of_coordinate(result, node, name) for node, name, _ in change.coordinates)
-    )
-    return deformations, coordinates
+def kind_of(result: Result, change: Change) -> Kind:
+    """Of what kind the deformation or the coordinate of a change is, however it is turned."""
+    if change.deformations:
+        return _of_deformation(result, *change.deformations[0][:2])
+    return _of_coordinate(result, *change.coordinates[0][:2])
 
 
-def _of_deformation(result: Result, element: int, number: int) -> tuple[str, int, int, int]:
+def _of_deformation(result: Result, element: int, number: int) -> Kind:
     index = result.given.element_index[element]
     part = result.parts.of_element(index)
     role = int(role_table()[result.given.arrays.element_kind[index], number - 1])
@@ -71,7 +65,7 @@ def _of_deformation(result: Result, element: int, number: int) -> tuple[str, int
     )
 
 
-def _of_coordinate(result: Result, node: int, name: str) -> tuple[str, int, int, int]:
+def _of_coordinate(result: Result, node: int, name: str) -> Kind:
     index = result.given.node_index[node]
     turns = bool(result.given.arrays.node_kind[index] > NodeKind.POSITION)
     held = int(np.count_nonzero(result.given.arrays.coordinate_class[:, index] == 1))

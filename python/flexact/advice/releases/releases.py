@@ -16,7 +16,9 @@ from .candidates import Places, candidates
 from .cost import cost_of
 from .counting import counted
 from .kinds import LINK, tier_of_element
+from .reach import Reach
 from .stands import as_it_stands, complete
+from .steps import by_steps
 from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many supports that may be freed are listed.
@@ -61,6 +63,9 @@ def releases_of(result: Result) -> Releases:
     flexures before bodies, ties by names and places. Links inside of bodies are listed where
     nothing else does it.
 
+    Of large models, of which not all null vectors fit, nothing is counted, and one set at most is
+    given (`flexact.advice.releases.steps`).
+
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
     """
@@ -69,7 +74,9 @@ def releases_of(result: Result) -> Releases:
     if not size:
         return Releases(0, 0)
     if stands.stress_space.vectors < size or not reaches.fits(stands.stress_space):
-        return Releases(size, None, left_out=LeftOut(is_too_large=True))
+        one = by_steps(stands, Purpose.RELEASE, reaches.of_rows, _tiers)
+        sets = () if one is None else (one,)
+        return Releases(size, None, sets, left_out=LeftOut(is_too_large=True))
     reach = reaches.of_rows(stands)
     count = counted(stands, reach, lambda after: after.over_constrained)
     tried = Outcome((), NOTHING_LEFT_OUT)
@@ -101,8 +108,7 @@ def _whole(result: Result, stands: Result) -> Result:
 
 def _listed(result: Result, source: Result) -> Outcome:
     reach = reaches.of_rows(source)
-    elements = source.condensed.elements[source.raw.row_label[0, reach.index] - 1]
-    tiers = np.array([tier_of_element(source, int(i)) for i in elements], float)
+    tiers = _tiers(source, reach)
     cost = cost_of(source, reach)
 
     def ranking(sets: Places, condition: FloatArray) -> FloatArray:
@@ -112,6 +118,12 @@ def _listed(result: Result, source: Result) -> Outcome:
     found = candidates(reach, ranking, tiers)
     without_links = [one for one in found if tiers[list(one.members)].max() < LINK]
     return listed(result, reach, Purpose.RELEASE, without_links or found)
+
+
+def _tiers(source: Result, reach: Reach) -> FloatArray:
+    """(n,) how late rows are released."""
+    elements = source.condensed.elements[source.raw.row_label[0, reach.index] - 1]
+    return np.array([tier_of_element(source, int(i)) for i in elements], float)
 
 
 def _supports(result: Result, source: Result) -> Outcome:

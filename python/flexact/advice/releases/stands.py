@@ -10,20 +10,42 @@ from ...model.parts.condensing import as_given
 from ...result.decompose import AnalysisError, decompose
 from ...result.outcome import Asked
 from ...result.result import Result
+from ..change import Change
+from ..proposal import analysed
 
 #: Rows and columns of D(c) up to which null vectors are computed that were left out.
-_MOST_DENSE = 2_500
+_MOST_DENSE = 1_000
 
 
 def as_it_stands(result: Result) -> Result:
     """The result of the model as given, without taking declared divided sheets for one beam.
 
-    It is the result itself where there are none.
+    It is the result itself where there are none, and where each beam by itself gives other
+    counts, as it can where inner nodes are off the line: what the verdict counts is counted.
 
     Raises:
         AnalysisError: the model cannot be analysed so.
     """
-    return complete(result) if not result.condensed.chains else standing(result, result.given)
+    if result.condensed.chains:
+        made = standing(result, result.given)
+        if _counts(made) == _counts(result):
+            return made
+    return complete(result)
+
+
+def _counts(result: Result) -> tuple[int, int]:
+    return result.under_constrained, result.over_constrained
+
+
+def changed(stands: Result, change: Change) -> Result:
+    """The analysis of what `as_it_stands` gave, once it is changed, in the same way.
+
+    Raises:
+        FlexactError: the changed mechanism cannot be analysed.
+    """
+    if stands.condensed.chains:
+        return analysed(stands, change)
+    return standing(stands, change.apply(stands.given).data)
 
 
 def complete(result: Result) -> Result:

@@ -15,11 +15,13 @@ from ..change import Change
 from ..proposal import After, Proposal, Purpose, after, analysed
 from .candidates import Candidate
 from .counting import Left, joined, removes_all
-from .kinds import kind_of
+from .kinds import Kind, kind_of
 from .reach import Reach
 
 #: How many proposals there are at most.
 MOST_SETS = 12
+#: How many sets are looked at, in their order.
+_MOST_GROUPED = 5_000
 #: How many others one has at most.
 _MOST_ALTERNATIVES = 11
 #: How many analyses are made of a small mechanism, and of any; and operations in all.
@@ -38,7 +40,7 @@ class LeftOut(NamedTuple):
     doubtful: int = 0
     """Sets that work for the numbers as they are, though rounding may hide that they do not."""
     is_too_large: bool = False
-    """Whether there are so many self-stresses, or motions, that no sets were looked for."""
+    """Whether the model is so large that one set at most was looked for."""
 
 
 class Outcome(NamedTuple):
@@ -76,44 +78,22 @@ def decades(condition: FloatArray) -> FloatArray:
 def listed(
     result: Result, reach: Reach, purpose: Purpose, found: list[Candidate], most: int = MOST_SETS
 ) -> Outcome:
-    """The best sets of rows that work, each tried; see `proposals_of`."""
-    changes: dict[tuple[int, ...], Change] = {}
-
-    def change(candidate: Candidate) -> Change:
-        if candidate.members not in changes:
-            rows = reach.index[list(candidate.members)].tolist()
-            changes[candidate.members] = joined([reach.change(row) for row in rows])
-        return changes[candidate.members]
-
-    def kinds(candidate: Candidate) -> Hashable:
-        return kind_of(result, change(candidate))
-
-    return proposals_of(result, purpose, found, change, kinds, most)
-
-
-def proposals_of(
-    result: Result,
-    purpose: Purpose,
-    found: Sequence[Candidate],
-    change: Callable[[Candidate], Change],
-    kinds: Callable[[Candidate], Hashable],
-    most: int = MOST_SETS,
-) -> Outcome:
-    """The best candidates that work, each tried.
+    """The best sets of rows that work, each tried.
 
     First one of each group that may be equal is tried, then the others of these groups: those
     of which the singular values of the changed D(c) are equal are one proposal.
 
     Args:
         result: The result.
+        reach: The rows.
         purpose: What they are to do.
-        found: The best first.
-        change: What a candidate is.
-        kinds: Of what kinds a candidate is; equal for those that symmetry may make equal.
+        found: Sets of them, the best first.
         most: How many proposals there are at most.
     """
+    ones = _Ones(result, reach)
+    change, kinds = ones.change, ones.kinds
     groups: dict[Hashable, list[Candidate]] = {}
-    for candidate in found:
+    for candidate in found[:_MOST_GROUPED]:
         groups.setdefault((candidate.rank, kinds(candidate)), []).append(candidate)
     left, failed = tries_of(result), 0
     works: list[_Try] = []
@@ -156,6 +136,32 @@ def _tried(result: Result, purpose: Purpose, candidate: Candidate, change: Chang
     whole = made.with_internal_declared or made
     is_certain = removes_all(result, made, left)
     return _Try(candidate, change, after(made), whole.scaled_singular_values, is_certain)
+
+
+class _Ones:
+    """What is done with single rows, and of what kinds they are."""
+
+    def __init__(self, result: Result, reach: Reach) -> None:
+        self.result = result
+        self.reach = reach
+        self._change: dict[int, Change] = {}
+        self._kind: dict[int, Kind] = {}
+
+    def change(self, candidate: Candidate) -> Change:
+        """What a candidate is."""
+        return joined([self._one(row) for row in candidate.members])
+
+    def kinds(self, candidate: Candidate) -> tuple[Kind, ...]:
+        """Of what kinds it is; equal for those that symmetry may make equal."""
+        for row in candidate.members:
+            if row not in self._kind:
+                self._kind[row] = kind_of(self.result, self._one(row))
+        return tuple(sorted(self._kind[row] for row in candidate.members))
+
+    def _one(self, row: int) -> Change:
+        if row not in self._change:
+            self._change[row] = self.reach.change(int(self.reach.index[row]))
+        return self._change[row]
 
 
 def _left_of(purpose: Purpose) -> Left:
