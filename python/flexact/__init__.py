@@ -48,8 +48,8 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .tracing.trace import Trace
     from .tracing.tracer import trace
-    from .tracing.values import Trace
     from .variants.search.crossing import Crossing, Crossings
     from .variants.sweep import sweep
     from .variants.sweeps.parameters import grid
@@ -81,7 +81,7 @@ _HOMES = {
         "Verdict",
     ),
     "tracing.tracer": ("trace",),
-    "tracing.values": ("Trace",),
+    "tracing.trace": ("Trace",),
     "variants.search.crossing": ("Crossing", "Crossings"),
     "variants.sweeps.parameters": ("grid",),
     "variants.sweep": ("sweep",),

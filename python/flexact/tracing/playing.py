@@ -10,7 +10,7 @@ import numpy as np
 from ..mesh.collection import Collection, folder_of, moved_mesh
 from ..mesh.content import Meshes
 from ..mesh.file import find_format, named_bytes
-from .values import Trace
+from .values import Traced
 
 #: Names of the meshes: this, and a number each. Of more steps than so many some are left out,
 #: never the dead points.
@@ -25,7 +25,7 @@ class Played(Collection):
     Time is the way that has been gone along the path [m]; it begins and ends at rest.
     """
 
-    def __init__(self, trace: Trace, target: Path) -> None:
+    def __init__(self, trace: Traced, target: Path) -> None:
         """The meshes lie in a folder beside the .pvd file `target`."""
         find_format("vtu")
         self._trace = trace
@@ -46,7 +46,7 @@ class Played(Collection):
         return named_bytes(moved_mesh(self._meshes, pose), "vtu")
 
 
-def _chosen(trace: Trace) -> list[int]:
+def _chosen(trace: Traced) -> list[int]:
     """Which steps are shown."""
     many = len(trace.steps)
     if many <= MOST:

@@ -16,7 +16,7 @@ from ..result.verdict import Verdict
 from ..text.naming import motion_in_words
 from .drive import drive_unit
 from .names import Names
-from .values import Trace
+from .values import Traced
 
 #: Below this singular values are drawn at the lower edge.
 _FLOOR = 1.0e-9
@@ -29,7 +29,7 @@ _CURVES = ("#1f5fa8", "#b25406", "#15774a", "#93205e", "#8a6a00", "#4b5563")
 _SIZE, _PANEL, _DPI = (8.0, 1.4), 2.6, 120
 
 
-def plot_bytes(trace: Trace) -> bytes:
+def plot_bytes(trace: Traced) -> bytes:
     """The picture as PNG.
 
     Raises:
@@ -73,7 +73,7 @@ def plot_bytes(trace: Trace) -> bytes:
     return png_bytes(figure)
 
 
-def _draw_values(axes: Any, trace: Trace) -> None:
+def _draw_values(axes: Any, trace: Traced) -> None:
     count = min(_MOST_VALUES, *(step.values.size for step in trace.steps))
     colours = [step.verdict.colour for step in trace.steps]
     axes.set_yscale("log")
@@ -85,7 +85,7 @@ def _draw_values(axes: Any, trace: Trace) -> None:
     axes.set_ylabel("smallest singular values", fontsize=11)
 
 
-def _draw_places(axes: Any, trace: Trace) -> None:
+def _draw_places(axes: Any, trace: Traced) -> None:
     """Coordinates that change most; of those that are the same the first."""
     points = Names(trace.result).points(len(trace.result.given.node_names))
     start = trace.steps[trace.reference].pose.position
@@ -110,7 +110,7 @@ def _draw_places(axes: Any, trace: Trace) -> None:
         axes.legend(fontsize=9, frameon=False, ncols=3, loc="best")
 
 
-def _draw_drive(axes: Any, trace: Trace) -> None:
+def _draw_drive(axes: Any, trace: Traced) -> None:
     freedom = trace.shown.freedom
     if freedom is None:
         return
@@ -120,7 +120,7 @@ def _draw_drive(axes: Any, trace: Trace) -> None:
     )
 
 
-def _legend(figure: Any, trace: Trace) -> None:
+def _legend(figure: Any, trace: Traced) -> None:
     from matplotlib.lines import Line2D
 
     there = {step.verdict for step in trace.steps}

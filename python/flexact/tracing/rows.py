@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from ..drawing.rotations import vector_of
 from .drive import drive_unit
 from .names import Names
-from .values import Trace
+from .values import Traced
 from .words import dead_in_words
 
 #: Of so many points, and so many bodies, the places stand in a table at most.
@@ -20,7 +20,7 @@ _MOST = 400
 Cell = str | int | float
 
 
-def csv_bytes(trace: Trace) -> bytes:
+def csv_bytes(trace: Traced) -> bytes:
     """The table as CSV; numbers read back to the last bit."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -29,7 +29,7 @@ def csv_bytes(trace: Trace) -> bytes:
     return text.getvalue().encode("utf-8", "backslashreplace")
 
 
-def header(trace: Trace) -> list[str]:
+def header(trace: Traced) -> list[str]:
     """The names of the columns, with units."""
     kept = max(step.values.size for step in trace.steps)
     names = Names(trace.result)
@@ -46,7 +46,7 @@ def header(trace: Trace) -> list[str]:
     ]
 
 
-def rows(trace: Trace) -> Iterator[list[Cell]]:
+def rows(trace: Traced) -> Iterator[list[Cell]]:
     """A row a step; the reference is step 0."""
     names, planar = Names(trace.result), trace.result.given.planar
     points = [point.node for point in names.points(_MOST)]

@@ -10,8 +10,10 @@ from ..files.outputs import OutputError, write_together
 from ..mesh.collection import SUFFIX, write_collection
 from ..mesh.file import find_format
 from ..picture.make import check_packages
+from .playing import Played
+from .plot import plot_bytes
 from .rows import csv_bytes
-from .values import Trace
+from .values import Traced
 
 #: Suffixes of the files.
 SUFFIXES = (".pvd", ".csv", ".png")
@@ -33,7 +35,7 @@ def require_suffix(path: Path) -> None:
         check_packages()
 
 
-def save(trace: Trace, path: Path) -> None:
+def save(trace: Traced, path: Path) -> None:
     """Write a path; see `Trace.save`."""
     if "\0" in str(path):
         raise OutputError("a file's name cannot hold a NUL")
@@ -43,16 +45,12 @@ def save(trace: Trace, path: Path) -> None:
     if suffix == ".csv":
         write_together({path: csv_bytes(trace)})
     elif suffix == ".png":
-        from .plot import plot_bytes
-
         write_together({path: plot_bytes(trace)})
     else:
-        from .playing import Played
-
         write_collection(Played(trace, path))
 
 
-def _refuse_deck(trace: Trace, path: Path) -> None:
+def _refuse_deck(trace: Traced, path: Path) -> None:
     deck = trace.result.given.name
     if trace.result.given.source is None or not deck or "\0" in deck:
         return

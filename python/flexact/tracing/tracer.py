@@ -19,7 +19,8 @@ from ..result.following import Ending, Followed, Held, Wishes, follow, is_follow
 from ..result.following.held import MOST_COORDINATES
 from ..result.result import Result, result_of
 from .stroke import Stroke
-from .values import Trace, Way
+from .trace import Trace
+from .values import Way
 
 #: How far each way by default, in sizes of the model, and by how many steps.
 LENGTH, STEPS = 1.0, 50

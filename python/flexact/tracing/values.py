@@ -3,19 +3,17 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from ..base.frozen import Frozen
-from ..base.loading import load
 from ..core.arrays import FloatArray
 from ..drawing.pose import Pose
 from ..drawing.selection import Selection
 from ..model.configuration import Configuration
 from ..result.following import Stop
+from ..result.handles import position_of
 from ..result.result import Result
 from ..result.verdict import Verdict
 
@@ -93,7 +91,7 @@ class Way(Frozen):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Trace(Frozen):
+class Traced(Frozen):
     """The path of a motion, or of a declared degree of freedom, both ways from the reference.
 
     Attributes:
@@ -142,25 +140,8 @@ class Trace(Frozen):
         Raises:
             ModelError: there is none, or there are several.
         """
-        node = load("flexact.result.handles").position_of(self.result.parts, point)
+        node = position_of(self.result.parts, point)
         return np.array([step.pose.position[node] for step in self.steps])
-
-    def describe(self) -> str:
-        """How far it goes each way, what stops it, its dead points and verdicts, in words."""
-        return "\n".join(load("flexact.tracing.words").lines(self))
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write it to a file, whole or not at all.
-
-        Args:
-            path: Its suffix says what it is to be: .csv, a row a step; .png, singular values and
-                coordinates along the path; .pvd, a cycle that plays in ParaView.
-
-        Raises:
-            FlexactError: There is no such kind of file, a package is missing, or the file cannot
-                be written.
-        """
-        load("flexact.tracing.saving").save(self, Path(path))
 
     def __repr__(self) -> str:
         """How far it goes."""

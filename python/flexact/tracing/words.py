@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import groupby
 
 from ..result.following import Ending, Stop
@@ -18,7 +19,7 @@ from ..text.places import listed, with_article
 from ..text.sentences import plain
 from .drive import drive_unit
 from .names import ROTATION
-from .values import DeadPoint, Step, Trace, Way
+from .values import DeadPoint, Step, Traced, Way
 
 _RANGES = {
     "length": "its ends have come to one point",
@@ -26,9 +27,11 @@ _RANGES = {
 }
 #: How many dead points, and how many changes of the counts, are told one by one.
 _MOST = 12
+#: Residuals up to here are rounding.
+_ROUNDING = 1.0e-14
 
 
-def lines(trace: Trace) -> list[str]:
+def lines(trace: Traced) -> list[str]:
     """What is to be said of a path, in sentences."""
     result = trace.result
     told = [
@@ -44,17 +47,22 @@ def lines(trace: Trace) -> list[str]:
         told.append(f"{len(dead) - _MOST} more dead points are in the file that -o writes.")
     told += _verdicts(trace)
     told.append(
-        "Largest held deformation on the path: "
-        f"{trace.residual:.2g} of the model's size (angles in rad)."
+        f"Held deformations stay below {_bound(trace.residual):.0e} of the model's size (angles in "
+        "rad) all along."
     )
     return told
+
+
+def _bound(residual: float) -> float:
+    """The next power of ten; what is rounding on any machine is one."""
+    return float(10.0 ** math.ceil(math.log10(max(residual, _ROUNDING))))
 
 
 def _place(step: Step) -> str:
     return "At the reference" if step.arc == 0.0 else f"At {step.arc:+.6g} m"
 
 
-def _dead(trace: Trace, step: Step) -> str:
+def _dead(trace: Traced, step: Step) -> str:
     if step.dead is None:
         return ""
     is_last = step is trace.steps[0] or step is trace.steps[-1]
@@ -62,11 +70,11 @@ def _dead(trace: Trace, step: Step) -> str:
     return f"{dead_in_words(step, step.dead)}{on}"
 
 
-def _way(trace: Trace, way: Way) -> str:
+def _way(trace: Traced, way: Way) -> str:
     return f"{way.length:.4g} m; {stop_in_words(trace, way.stop)}"
 
 
-def stop_in_words(trace: Trace, stop: Stop) -> str:
+def stop_in_words(trace: Traced, stop: Stop) -> str:
     """Why a path was not followed farther."""
     ending = stop.ending
     if ending is Ending.BRANCHES:
@@ -114,7 +122,7 @@ def _named(name: str) -> str:
     return with_article(name)
 
 
-def _drive(trace: Trace) -> list[str]:
+def _drive(trace: Traced) -> list[str]:
     if trace.shown.freedom is None:
         return []
     values = [step.drive for step in trace.steps]
@@ -126,7 +134,7 @@ def _drive(trace: Trace) -> list[str]:
     ]
 
 
-def _verdicts(trace: Trace) -> list[str]:
+def _verdicts(trace: Traced) -> list[str]:
     plain_steps = [step for step in trace.steps if step.dead is None]
     runs = [
         list(run)
