@@ -114,13 +114,13 @@ class Advice(Frozen, Sequence[Step]):
     def exact_by(self) -> tuple[int, ...]:
         """Numbers of steps, one of each kind that it takes, that make it exactly constrained.
 
-        They are the best of each kind, analysed together; none where no single kind is needed
-        besides another, or where they do not do it.
+        They are the best of each kind, analysed together; none where one step does it alone, or
+        where they do not do it.
         """
         firsts = {step.purpose: step.number for step in reversed(self.steps)}
         able = [firsts[kind] for kind in (Purpose.RELEASE, Purpose.DECLARE) if kind in firsts]
-        is_both = self.analysis.verdict is Verdict.BOTH and Purpose.MEND not in firsts
-        if not is_both or len(able) < 2:
+        exact = (step for step in self.steps if step.after.verdict is Verdict.EXACT)
+        if self.analysis.verdict is not Verdict.BOTH or len(able) < 2 or any(exact):
             return ()
         change = together(self.steps[number - 1].change for number in able)
         is_exact = tried(self.analysis, change).verdict is Verdict.EXACT
