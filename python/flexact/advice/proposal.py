@@ -22,6 +22,7 @@ class Purpose(str, Enum):
     HOLD = "hold what moves"
     MEND = "turn a constraint that repeats another so that it stops what is free"
     ADD_WIRE = "add a wire that stops what moves"
+    ADD_SHEET = "add a sheet that stops what moves"
 
 
 class After(NamedTuple):

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Advice in words; uses `advice` and the rest of `text`."""
