@@ -111,7 +111,7 @@ class Browser:
         from selenium.webdriver import ActionChains
         from selenium.webdriver.common.by import By
 
-        canvas = self.driver.find_element(By.ID, "canvas")
+        canvas = self.driver.find_element(By.CLASS_NAME, "canvas")
         size = canvas.size
         chain = ActionChains(self.driver)
         chain.move_to_element_with_offset(

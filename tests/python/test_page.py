@@ -48,7 +48,7 @@ class Elements(HTMLParser):
 
 def data_of(text: str) -> dict[str, Any]:
     """The drawing's data in a page."""
-    found = re.search(r'id="drawing-data">(.*?)</script>', text, re.DOTALL)
+    found = re.search(r'class="drawing-data">(.*?)</script>', text, re.DOTALL)
     assert found
     made: dict[str, Any] = json.loads(found[1])
     return made
@@ -247,7 +247,9 @@ def test_verdicts_differ_by_sign_and_word_not_by_colour_alone() -> None:
         ("both", "twelve_trusses"),
     ):
         text = page(flexact.analyse(ROOT / "input_decks" / "paper" / f"{deck}.dat"))
-        found = re.search(r'<header class="verdict (\w+)"><h1><span class="sign".*?>(.*?)<', text)
+        found = re.search(
+            r'<header class="verdict (\w+)"><h1 class="headline"><span class="sign".*?>(.*?)<', text
+        )
         assert found and found[1] == name
         heads[name] = found[2]
     assert len(set(heads.values())) == 4
@@ -329,7 +331,7 @@ def test_a_failed_analysis_has_a_page_that_says_why() -> None:
 
 
 def test_what_does_not_fit_is_left_out_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("drawing_data", "modes_data", "page", "tracks"):
+    for module in ("drawing_data", "modes_data", "viewer_data", "tracks"):
         monkeypatch.setattr(import_module(f"flexact.page.{module}"), "MOST_MEMBERS", 7)
     analysis = flexact.analyse(twelve_trusses())
     text = page(analysis)

@@ -94,14 +94,14 @@ def test_quantities_of_a_self_stress_change_the_colours(browser: Browser, tmp_pa
     assert analysis.over_constrained == 1
     seen = browser.pixels()
     assert browser.run("return flexact.quantity") == "in-plane moment"
-    assert browser.run("return document.querySelector('#legend').checkVisibility()")
-    assert browser.run("return document.querySelector('#legend-name').innerText").endswith(
+    assert browser.run("return document.querySelector('.legend').checkVisibility()")
+    assert browser.run("return document.querySelector('.legend-name').innerText").endswith(
         "[N\N{NO-BREAK SPACE}m]"
     )
     browser.press('[name="quantity"][value="twist moment"]')
     assert changed(seen, browser.pixels()) > 1000
     low, high = (
-        browser.run("return document.getElementById(arguments[0]).innerText", f"legend-{end}")
+        browser.run("return document.querySelector(arguments[0]).innerText", f".legend-{end}")
         for end in ("low", "high")
     )
     torsion = np.abs(analysis.self_stresses[0].moments[:, 1]).max()
@@ -130,7 +130,7 @@ def test_the_colours_agree_with_the_signs(browser: Browser, tmp_path: Path) -> N
 
 def test_the_movement_plays_a_cycle_and_pauses(browser: Browser, tmp_path: Path) -> None:
     browser.show(folded_sheet(clamped=True), tmp_path)
-    browser.press("#play")
+    browser.press(".play")
     phases = browser.later(
         "const done = arguments[0], phases = [], end = performance.now() + 4500;"
         "flexact.player.speed = 0.5;"
@@ -144,7 +144,7 @@ def test_the_movement_plays_a_cycle_and_pauses(browser: Browser, tmp_path: Path)
         if changed(one, other) > 200:
             break
     assert changed(one, other) > 200
-    browser.press("#play")
+    browser.press(".play")
     frames = browser.run("return flexact.stage.frames")
     one = browser.pixels()
     browser.later("setTimeout(arguments[0], 600)")
@@ -159,7 +159,7 @@ def test_amplitude_and_reduced_motion(browser: Browser, tmp_path: Path) -> None:
     assert browser.run("return [flexact.player.playing, flexact.player.phase]") == [False, 1]
     full = browser.run("return Array.from(flexact.members.shape.corner)")
     browser.run(
-        "const a = document.querySelector('#amplitude'); a.value = 0;"
+        "const a = document.querySelector('.amplitude'); a.value = 0;"
         "a.dispatchEvent(new Event('input', {bubbles: true}))"
     )
     none = browser.run("return Array.from(flexact.members.shape.corner)")
@@ -198,7 +198,7 @@ def test_the_keyboard_reaches_every_control(browser: Browser, tmp_path: Path) ->
 
 def test_keys_of_the_canvas(browser: Browser, tmp_path: Path) -> None:
     browser.show(folded_sheet(clamped=True), tmp_path)
-    browser.run("document.querySelector('#canvas').focus({preventScroll: true})")
+    browser.run("document.querySelector('.canvas').focus({preventScroll: true})")
     state = "const c = flexact.stage.camera; return [...c.position.toArray(), c.zoom]"
     start = browser.run(state)
     for key in (Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN, "+", "-"):
@@ -216,7 +216,7 @@ VIEWED = ("paper/six_folded_sheets", "linkages/bennett", "flexures/planar_parall
 
 def free_room(browser: Browser) -> np.ndarray:
     """Pixels left free at the left, right, top and bottom, in the whole cycle."""
-    browser.run("document.querySelector('#overlay').hidden = true; flexact.play(false)")
+    browser.run("document.querySelector('.overlay').hidden = true; flexact.play(false)")
     # A picture of an element ends where the window does.
     browser.run(
         "document.querySelector('.stage').scrollIntoView({block: 'center', behavior: 'instant'})"
@@ -268,11 +268,11 @@ def test_fit_comes_back_and_turning_does_not_jump(browser: Browser, tmp_path: Pa
     browser.press('[name="movement"][value="0"]')
     browser.resize(1000, 700)
     assert np.allclose(browser.run(state)[3:], start[3:], atol=1e-9), "a chosen view stays"
-    browser.press("#fit")
+    browser.press(".fit")
     browser.resize(1280, 900)
     fitted = browser.run(state)
     browser.run("flexact.stage.shift(0.3, 0.2); flexact.stage.zoom(2)")
-    browser.press("#fit")
+    browser.press(".fit")
     assert np.allclose(browser.run(state), fitted, atol=1e-6), "a fitted one follows the window"
 
 
@@ -293,7 +293,7 @@ def test_the_caption_says_how_far_it_is_drawn(browser: Browser, tmp_path: Path) 
     ):
         browser.show(ROOT / "input_decks" / f"{name}.dat", tmp_path)
         browser.press(f'[name="movement"][value="{movement}"]')
-        caption = browser.run("return document.querySelector('#shown').innerText")
+        caption = browser.run("return document.querySelector('.shown').innerText")
         told = re.search(
             r"with (?:no displacements|displacements up to (\S+)\s% of the model's size)", caption
         )
@@ -307,7 +307,7 @@ def test_the_caption_says_how_far_it_is_drawn(browser: Browser, tmp_path: Path) 
 def test_the_plane_stays_the_plane(browser: Browser, tmp_path: Path) -> None:
     browser.show(ROOT / "input_decks/flexures/planar_parallel_guide.dat", tmp_path)
     assert browser.run("return document.querySelectorAll('[data-view]').length") == 0
-    browser.run("document.querySelector('#canvas').focus({preventScroll: true})")
+    browser.run("document.querySelector('.canvas').focus({preventScroll: true})")
     browser.keys(Keys.ARROW_LEFT, Keys.ARROW_UP)
     towards = browser.run(
         "return flexact.stage.camera.position.clone().sub(flexact.stage.controls.target).toArray()"
@@ -333,7 +333,7 @@ def test_rows_and_drawing_light_each_other(browser: Browser, tmp_path: Path) -> 
         "return flexact.stage.project(...shape.centre.subarray(s, s + 3))"
     )[:2]
     browser.point(round(x), round(y))
-    tip = browser.run("return document.querySelector('#tip').innerText")
+    tip = browser.run("return document.querySelector('.tip').innerText")
     assert tip.startswith("Element 1 \N{LEFT DOUBLE QUOTATION MARK}first sheet, ground to fold")
     assert "BEAM, sheet" in tip
     lit = browser.run(
@@ -368,7 +368,7 @@ def test_narrow_windows_do_not_scroll_sideways(
             "const r = document.documentElement; return [r.scrollWidth, r.clientWidth]"
         )
         assert sizes[0] <= sizes[1] <= width
-        assert browser.run("return document.querySelector('#canvas').clientWidth") > 0.8 * sizes[1]
+        assert browser.run("return document.querySelector('.canvas').clientWidth") > 0.8 * sizes[1]
 
 
 def test_light_and_dark(browser: Browser, tmp_path: Path) -> None:
@@ -424,7 +424,7 @@ def test_a_page_of_many_members_turns_without_new_shapes(browser: Browser, tmp_p
     work = "return [flexact.members.computed, flexact.stage.frames]"
     computed, frames = browser.run(work)
     before = browser.pixels()
-    browser.run("document.querySelector('#canvas').focus({preventScroll: true})")
+    browser.run("document.querySelector('.canvas').focus({preventScroll: true})")
     browser.keys(Keys.ARROW_LEFT, Keys.ARROW_LEFT, Keys.ARROW_UP)
     after, more = browser.run(work)
     assert after == computed, "turning computes no shape anew"
@@ -448,7 +448,7 @@ def test_paper_page_is_small_and_ready_at_once(browser: Browser, tmp_path: Path)
     # Everything is there when the page has loaded: nothing waits for a timer.
     browser.driver.get(path.as_uri())
     assert browser.run("return flexact.data.movements.length === 6")
-    assert not browser.run("return document.querySelector('#play').disabled")
+    assert not browser.run("return document.querySelector('.play').disabled")
 
 
 def test_without_webgl_the_still_picture_stays(tmp_path: Path) -> None:
@@ -460,10 +460,10 @@ def test_without_webgl_the_still_picture_stays(tmp_path: Path) -> None:
     path = write(tmp_path / "page.html", page(analysis, picture_bytes(analysis, ".png")))
     with browsing("--disable-gpu", "--disable-3d-apis") as plain:
         plain.open(path)
-        image = "const i = document.querySelector('#still img'); "
+        image = "const i = document.querySelector('.still img'); "
         assert plain.run(f"{image} return i.checkVisibility() && i.naturalWidth > 300")
         assert "self-stress" in plain.run(f"{image} return i.alt")
-        assert not plain.run("return document.querySelector('#live').checkVisibility()")
+        assert not plain.run("return document.querySelector('.interactive').checkVisibility()")
         assert plain.run("return document.querySelectorAll('.show').length") > 0
         shown = "return document.querySelector('.show').checkVisibility()"
         assert not plain.run(shown), "what would move nothing is not offered"
@@ -475,7 +475,7 @@ def test_printed_page_holds_a_still_and_all_tables(browser: Browser, tmp_path: P
     browser.run("window.dispatchEvent(new Event('beforeprint'))")
     assert browser.run("return document.querySelectorAll('details:not([open])').length") == 0
     inked = browser.run(
-        "const c = document.querySelector('#print');"
+        "const c = document.querySelector('.on-paper');"
         "const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
         "let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n"
     )

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
 
+from .before_and_after import before_and_after
 from .index_page import Entry, index_page, index_pieces
 from .page import broken_page, page, reason_in_words
 from .verdict_part import BROKEN, kind_of
@@ -8,6 +9,7 @@ from .verdict_part import BROKEN, kind_of
 __all__ = [
     "BROKEN",
     "Entry",
+    "before_and_after",
     "broken_page",
     "index_page",
     "index_pieces",

@@ -71,7 +71,7 @@ def policy(names: tuple[str, ...]) -> str:
     )
 
 
-def filled(title: str, body: str, scripts: tuple[str, ...], data: str = "") -> str:
+def filled(title: str, body: str, scripts: tuple[str, ...]) -> str:
     """A whole page; all but the title is HTML."""
     return Template(asset("template.html")).substitute(
         title=escape(harmless(title)),
@@ -79,7 +79,6 @@ def filled(title: str, body: str, scripts: tuple[str, ...], data: str = "") -> s
         policy=escape(policy(scripts)),
         style=style(),
         body=body,
-        data=data,
         scripts="\n".join(f"<script>{script(name)}</script>" for name in scripts),
     )
 

@@ -1,70 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// The controls beside the drawing, and the keys of the canvas.
+// The controls: what a viewer shows, and what plays and looks in all viewers of the page.
 
 const Controls = (() => {
-  const $ = (id) => document.getElementById(id);
   const STEP = Math.PI / 24;
 
-  class Controls {
+  /** What one viewer shows. */
+  class Choices {
     constructor(viewer) {
-      this.viewer = viewer;
-      this.listenToChoices();
-      this.listenToPlayer();
-      this.listenToView();
-      this.listenToKeys($("canvas"));
+      Object.assign(this, { viewer, root: viewer.root });
+      const act = {
+        movement: (value) => viewer.showMovement(value === "" ? -1 : Number(value)),
+        stress: (value) => viewer.showStress(value === "" ? -1 : Number(value)),
+        quantity: (value) => viewer.showQuantity(value),
+      };
+      for (const [name, show] of Object.entries(act)) {
+        for (const input of this.inputs(name)) {
+          input.addEventListener("change", () => show(input.value));
+        }
+      }
+      for (const button of this.root.querySelectorAll("button[data-show]")) {
+        button.addEventListener("click", () => {
+          const [name, value] = button.dataset.show.split(" ");
+          this.choose(name, value);
+          viewer.part("drawing").scrollIntoView({ block: "nearest" });
+        });
+      }
+    }
+
+    inputs(name) {
+      return Array.from(this.root.querySelectorAll(`input[data-choice="${name}"]`));
     }
 
     choose(name, value) {
-      const input = document.querySelector(`input[name="${name}"][value="${value}"]`);
+      const input = this.inputs(name).find((each) => each.value === value);
       if (!input) return;
       input.checked = true;
       input.dispatchEvent(new Event("change", { bubbles: true }));
     }
 
-    listenToChoices() {
-      const act = {
-        movement: (value) => this.viewer.showMovement(value === "" ? -1 : Number(value)),
-        stress: (value) => this.viewer.showStress(value === "" ? -1 : Number(value)),
-        quantity: (value) => this.viewer.showQuantity(value),
-      };
-      for (const [name, show] of Object.entries(act)) {
-        for (const input of document.querySelectorAll(`input[name="${name}"]`)) {
-          input.addEventListener("change", () => show(input.value));
-        }
+    /** Fit what can be chosen to what is shown. */
+    refresh() {
+      const { stress, quantity, quantities } = this.viewer;
+      for (const input of this.inputs("quantity")) {
+        input.disabled = !stress || !quantities.includes(input.value);
+        input.checked = Boolean(stress) && input.value === quantity;
       }
-      for (const button of document.querySelectorAll("button[data-show]")) {
-        button.addEventListener("click", () => {
-          const [name, value] = button.dataset.show.split(" ");
-          this.choose(name, value);
-          $("drawing").scrollIntoView({ block: "nearest" });
-        });
-      }
+    }
+  }
+
+  /** What acts on all viewers: what plays, from where it is seen, what else is drawn; keys. */
+  class Toolbar {
+    constructor(viewers) {
+      this.viewers = viewers;
+      [this.play, this.amplitude, this.speed, this.fit] = ["play", "amplitude", "speed", "fit"].map(
+        (name) => document.querySelector(`.toolbar .${name}`));
+      this.layers = Array.from(document.querySelectorAll("input[data-layer]"));
+      this.listenToPlayer();
+      this.listenToView();
+      for (const viewer of viewers) this.listenToKeys(viewer);
+    }
+
+    get playing() {
+      return this.viewers.some(({ movement, player }) => movement && player.playing);
+    }
+
+    playOrPause() {
+      const on = !this.playing;
+      for (const viewer of this.viewers) viewer.play(on);
     }
 
     listenToPlayer() {
-      const { viewer } = this;
-      $("play").addEventListener("click", () => viewer.play(!viewer.player.playing));
-      $("amplitude").addEventListener("input", (event) =>
-        viewer.amplify(Number(event.target.value) / 100));
-      $("speed").addEventListener("input", (event) => {
-        viewer.player.speed = Number(event.target.value);
+      const { viewers } = this;
+      this.play.addEventListener("click", () => this.playOrPause());
+      this.amplitude.addEventListener("input", ({ target }) => {
+        for (const viewer of viewers) viewer.amplify(Number(target.value) / 100);
+      });
+      this.speed.addEventListener("input", ({ target }) => {
+        for (const { player } of viewers) player.speed = Number(target.value);
       });
     }
 
     listenToView() {
-      const { viewer } = this;
+      const { viewers } = this;
+      const [{ stage }] = viewers; // the others are seen from the same side
       for (const button of document.querySelectorAll("button[data-view]")) {
-        button.addEventListener("click", () => viewer.stage.look(button.dataset.view));
+        button.addEventListener("click", () => stage.look(button.dataset.view));
       }
-      $("fit").addEventListener("click", () => viewer.stage.fit());
-      for (const input of document.querySelectorAll("input[data-layer]")) {
-        input.addEventListener("change", () => viewer.layer(input.dataset.layer, input.checked));
+      this.fit.addEventListener("click", () => stage.fit());
+      for (const input of this.layers) {
+        input.addEventListener("change", () => {
+          for (const viewer of viewers) viewer.layer(input.dataset.layer, input.checked);
+        });
       }
     }
 
-    listenToKeys(canvas) {
-      const { stage } = this.viewer;
+    listenToKeys({ stage }) {
       const act = {
         ArrowLeft: () => stage.turn(STEP, 0),
         ArrowRight: () => stage.turn(-STEP, 0),
@@ -78,9 +109,9 @@ const Controls = (() => {
         "=": () => stage.zoom(1.2),
         "-": () => stage.zoom(1 / 1.2),
         "0": () => stage.look("iso"),
-        " ": () => this.viewer.play(!this.viewer.player.playing),
+        " ": () => this.playOrPause(),
       };
-      canvas.addEventListener("keydown", (event) => {
+      stage.canvas.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const shifted = event.shiftKey && event.key.startsWith("Arrow") ? "shift " : "";
         const found = act[shifted + event.key];
@@ -90,18 +121,17 @@ const Controls = (() => {
       });
     }
 
-    /** Fit what can be chosen to what is shown. */
-    refresh({ movement, stress, quantities, quantity, bending, playing }) {
-      $("play").textContent = movement && playing ? "Pause" : "Play";
-      for (const id of ["play", "amplitude", "speed"]) $(id).disabled = !movement;
-      for (const input of document.querySelectorAll('input[name="quantity"]')) {
-        input.disabled = !stress || !quantities.includes(input.value);
-        input.checked = stress && input.value === quantity;
-      }
-      const diagram = document.querySelector('[data-layer="diagram"]');
-      if (diagram) diagram.disabled = !(stress && bending);
+    /** Fit what can be pressed to what is shown. */
+    refresh() {
+      const moves = this.viewers.some(({ movement }) => movement);
+      this.play.textContent = this.playing ? "Pause" : "Play";
+      for (const each of [this.play, this.amplitude, this.speed]) each.disabled = !moves;
+      const diagram = this.layers.find(({ dataset }) => dataset.layer === "diagram");
+      if (!diagram) return;
+      diagram.disabled = !this.viewers.some(
+        ({ stress, quantity, data }) => stress && quantity in data.bending);
     }
   }
 
-  return { Controls };
+  return { Choices, Toolbar };
 })();

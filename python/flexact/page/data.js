@@ -19,11 +19,8 @@ const PageData = (() => {
     return decoded.get(packed);
   }
 
-  /** The data in a <script type="application/json">; null where the page has none. */
-  function read(id) {
-    const element = document.getElementById(id);
-    return element ? JSON.parse(element.textContent) : null;
-  }
+  /** The data in the <script type="application/json"> of a viewer. */
+  const read = (root) => JSON.parse(root.querySelector(".drawing-data").textContent);
 
   /** What writes colours of 8 bits, (3 a member or hinge), to [red, green, blue]. */
   const own = (colour) => (row, rgb) => {

@@ -48,24 +48,43 @@ class Frame:
 
     Attributes:
         drawing: The drawing.
+        centre: (3,) the middle of the page's drawings [m].
+        size: What is one in the page [m].
+        planar: Whether all lies in the xy plane.
+        towards: (3,) direction from which the page looks at first.
         kept: (nodes in the page,) indices of the model's nodes.
         new: (nodes + 1,) their indices in the page; -1 of those left out, and behind the last.
     """
 
     drawing: Drawing
+    centre: FloatArray
+    size: float
+    planar: bool
+    towards: FloatArray
     kept: np.ndarray
     new: np.ndarray
 
     def places(self, position: FloatArray) -> FloatArray:
         """Positions (..., 3) [m] as places in the page."""
-        return np.asarray((position - self.drawing.centre) / self.drawing.size)
+        return np.asarray((position - self.centre) / self.size)
 
     def nodes(self, index: np.ndarray) -> np.ndarray:
         """Node indices in the page; -1 stays."""
         return np.asarray(self.new[index])
 
 
-def frame_of(drawing: Drawing) -> Frame:
+def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
+    """Of drawings that are seen side by side: one scale, one middle, one view, the first's."""
+    low = np.min([each.low for each in drawings], axis=0)
+    high = np.max([each.high for each in drawings], axis=0)
+    size = float(np.linalg.norm(high - low)) or 1.0
+    planar = all(each.planar for each in drawings)
+    towards = view_of(ISO, drawings[0]).axes[2]
+    common = (low / 2 + high / 2, size, planar, towards)
+    return tuple(Frame(each, *common, *_kept(each)) for each in drawings)
+
+
+def _kept(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
     """All nodes, or, where members are left out, those of the ones that are drawn."""
     count = drawing.data.arrays.node_kind.size
     used = np.zeros(count + 1, bool)
@@ -73,16 +92,16 @@ def frame_of(drawing: Drawing) -> Frame:
     used[drawing.members.nodes[:MOST_MEMBERS]] = True
     used[-1] = False
     new = np.where(used, np.cumsum(used) - 1, -1)
-    return Frame(drawing, np.flatnonzero(used), new)
+    return np.flatnonzero(used), new
 
 
 def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
     """All that does not depend on motions and self-stresses."""
     drawing = frame.drawing
     return {
-        "planar": drawing.planar,
-        "size": drawing.size,
-        "iso": view_of(ISO, drawing).axes[2].tolist(),
+        "planar": frame.planar,
+        "size": frame.size,
+        "iso": frame.towards.tolist(),
         "stops": np.asarray(colours.STOPS).tolist(),
         "colours": {
             "support": colours.SUPPORT,
@@ -146,7 +165,7 @@ def _members(frame: Frame) -> dict[str, Any]:
         "names": [harmless(name) for name in every.names[some]],
         "keyword": list(every.keyword[some]),
         "form": flags(every.form[some]),
-        "section": floats(every.section[some] / frame.drawing.size),
+        "section": floats(every.section[some] / frame.size),
         "round": flags(every.round[some]),
         "bends": flags(every.bends[some]),
         "across": floats(every.across[some]),
@@ -167,7 +186,7 @@ def _bodies(analysis: Result, frame: Frame) -> dict[str, Any]:
     for number, solid in enumerate(solids):
         row = solid.rows[0]
         arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
-        corners.append(arm @ members.frame[row] / drawing.size)
+        corners.append(arm @ members.frame[row] / frame.size)
         triangles.append(behind + solid.triangles)
         owner.append(np.full(len(solid.triangles), number))
         edges.append(behind + solid.edges)
@@ -197,7 +216,7 @@ def _hinges(frame: Frame) -> dict[str, Any]:
         "names": [harmless(hinges.names[row]) for row in rows.tolist()],
         "keyword": [hinges.keyword[row] for row in rows.tolist()],
         "node": integers(frame.nodes(hinges.nodes[rows, 0])),
-        "size": floats(hinges.size[rows] / frame.drawing.size),
+        "size": floats(hinges.size[rows] / frame.size),
         "colour": flags(_bytes(hinges.colour[rows])),
     }
 
@@ -221,7 +240,7 @@ def _supports(frame: Frame) -> dict[str, Any]:
         "node": integers(node[rows]),
         "kind": flags(kind),
         "frame": floats(euler_of(supports.frame[rows])),
-        "size": floats(sizes / frame.drawing.size),
+        "size": floats(sizes / frame.size),
     }
 
 
@@ -230,7 +249,7 @@ def _joints(frame: Frame) -> dict[str, Any]:
     rows = frame.nodes(node) >= 0
     return {
         "node": integers(frame.nodes(node[rows])),
-        "radius": floats(radius[rows] / frame.drawing.size),
+        "radius": floats(radius[rows] / frame.size),
     }
 
 

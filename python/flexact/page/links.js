@@ -6,13 +6,18 @@ const Links = (() => {
   const NAMED = "[data-element], [data-node]";
 
   class Links {
-    /** `marked({element, node})` is called when something is named, `chosen` when it is pressed. */
-    constructor(marked, chosen) {
+    /**
+     * `marked({element, node})` is called when something is named, `chosen` when it is pressed;
+     * `owns(element)` tells what of the page is meant.
+     */
+    constructor(owns, marked, chosen) {
       Object.assign(this, { marked, chosen });
       this.rows = new Map();
-      for (const each of document.querySelectorAll(NAMED)) this.take(each);
-      for (const button of document.querySelectorAll("button.link")) {
-        button.addEventListener("click", () => chosen(this.target(button)));
+      const named = Array.from(document.querySelectorAll(NAMED)).filter(owns);
+      for (const each of named) {
+        this.take(each);
+        if (!each.matches("button.link")) continue;
+        each.addEventListener("click", () => chosen(this.target(each)));
       }
     }
 

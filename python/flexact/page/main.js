@@ -1,42 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Starts the page: the drawing where there is WebGL, else the still picture stays.
+// Starts the page: its drawings where there is WebGL, else the still pictures stay. Several are
+// seen from the same side, and play in step.
 
 const Main = (() => {
-  const $ = (id) => document.getElementById(id);
   const MANY = 1000; // members
 
   function start() {
-    const data = PageData.read("drawing-data");
-    // To smooth edges while drawing takes as long again.
-    const antialias = data.members.names.length < MANY;
-    const context = $("canvas").getContext("webgl2", { alpha: true, antialias });
-    const viewer = context ? show(data, context) : null;
-    Theme.listen(() => viewer && viewer.dress());
-    Printing.listen(viewer);
-    return viewer;
+    const roots = Array.from(document.querySelectorAll(".viewer"));
+    const found = roots.map((root) => ({ root, data: PageData.read(root) }))
+      .map(({ root, data }) => ({ root, data, context: contextOf(root, data) }));
+    const viewers = found.every(({ context }) => context) ? found.map(make) : [];
+    if (viewers.length) show(viewers);
+    Theme.listen(() => viewers.forEach((viewer) => viewer.dress()));
+    Printing.listen(viewers);
+    return viewers;
   }
 
-  function show(data, context) {
-    $("still").hidden = true;
-    $("live").hidden = $("choices").hidden = false;
-    document.body.classList.add("live");
-    const viewer = new Viewer.Viewer(data, context);
-    viewer.controls = new Controls.Controls(viewer);
-    link(viewer);
+  function contextOf(root, data) {
+    // To smooth edges while drawing takes as long again.
+    const antialias = data.members.names.length < MANY;
+    return root.querySelector(".canvas").getContext("webgl2", { alpha: true, antialias });
+  }
+
+  function make({ root, data, context }) {
+    root.classList.add("live");
+    root.querySelector(".still").hidden = true;
+    root.querySelector(".interactive").hidden = root.querySelector(".choices").hidden = false;
+    return new Viewer.Viewer(root, data, context);
+  }
+
+  function show(viewers) {
+    for (const each of document.querySelectorAll(".shared")) each.hidden = false;
+    viewers.slice(1).forEach((each) => viewers[0].join(each));
+    const toolbar = new Controls.Toolbar(viewers);
     const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-    viewer.player.playing = !calm;
-    viewer.showStress(-1);
-    // What the verdict says: a motion, else a self-stress, else a degree of freedom.
-    const stressed = data.stresses.length > 0 && !data.motions;
-    if (stressed) viewer.controls.choose("stress", "0");
-    else if (data.movements.length) viewer.controls.choose("movement", "0");
-    return viewer;
+    // What is beside the drawings is linked with the first.
+    const nearest = (part) => part.closest(".viewer") || viewers[0].root;
+    for (const viewer of viewers) {
+      viewer.player.playing = !calm;
+      viewer.choices = new Controls.Choices(viewer);
+      viewer.changed = () => [viewer.choices, toolbar].forEach((each) => each.refresh());
+      link(viewer, (part) => nearest(part) === viewer.root);
+    }
+    for (const viewer of viewers) {
+      viewer.showStress(-1);
+      viewer.stage.look("iso");
+      for (const [name, value] of viewer.data.first) viewer.choices.choose(name, value);
+    }
   }
 
   /** Let the drawing and the tables light each other. */
-  function link(viewer) {
-    const links = new Links.Links(
+  function link(viewer, owns) {
+    const links = new Links.Links(owns,
       (target) => viewer.mark(target), (target) => viewer.visit(target));
     viewer.pointing = new Pointing.Pointing(viewer.stage, viewer, (found) => {
       const target = found ? viewer.targetOf(found) : null;
@@ -48,7 +64,7 @@ const Main = (() => {
 
   /** Words beside the pointer. */
   function tell(viewer, found) {
-    const tip = $("tip");
+    const tip = viewer.part("tip");
     tip.hidden = !found;
     if (!found) return;
     const [head, ...lines] = viewer.describe(found);
@@ -70,5 +86,6 @@ const Main = (() => {
   return { start };
 })();
 
-// For whoever looks at the drawing by hand, and for tests.
-window.flexact = Main.start();
+// For whoever looks at the drawings by hand, and for tests: the first, and all.
+window.drawings = Main.start();
+window.flexact = window.drawings[0] || null;

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from typing import Any
 
 from ..base.errors import require_kind
@@ -15,17 +14,15 @@ from ..text.describe import VerdictInWords, verdict_in_words
 from ..text.margin import verdict_word
 from ..text.warnings import warnings_of
 from .assets import PLAIN_SCRIPTS, SCRIPTS, filled
-from .controls_part import choices_part, drawing_part
+from .controls_part import choices_part, keys, layers, toolbar
 from .deck_part import deck_of_model, deck_part
-from .drawing_data import frame_of, static_data
-from .limits import MOST_MEMBERS
+from .drawing_data import frames_of
+from .drawing_part import drawing_part
 from .markup import section, text
-from .modes_data import looked_at, movements, stresses
 from .modes_part import motions_part, stresses_part
 from .origin_part import origin_part
-from .packing import json_for_script
-from .tracks import Tracks
 from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
+from .viewer_data import left_out, stuck_in, viewer_data
 
 
 def page(analysis: Result, still: bytes | None = None) -> str:
@@ -36,23 +33,24 @@ def page(analysis: Result, still: bytes | None = None) -> str:
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
     """
     require_kind(analysis, Result, "a page is that of a result")
-    data = _data(analysis)
+    (frame,) = frames_of(drawing_of(analysis.given))
+    data = viewer_data(analysis, frame)
     every = warnings_of(analysis)
-    name = _file_name(analysis.name)
+    name = file_name(analysis.name)
     raw, is_written = deck_of_model(analysis.given)
     drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
     warnings = [item for item in every if item.line == 0]
     in_deck = [item for item in every if item.line > 0]
     words = str(verdict_in_words(analysis))
     advice = advised(analysis)
-    stuck = [each for each in looked_at(analysis) if each.motion is None]
-    left_out = " ".join(_left_out(analysis, data, len(stuck)))
+    stuck = stuck_in(analysis)
+    below = toolbar(data) + keys(data)
     body = (
         verdict(analysis, name, advice),
-        "<main>",
-        drawing_part(data, still, words, left_out),
+        '<main class="viewer">',
+        drawing_part(data, still, words, below, left_out(analysis, data)),
         '<div class="side">',
-        choices_part(data, stuck),
+        choices_part(data, stuck, layers(data)),
         advice_part(advice),
         section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
         motions_part(analysis, drawn),
@@ -64,9 +62,8 @@ def page(analysis: Result, still: bytes | None = None) -> str:
         origin_part(raw, name, analysis, is_written),
         "</div></main>",
     )
-    held = f'<script type="application/json" id="drawing-data">{json_for_script(data)}</script>\n'
     title = f"{name or 'model'}: {verdict_word(analysis)}"
-    return filled(title, "\n".join(body), SCRIPTS, held)
+    return filled(title, "\n".join(body), SCRIPTS)
 
 
 def broken_page(error: Exception, name: str) -> str:
@@ -76,7 +73,7 @@ def broken_page(error: Exception, name: str) -> str:
         error: Why: with diagnostics, or a sentence.
         name: The deck's file name.
     """
-    name = _file_name(name)
+    name = file_name(name)
     words = reason_in_words(error)
     raw, told = b"", ""
     if isinstance(error, ProblemsError):
@@ -104,40 +101,11 @@ def reason_in_words(error: Exception) -> str:
     return str(error) or "not enough memory"
 
 
-def _data(analysis: Result) -> dict[str, Any]:
-    frame = frame_of(drawing_of(analysis.given))
-    tracks = Tracks(frame)
-    return {
-        **static_data(analysis, frame),
-        "reference": tracks.data(),
-        "segments": tracks.segments,
-        "motions": analysis.under_constrained,
-        "movements": movements(analysis, tracks),
-        "stresses": stresses(analysis, frame),
-    }
-
-
-def _left_out(analysis: Result, data: dict[str, Any], stuck: int) -> Iterator[str]:
-    """What of a large result is not in the drawing; `stuck` degrees of freedom do not move."""
-    members = int((analysis.given.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
-    if members > MOST_MEMBERS:
-        yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
-    kinds = [movement["kind"] for movement in data["movements"]]
-    moved = kinds.count("motion")
-    if moved < analysis.under_constrained:
-        yield f"Of {analysis.under_constrained} motions the first {moved} can be shown."
-    if (shown := len(data["stresses"])) < analysis.over_constrained:
-        yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
-    freedom, free = analysis.degrees_of_freedom, kinds.count("freedom")
-    if free + stuck < freedom:
-        yield f"Of {freedom} declared degrees of freedom {free} can be shown."
-
-
 def _note(item: Any) -> str:
     hint = f" {text(item.help)}" if item.help else ""
     return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
 
 
-def _file_name(name: str) -> str:
+def file_name(name: str) -> str:
     """The last part of a path: where the deck lies is nobody's concern."""
     return os.path.basename(name.replace("\\", "/")) if name else ""

@@ -3,4 +3,4 @@
 // Starts a page without a drawing.
 
 Theme.listen(() => {});
-Printing.listen(null);
+Printing.listen([]);

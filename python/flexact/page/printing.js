@@ -6,8 +6,7 @@
 const Printing = (() => {
   const RATIO = 2; // pixels of the still for one of the canvas
 
-  function listen(viewer) {
-    const still = document.getElementById("print");
+  function listen(viewers) {
     let closed = [];
     let theme = null;
     window.addEventListener("beforeprint", () => {
@@ -16,17 +15,18 @@ const Printing = (() => {
       root.dataset.theme = "light";
       closed = Array.from(document.querySelectorAll("details:not([open])"));
       for (const each of closed) each.open = true;
-      if (viewer) draw(viewer, still);
+      for (const each of viewers) draw(each);
     });
     window.addEventListener("afterprint", () => {
       for (const each of closed) each.open = false;
       if (theme) document.documentElement.dataset.theme = theme;
       else delete document.documentElement.dataset.theme;
-      if (viewer) viewer.dress();
+      for (const each of viewers) each.dress();
     });
   }
 
-  function draw(viewer, still) {
+  function draw(viewer) {
+    const still = viewer.part("on-paper");
     const { stage } = viewer;
     const { renderer } = stage;
     const ratio = renderer.getPixelRatio();

@@ -16,6 +16,7 @@ const Stage = (() => {
     /** A stage on a canvas with its WebGL context. */
     constructor(canvas, context, { planar, iso }) {
       Object.assign(this, { canvas, planar, iso });
+      this.peers = []; // stages that are seen from the same side
       this.frames = 0; // drawn so far
       this.fitted = false; // and not been turned, moved or zoomed since
       this.swing = (look) => look(); // calls `look` in every pose that is to have room
@@ -59,6 +60,7 @@ const Stage = (() => {
       }
       controls.addEventListener("change", () => {
         this.fitted = false;
+        this.lead();
         this.request();
       });
       this.controls = controls;
@@ -111,7 +113,8 @@ const Stage = (() => {
       const axes = [0, 1, 2].map((k) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
       const [low, high] = this.reach(axes);
       const [wide, tall] = [0, 1].map((k) => Math.max(1e-3, high[k] - low[k]));
-      const room = [this.width - 2 * EDGE, this.height - EDGE - FOOT].map((each) => Math.max(each, 1));
+      const free = [this.width - 2 * EDGE, this.height - EDGE - FOOT];
+      const room = free.map((each) => Math.max(each, 1));
       const { minZoom, maxZoom } = this.controls;
       const zoom = Math.min(room[0] / wide, room[1] / tall) / this.height;
       this.camera.zoom = Math.max(minZoom, Math.min(maxZoom, zoom));
@@ -121,9 +124,26 @@ const Stage = (() => {
       middle.addScaledVector(axes[1], (-(FOOT - EDGE) / 2) * this.pixel);
       this.centre(...middle);
       this.fitted = true;
+      this.lead();
     }
 
-    /** Least and largest coordinates along three axes of all that is drawn. */
+    /** Have the others seen from where this one is seen. */
+    lead() {
+      for (const each of this.peers) each.adopt(this);
+    }
+
+    adopt({ camera, controls, fitted }) {
+      const { position, quaternion, zoom } = camera;
+      this.camera.position.copy(position);
+      this.camera.quaternion.copy(quaternion);
+      this.camera.zoom = zoom;
+      this.camera.updateProjectionMatrix();
+      this.controls.target.copy(controls.target);
+      this.fitted = fitted;
+      this.request();
+    }
+
+    /** Least and largest coordinates along three axes of all that is drawn, here and by peers. */
     reach(axes) {
       const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
       const take = (x, y, z) => axes.forEach((axis, k) => {
@@ -131,7 +151,7 @@ const Stage = (() => {
         low[k] = Math.min(low[k], value);
         high[k] = Math.max(high[k], value);
       });
-      this.swing(() => eachPlace(this.scene, take));
+      for (const { swing, scene } of [this, ...this.peers]) swing(() => eachPlace(scene, take));
       return low[0] <= high[0] ? [low, high] : [[0, 0, 0], [0, 0, 0]];
     }
 
@@ -181,6 +201,7 @@ const Stage = (() => {
       this.fitted = false;
       this.camera.updateProjectionMatrix();
       this.controls.update();
+      this.lead();
       this.request();
     }
 

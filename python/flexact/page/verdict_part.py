@@ -54,21 +54,45 @@ def head(
 ) -> str:
     """The first lines of the page; all but the sign and the verdict are HTML."""
     return (
-        f'<header class="verdict {kind}"><h1><span class="sign" aria-hidden="true">{sign}</span>'
-        f"<span><b>{text(verdict.start)}:</b> {text(verdict.reason)}</span></h1>{margin}"
-        f'<p class="about">{about}</p>{todo}'
-        '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
+        f'<header class="verdict {kind}">{_headline("h1", sign, verdict)}{margin}'
+        f'<p class="about">{about}</p>{todo}{SWITCH}</header>'
+    )
+
+
+#: From light to dark and back.
+SWITCH = '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button>'
+
+
+def _headline(level: str, sign: str, verdict: VerdictInWords) -> str:
+    return (
+        f'<{level} class="headline"><span class="sign" aria-hidden="true">{sign}</span>'
+        f'<span><b class="says">{text(verdict.start)}:</b> {text(verdict.reason)}</span></{level}>'
     )
 
 
 def verdict(analysis: Result, name: str, advice: Advised) -> str:
     """The head of the page of a result: what is wrong, by how much, how sure, and what helps."""
+    kind, sign, margin = _judged(analysis)
+    about = " ".join(_about(analysis, name))
+    return head(kind, sign, verdict_in_words(analysis), about, margin, _todo(advice))
+
+
+def verdict_of_side(analysis: Result, which: str) -> str:
+    """The head of one of several results of a page; `which` is HTML."""
+    kind, sign, margin = _judged(analysis)
+    return (
+        f'<header class="verdict {kind}"><p class="which">{which}</p>'
+        f"{_headline('h2', sign, verdict_in_words(analysis))}{margin}"
+        f'<p class="about">{" ".join(_about(analysis, ""))}</p></header>'
+    )
+
+
+def _judged(analysis: Result) -> tuple[str, str, str]:
+    """Class and sign of a verdict, and how far another one is."""
     kind, sign = kind_of(analysis)
     if analysis.certainty is not Certainty.CERTAIN:
         sign += "?"
-    about = " ".join(_about(analysis, name))
-    margin = f'<p class="margin">{flowing(margin_line(analysis))}</p>'
-    return head(kind, sign, verdict_in_words(analysis), about, margin, _todo(advice))
+    return kind, sign, f'<p class="margin">{flowing(margin_line(analysis))}</p>'
 
 
 def _certainty(analysis: Result) -> str:

@@ -3,7 +3,6 @@
 // The viewer: puts the parts together, and shows movements and self-stresses.
 
 const Viewer = (() => {
-  const $ = (id) => document.getElementById(id);
   const HEAVY = 300; // members
   const CHROME = {
     light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53] },
@@ -11,13 +10,16 @@ const Viewer = (() => {
   };
 
   class Viewer {
-    constructor(data, context) {
-      this.data = data;
+    /** A viewer of some data in the part of the page that is its root. */
+    constructor(root, data, context) {
+      Object.assign(this, { root, data });
+      this.peers = []; // viewers that look from the same side, and play in step
+      this.changed = () => {}; // called when something else is shown
       this.pose = Tracks.reference(data);
       this.movement = this.stress = null;
       this.quantity = "";
       this.layers = { diagram: false, ghost: true, arrows: true, symbols: true };
-      this.stage = new Stage.Stage($("canvas"), context, data);
+      this.stage = new Stage.Stage(this.part("canvas"), context, data);
       this.members = new Members.Members(data);
       this.bodies = new Bodies.Bodies(data, this.members);
       this.hinges = new Symbols.Hinges(data);
@@ -27,10 +29,15 @@ const Viewer = (() => {
       this.displacements = new Symbols.Displacements(data.colours.arrow);
       this.nodeMark = new Symbols.NodeMark();
       this.diagram = new Diagram.Diagram(this.members);
-      this.overlay = new Overlay.Overlay($("overlay"), this.stage, data, this);
+      this.overlay = new Overlay.Overlay(this.part("overlay"), this.stage, data, this);
       this.player = new Tracks.Player((phase) => this.movePhase(phase));
       this.assemble();
       this.index();
+    }
+
+    /** A part of the page that belongs to the drawing. */
+    part(name) {
+      return this.root.querySelector(`.${name}`);
     }
 
     assemble() {
@@ -99,7 +106,7 @@ const Viewer = (() => {
       this.showLayers();
       if (this.movement) {
         this.pointArrows();
-        this.player.begin();
+        for (const { player } of [this, ...this.peers]) player.begin();
       } else this.follow();
       this.stage.refit();
       this.refresh();
@@ -165,15 +172,15 @@ const Viewer = (() => {
 
     legend() {
       const { stress, quantity, data } = this;
-      $("legend").hidden = !stress;
+      this.part("legend").hidden = !stress;
       if (!stress) return;
       const largest = stress.largest[quantity] || 0;
-      $("legend-bar").style.background = PageData.gradient(data.stops);
-      $("legend-name").textContent = quantity
+      this.part("legend-bar").style.background = PageData.gradient(data.stops);
+      this.part("legend-name").textContent = quantity
         ? `${data.names[quantity]} [${Words.unitOf(data, quantity)}]` : "";
-      $("legend-low").textContent = largest ? Words.number(-largest) : "";
-      $("legend-high").textContent = largest ? Words.number(largest) : "";
-      $("legend-note").textContent = data.sides[quantity];
+      this.part("legend-low").textContent = largest ? Words.number(-largest) : "";
+      this.part("legend-high").textContent = largest ? Words.number(largest) : "";
+      this.part("legend-note").textContent = data.sides[quantity];
     }
 
     play(on) {
@@ -233,7 +240,7 @@ const Viewer = (() => {
       const place = this.placeOf(element, node);
       if (row !== undefined) this.stage.centre(...this.members.middle(row));
       else if (place >= 0) this.stage.centre(...this.place(place));
-      $("drawing").scrollIntoView({ block: "nearest" });
+      this.part("drawing").scrollIntoView({ block: "nearest" });
     }
 
     /** Lines about what is pointed at. */
@@ -260,15 +267,22 @@ const Viewer = (() => {
     }
 
     refresh() {
-      const { movement, stress, quantity, player } = this;
-      if (this.controls) {
-        this.controls.refresh({
-          movement, stress, quantity, playing: player.playing,
-          quantities: stress ? Object.keys(stress.members).concat(Object.keys(stress.hinges)) : [],
-          bending: quantity in this.data.bending,
-        });
+      this.part("shown").textContent = this.caption();
+      this.changed();
+    }
+
+    /** The quantities that the self-stress which is shown has. */
+    get quantities() {
+      const { stress } = this;
+      return stress ? Object.keys(stress.members).concat(Object.keys(stress.hinges)) : [];
+    }
+
+    /** Look from the same side as another viewer, and play in step with it. */
+    join(other) {
+      for (const [one, two] of [[this, other], [other, this]]) {
+        one.peers.push(two);
+        one.stage.peers.push(two.stage);
       }
-      $("shown").textContent = this.caption();
     }
 
     caption() {

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a viewer shows of a result, as data of a page, and what is not among it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ..result.freedoms import Freedom
+from ..result.result import Result
+from .drawing_data import Frame, static_data
+from .limits import MOST_MEMBERS
+from .modes_data import looked_at, movements, stresses
+from .tracks import Tracks
+
+
+def viewer_data(analysis: Result, frame: Frame) -> dict[str, Any]:
+    """All that is drawn of a result, and the choices that are made at first."""
+    tracks = Tracks(frame)
+    data = {
+        **static_data(analysis, frame),
+        "reference": tracks.data(),
+        "segments": tracks.segments,
+        "movements": movements(analysis, tracks),
+        "stresses": stresses(analysis, frame),
+    }
+    return {**data, "first": _first(data)}
+
+
+def _first(data: dict[str, Any]) -> list[tuple[str, str]]:
+    """What the verdict says: a motion, else a self-stress, else a degree of freedom."""
+    moves = any(movement["kind"] == "motion" for movement in data["movements"])
+    if data["stresses"] and not moves:
+        return [("stress", "0")]
+    return [("movement", "0")] if data["movements"] else []
+
+
+def stuck_in(analysis: Result) -> list[Freedom]:
+    """The declared degrees of freedom in which the mechanism cannot move."""
+    return [each for each in looked_at(analysis) if each.motion is None]
+
+
+def left_out(analysis: Result, data: dict[str, Any]) -> str:
+    """Sentences on what of a large result is not in its drawing."""
+    return " ".join(_left_out(analysis, data))
+
+
+def _left_out(analysis: Result, data: dict[str, Any]) -> Iterator[str]:
+    members = int((analysis.given.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
+    if members > MOST_MEMBERS:
+        yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
+    kinds = [movement["kind"] for movement in data["movements"]]
+    moved = kinds.count("motion")
+    if moved < analysis.under_constrained:
+        yield f"Of {analysis.under_constrained} motions the first {moved} can be shown."
+    if (shown := len(data["stresses"])) < analysis.over_constrained:
+        yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
+    freedom, free = analysis.degrees_of_freedom, kinds.count("freedom")
+    if free + len(stuck_in(analysis)) < freedom:
+        yield f"Of {freedom} declared degrees of freedom {free} can be shown."
