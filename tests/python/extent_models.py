@@ -26,9 +26,11 @@ def bars(
 
 
 def free_bars(
-    places: np.ndarray, pairs: Iterable[tuple[int, int]], corner: tuple[int, int, int]
+    places: np.ndarray, pairs: Iterable[tuple[int, int]], corner: tuple[int, int, int] | None
 ) -> Model:
-    """Bars whose rigid motions are stopped at three joints: six coordinates."""
+    """Bars whose rigid motions are stopped at three joints, if at all: six coordinates."""
+    if corner is None:
+        return bars(places.tolist(), pairs, ())
     a, b, c = (places[k] for k in corner)
     ex = (b - a) / np.linalg.norm(b - a)
     ez = np.cross(ex, c - a)
@@ -44,7 +46,7 @@ def free_bars(
     return model
 
 
-def jessen() -> Model:
+def jessen(supported: bool = True) -> Model:
     """Jessen's orthogonal icosahedron: infinitesimally flexible, rigid (Jessen 1967).
 
     24 edges of length root 6 and 6 of length 4; as cables and struts it is the expanded
@@ -54,7 +56,9 @@ def jessen() -> Model:
     for s in (1, -1):
         for t in (1, -1):
             places += [(2 * s, t, 0), (0, 2 * s, t), (t, 0, 2 * s)]
-    return _by_lengths(np.array(places, float), (math.sqrt(6.0), 4.0), (0, 1, 2))
+    return _by_lengths(
+        np.array(places, float), (math.sqrt(6.0), 4.0), (0, 1, 2) if supported else None
+    )
 
 
 def regular_octahedron() -> Model:
@@ -64,7 +68,7 @@ def regular_octahedron() -> Model:
 
 
 def _by_lengths(
-    places: np.ndarray, lengths: tuple[float, ...], corner: tuple[int, int, int]
+    places: np.ndarray, lengths: tuple[float, ...], corner: tuple[int, int, int] | None
 ) -> Model:
     apart = np.linalg.norm(places[:, None] - places, axis=2)
     pairs = [
@@ -167,8 +171,10 @@ def spherical_loop(degrees: Sequence[float]) -> Model:
 def loop_across_a_line() -> Model:
     """Six hinges whose axes meet the z axis: it alone is reciprocal to all of them."""
     axes = np.array(
-        [[0.5, 0.3, 0.8], [-0.6, 0.7, 0.2], [0.1, -0.9, 0.4], [0.8, 0.5, -0.3], [0.2, 0.6, 0.7]]
-        + [[-0.4, 0.3, 0.9]]
+        [
+            *([0.5, 0.3, 0.8], [-0.6, 0.7, 0.2], [0.1, -0.9, 0.4]),
+            *([0.8, 0.5, -0.3], [0.2, 0.6, 0.7], [-0.4, 0.3, 0.9]),
+        ]
     )
     heights = np.array([0.0, 0.5, -0.7, 1.1, -0.3, 0.8])
     far = np.array([1.0, 1.3, 0.8, 1.1, 0.9, 1.2])

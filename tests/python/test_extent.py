@@ -220,9 +220,30 @@ def test_scale_place_and_turn_do_not_matter(name: str) -> None:
         assert each.finite_dimension == found[0].finite_dimension
 
 
-def test_large_models_are_not_followed() -> None:
-    """A ring of 120 joints has 360 coordinates; its form is zero, and it is not followed."""
-    found = extents_of(flexact.analyse(known_models.ring(120)))
+def test_free_frameworks_move_as_one_body_besides() -> None:
+    """Jessen's icosahedron without supports, and four joints with all six bars twice over."""
+    analysis = flexact.analyse(extent_models.jessen(supported=False))
+    assert (analysis.under_constrained, analysis.over_constrained) == (7, 1)
+    assert extents_of(analysis).finite_dimension == 6
+    model = extent_models.bars(
+        [(0, 0), (1, 0), (1, 1), (0, 1)],
+        [(0, 1), (1, 2), (2, 3), (0, 3), (0, 2), (1, 3)],
+        (),
+        planar=True,
+    )
+    found = extents_of(flexact.analyse(model))
+    check(found, FINITE, CERTIFIED, 3)
+    assert {each.reason for each in found.motions} == {Reason.RIGID}
+
+
+def test_larger_models_are_followed_too() -> None:
+    """A ring of 60 joints moves like any even ring (Tarnai 1980); it has 180 coordinates."""
+    check(extents_of(flexact.analyse(known_models.ring(60))), FINITE, FOLLOWED, 1)
+
+
+def test_the_largest_models_are_not_followed() -> None:
+    """A ring of 300 joints has 900 coordinates; its form is zero, and it is not followed."""
+    found = extents_of(flexact.analyse(known_models.ring(300)))
     assert [each.kind for each in found.motions] == [Kind.UNDECIDED]
     assert found.motions[0].reason is Reason.TOO_LARGE
     assert found.finite_dimension is None

@@ -6,13 +6,17 @@ from __future__ import annotations
 from functools import partial
 
 from ...core.arrays import FloatArray
+from ..following.ending import Ending
 from ..following.follow import Wishes, follow
 from .extent import EvidenceKind, Extent, Kind, Reason
 from .orders import fit_of, measured
 from .reduced import Reduced
 from .walking import GOAL, Walk, walk
 
-_WISHES = Wishes(length=GOAL, steps=200, through=True)
+#: Components of more coordinates are followed about the reference alone.
+_MOST_COORDINATES = 120
+_WHOLE = 1.0 - 1.0e-9
+_WISHES = Wishes(length=GOAL, steps=500, through=True)
 
 
 def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
@@ -25,20 +29,14 @@ def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
     """
     felt = reduced.felt
     held, motion = felt.held, felt.motions @ unit
-    rank = motion.size - felt.many
-    paths = [follow(held, sign * motion, rank, _WISHES) for sign in (-1.0, 1.0)]
-    walks = [Walk(path.length, path.residual) for path in paths]
-    if felt.many > 1 or floor:
-        walks = [
-            one if one.arrived else walk(reduced, unit, sign, floor)
-            for one, sign in zip(walks, (-1.0, 1.0), strict=True)
-        ]
-    back, ahead = walks
+    (back, why), (ahead, why_ahead) = (
+        _gone(reduced, sign * motion, sign, unit, floor) for sign in (-1.0, 1.0)
+    )
     made = partial(
         Extent,
         size=held.size,
         reach=(back.gone * held.size, ahead.gone * held.size),
-        stops=(paths[0].stop.ending, paths[1].stop.ending),
+        stops=(why, why_ahead),
         residual=max(back.strain, ahead.strain),
     )
     if back.arrived and ahead.arrived:
@@ -50,8 +48,22 @@ def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
     if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
         fit = max(fits, key=lambda each: each.spread)
         return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, fit=fit)
-    if any(each.aside for each in found):
+    if felt.many > 1 and any(each.aside for each in found):
         return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ASIDE)
     stopped = min(back.gone, ahead.gone) > 0.0
     reason = Reason.STOPPED if stopped else Reason.NO_ORDER
     return made(Kind.UNDECIDED, EvidenceKind.NONE, reason)
+
+
+def _gone(
+    reduced: Reduced, motion: FloatArray, sign: float, unit: FloatArray, floor: float
+) -> tuple[Walk, Ending]:
+    """How far a motion was followed one way, and why not farther."""
+    felt, stop = reduced.felt, Ending.NOT_ZERO
+    if motion.size <= _MOST_COORDINATES:
+        path = follow(felt.held, motion, motion.size - felt.many, _WISHES)
+        if path.length >= GOAL * _WHOLE or not (felt.many > 1 or floor):
+            return Walk(path.length, path.residual), path.stop.ending
+        stop = path.stop.ending
+    found = walk(reduced, unit, sign, floor)
+    return found, Ending.LENGTH if found.arrived else stop

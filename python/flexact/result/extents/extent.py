@@ -38,6 +38,8 @@ class Reason(str, Enum):
 
     NO_SELF_STRESS = "no self-stress"
     """None feels the motion: what is held is independent (implicit function theorem)."""
+    RIGID = "rigid"
+    """All that hangs together moves as one rigid body, which strains nothing."""
     DEFINITE = "definite"
     """A combination of the self-stresses has a definite second-order form: no motion goes on."""
     STRAINED = "strained"

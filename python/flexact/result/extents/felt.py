@@ -13,19 +13,22 @@ from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.basis import Basis
-from ...core.elements import Dual, NodeKind, dual_table
+from ...core.elements import Class, Dual, NodeKind, dual_table
 from ...model.data import ModelData
 from ..following.held import Held
 from ..spaces import Spaces
 from ..weights import column_weights, row_weights
 from .components import Component
+from .rigid import leading_rows, rigid_motions
 
 
 class Felt:
     """A component at the reference.
 
     Attributes:
-        held: What is held in it, of a model of its elements alone.
+        held: What is held in it, of a model of its elements alone. So many coordinates are
+            stopped that it cannot move as one rigid body: that would carry a path to paths.
+        rigid: How many motions as one rigid body it has besides.
         motions: (n, N) orthonormal.
         stresses: (m, s) orthonormal, dual to the deformations.
     """
@@ -33,14 +36,19 @@ class Felt:
     def __init__(self, spaces: Spaces, component: Component) -> None:
         """Make the model of a component and take the null vectors over."""
         data, node_place, element_place = _alone(spaces.data, component.elements)
-        self.held = held = Held(data)
+        whole = Held(data)
         node, axis = spaces.raw.column_label[:, component.columns] - 1
-        order = np.searchsorted(held.columns, 3 * node_place[node] + axis)
+        self._places = np.searchsorted(whole.columns, 3 * node_place[node] + axis)
         placed = spaces.data.arrays.node_kind[node] <= NodeKind.POSITION
-        self._places, self._factor = order, np.where(placed, 1.0 / held.size, 1.0)
+        self._factor = np.where(placed, 1.0 / whole.size, 1.0)
+        self._rigid = rigid_motions(whole)
+        self._stopped = leading_rows(self._rigid)
+        self.rigid = self._stopped.size
+        self.held = held = _stopped(whole, self._stopped)
         told = column_weights(spaces)[component.columns]
         motions = _dense(spaces.motion_space, component.motions)[component.columns]
-        self.motions = _orthonormal(self.of(motions / told[:, None]))
+        left, _, _ = np.linalg.svd(self.of(motions / told[:, None]), full_matrices=False)
+        self.motions = np.asarray(left[:, : len(component.motions) - self.rigid])
         element, deformation = spaces.raw.row_label - 1
         rows = np.flatnonzero(element_place[element] >= 0)
         places = np.searchsorted(held.rows, 6 * element_place[element[rows]] + deformation[rows])
@@ -50,7 +58,7 @@ class Felt:
         kinds = spaces.data.arrays.element_kind[element[rows]]
         turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
         made[places] *= np.where(turns, 1.0, held.size)[:, None]
-        self.stresses = _orthonormal(made)
+        self.stresses = np.asarray(np.linalg.qr(made)[0])
 
     @property
     def many(self) -> int:
@@ -58,19 +66,35 @@ class Felt:
         return int(self.motions.shape[1])
 
     def of(self, vectors: FloatArray) -> FloatArray:
-        """(n, ...) velocities [m, rad] at the columns of the component, as `Held` has them."""
+        """(n, ...) velocities [m, rad] at the columns of the component, as `Held` has them.
+
+        What makes the stopped coordinates still is added of the rigid motions.
+        """
         made = np.empty_like(vectors)
         made[self._places] = (vectors.T * self._factor).T
-        return made
+        if self.rigid:
+            shares = np.linalg.solve(self._rigid[self._stopped], made[self._stopped])
+            made = made - self._rigid @ shares
+        return np.asarray(np.delete(made, self._stopped, axis=0))
+
+    def norm(self, vector: FloatArray) -> float:
+        """Of velocities at the columns of the component, displacements by the size."""
+        return float(np.linalg.norm(vector * self._factor))
 
     def within(self, change: FloatArray) -> FloatArray:
         """(N,) what a change of the coordinates (n,) has of each motion."""
         return np.asarray(self.motions.T @ change)
 
-    def largest(self, change: FloatArray) -> float:
-        """The largest displacement or rotation of a node in a change (n,)."""
-        square = np.bincount(self.held.columns // 3, change**2)
-        return float(np.sqrt(square.max(initial=0.0)))
+
+def _stopped(whole: Held, columns: NDArray[np.integer]) -> Held:
+    """What is held where some columns stay."""
+    if not columns.size:
+        return whole
+    arrays = whole.data.arrays
+    classes = arrays.coordinate_class.copy(order="F")
+    node, axis = np.divmod(whole.columns[columns], 3)
+    classes[axis, node] = Class.FIXED
+    return Held(replace(whole.data, arrays=arrays._replace(coordinate_class=classes)))
 
 
 def _alone(
@@ -115,7 +139,3 @@ def _dense(basis: Basis, vectors: tuple[int, ...]) -> FloatArray:
         place, value = basis.entries(vector)
         made[place, k] = value
     return made
-
-
-def _orthonormal(vectors: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.qr(vectors)[0])

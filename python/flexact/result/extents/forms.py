@@ -51,6 +51,8 @@ def forms_of(felt: Felt, explained: float) -> Forms:
         explained: What part of a form the rounding of the geometry may make.
     """
     many = felt.many
+    if not many:
+        return Forms(np.zeros((felt.stresses.shape[1], 0, 0)), _PART)
     rates, errors = zip(*(_rate(felt, felt.motions[:, j]) for j in range(many)), strict=True)
     matrix = np.stack(rates, axis=1)
     skew = np.abs(matrix - np.swapaxes(matrix, 1, 2)).max(initial=0.0)

@@ -21,10 +21,12 @@ from .forms import cone_of, forms_of
 from .reduced import Reduced
 
 #: More coordinates than these in a component are not followed, nor more motions.
-_MOST_COORDINATES = 300
+_MOST_COORDINATES = 800
 _MOST_FOLLOWED = 40
 #: Singular values of the derivatives of the forms above this are not zero.
 _CLEAR_OF_ZERO = 1.0e-6
+#: A motion is rigid where this part of it is not.
+_RIGID = 1.0e-7
 #: Beside the largest entry of the forms: values from the first on are not zero, and up to the
 #: second they are, as told motions are found by elimination.
 _STRAINED, _UNSTRAINED = 1.0e-6, 1.0e-7
@@ -58,19 +60,32 @@ class Judge:
 
     def decided(self, told: dict[int, FloatArray]) -> Decided:
         """All told motions, and the dimension of what goes on."""
+        motions: dict[int, Extent] = {}
+        vectors: dict[int, FloatArray] = {}
+        for k, vector in told.items():
+            within = self.felt.within(self.felt.of(vector))
+            if np.linalg.norm(within) <= _RIGID * self.felt.norm(vector):
+                motions[k] = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.RIGID)
+            else:
+                vectors[k] = within
+        found, dimension, branches = self._of_others(vectors)
+        rigid = self.felt.rigid
+        return Decided(motions | found, None if dimension is None else dimension + rigid, branches)
+
+    def _of_others(self, vectors: dict[int, FloatArray]) -> Decided:
+        """Motions that are not those of one rigid body."""
         if not self.cone.basis.shape[1]:
             extent = self._extent(
                 *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.DEFINITE),
                 curvature=self.cone.least,
             )
-            return Decided(dict.fromkeys(told, extent), 0)
-        vectors = {k: self.felt.within(self.felt.of(vector)) for k, vector in told.items()}
+            return Decided(dict.fromkeys(vectors, extent), 0)
         motions = {k: self._of_motion(vector) for k, vector in vectors.items()}
         motions |= self._inside(motions, vectors)
         if self.motions == 1:
-            (extent,) = motions.values()
+            kinds = {each.kind for each in motions.values()}
             known = {Kind.FINITE: 1, Kind.INFINITESIMAL: 0}
-            return Decided(motions, known.get(extent.kind))
+            return Decided(motions, known.get(kinds.pop()) if len(kinds) == 1 else None)
         return Decided(motions, *self._dimension(motions, vectors))
 
     @property

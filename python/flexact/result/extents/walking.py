@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Along a path where several motions begin, or where the geometry is rounded.
+"""Along a path by what is left of D(x) = 0, about the reference alone.
 
-There the follower (`flexact.result.following.follow`) may find no first step, or strains above
-its limit all along. What is allowed here grows with the way as rounding lifts the zeros.
+So where several motions begin, where the follower (`flexact.result.following.follow`) may find no
+first step; where the geometry is rounded, which strains the path above its limit: what is allowed
+here grows with the way as rounding lifts the zeros; and of large mechanisms, as it costs less.
 """
 
 from __future__ import annotations
@@ -13,9 +14,8 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ..following.follow import TRUE
-from ..following.settle import onward, settle
 from .least import beside, least_along
-from .reduced import Reduced
+from .reduced import Reduced, across
 
 #: How far a path is followed, in parts of the size, and in how large steps.
 GOAL, _STEP, _LEAST_STEP = 0.1, 0.02, 2.0e-4
@@ -50,32 +50,27 @@ def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
         sign: 1 or -1.
         floor: What the rounding of the geometry strains for each unit of the way.
     """
-    held = reduced.felt.held
     if unit.size > 1 and not _begins(reduced, unit, sign, floor):
         return Walk(0.0, 0.0)
-    step = _STEP
-    while True:
-        first = least_along(reduced, unit, sign * step)
-        limit = TRUE + _ROUNDED * floor * step
-        if first is not None and first.strain <= limit:
-            break
-        step /= 2.0
-        if step < _LEAST_STEP:
-            return Walk(0.0, 0.0)
-    where = held.moved(held.reference, first.change)
-    here, gone, worst = held.at(where), step, first.strain
-    ahead = onward(here, first.change / np.linalg.norm(first.change))
-    while gone < GOAL:
-        there = settle(held, here, ahead, step)
+    here, gone, worst, step = reduced.at(np.zeros(unit.size)), 0.0, 0.0, _STEP
+    ahead = sign * unit
+    while here is not None and gone < GOAL:
         limit = TRUE + _ROUNDED * floor * (gone + step)
-        if there is None or there.residual > limit:
+        if not gone:
+            there = least_along(reduced, unit, sign * step)
+        else:
+            start = here.shares + step * ahead
+            there = reduced.least(start, across(ahead[:, None]), _FARTHEST * step)
+            if there is not None and _norm(there.shares - start) > _FARTHEST * step:
+                there = None
+        if there is None or there.strain > limit:
             step /= 2.0
             if step < _LEAST_STEP:
                 break
             continue
-        here, gone, worst = there, gone + step, max(worst, there.residual)
-        ahead = onward(here, ahead)
-        step = min(2.0 * step, _STEP)
+        gone, worst = gone + _norm(there.change - here.change), max(worst, there.strain)
+        ahead = (there.shares - here.shares) / _norm(there.shares - here.shares)
+        here, step = there, min(2.0 * step, _STEP)
     return Walk(gone, worst)
 
 
@@ -86,3 +81,7 @@ def _begins(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> bo
     if found is None or found.strain > limit:
         return False
     return beside(found, unit, sign * _NEAR) <= _BESIDE
+
+
+def _norm(vector: FloatArray) -> float:
+    return float(np.linalg.norm(vector))

@@ -15,6 +15,7 @@ from ..units import length_in_words
 _DIGITS = 3
 _LEAST = 1.0e-16
 _PLAIN = {
+    Reason.RIGID: "it goes on: certified, all that hangs together moves as one body",
     Reason.DEFINITE: "it only begins: certified, any displacement t strains what is held as t^2",
     Reason.STRAINED: "it only begins: certified, a displacement t strains what is held as t^2",
     Reason.REGULAR: "it goes on: certified, the self-stresses leave it free to second order",
