@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from itertools import groupby, islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..advice.proposal import Purpose
 from ..base.plain_text import harmless
@@ -40,6 +40,18 @@ _AIMS = {
 }
 
 
+class Told(NamedTuple):
+    """A line of advice."""
+
+    line: Line
+    hangs: bool = False
+    """Whether further rows of it are indented."""
+
+
+#: Lines that stand together.
+Section = tuple[Told, ...]
+
+
 def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
     """The advice for people, in lines of at most about a hundred characters.
 
@@ -47,13 +59,8 @@ def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
         advice: The advice.
         most: How many steps of one aim and outcome are given; None: all.
     """
-    known = _Known()
-    sections = (
-        *(_verdict(advice), _motions(advice, known), _stresses(advice, known)),
-        *(_steps(advice, most), _spaces(advice)),
-    )
-    blocks = ("\n".join(section) for section in map(list, sections) if section)
-    return "\n\n".join(blocks)
+    blocks = ("\n".join(map(_filled, section)) for section in sections_of(advice, most))
+    return "\n\n".join((_verdict(advice), *blocks))
 
 
 def html_of(advice: Advice) -> str:
@@ -66,18 +73,34 @@ def html_of(advice: Advice) -> str:
     )
 
 
-def _verdict(advice: Advice) -> Iterator[str]:
+def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section, ...]:
+    """The advice without the verdict: what is wrong, what mends it, and what a body can do."""
+    known = _Known()
+    made = (
+        tuple(_motions(advice, known)),
+        tuple(_stresses(advice, known)),
+        tuple(_both(advice)),
+        *_steps(advice, most),
+        tuple(_left_out(advice)),
+        tuple(map(Told, spaces_lines(advice.analysis, advice.spaces))),
+    )
+    return tuple(section for section in made if section)
+
+
+def _filled(told: Told) -> str:
+    return filled(told.line, hanging=told.hangs)
+
+
+def _verdict(advice: Advice) -> str:
     result = advice.analysis
-    if result.name:
-        yield harmless(result.name)
-    yield filled(sentence(str(verdict_in_words(result))))
+    words = filled(sentence(str(verdict_in_words(result))))
+    return f"{harmless(result.name)}\n{words}" if result.name else words
 
 
-def _motions(advice: Advice, known: _Known) -> Iterator[str]:
-    count = advice.analysis.under_constrained
-    if not count:
+def _motions(advice: Advice, known: _Known) -> Iterator[Told]:
+    if not advice.analysis.under_constrained:
         return
-    yield "What nothing stops"
+    yield Told(sentence("What nothing stops"))
     told = [each for each in advice.motions if not each.motion.is_internal]
     told_at = {each.motion.index + 1: each.sentences for each in told}
     yield from _modes(told_at, "motion", known)
@@ -86,24 +109,21 @@ def _motions(advice: Advice, known: _Known) -> Iterator[str]:
     if whole is not None and (internal := internal_in_words(advice.analysis)):
         counts = counts_in_words(whole.under_constrained, whole.over_constrained)
         as_one = f"With each of them as one beam (flexact declare) the mechanism is {counts}."
-        yield filled(sentence(f"  {internal} {as_one}"), hanging=True)
+        yield Told(sentence(f"  {internal} {as_one}"), hangs=True)
     for line in finite_in_words(advice.extents) if len(told) > 1 else ():
-        yield filled(line._replace(head=("  ", *line.head)))
+        yield Told(line._replace(head=("  ", *line.head)), hangs=True)
 
 
-def _stresses(advice: Advice, known: _Known) -> Iterator[str]:
+def _stresses(advice: Advice, known: _Known) -> Iterator[Told]:
     if not advice.self_stresses:
         return
-    yield "What is stopped twice"
+    yield Told(sentence("What is stopped twice"))
     told_at = {each.stress.index + 1: each.sentences for each in advice.self_stresses}
     yield from _modes(told_at, "self-stress", known)
     yield from _more(advice.analysis.over_constrained - MOST_MODES, "self-stress", "es")
-    if both := both_in_words(advice.analysis, advice.causes):
-        yield ""
-        yield filled(Line(ended(begun(both))))
 
 
-def _modes(told_at: Mapping[int, Sequence[Pieces]], what: str, known: _Known) -> Iterator[str]:
+def _modes(told_at: Mapping[int, Sequence[Pieces]], what: str, known: _Known) -> Iterator[Told]:
     """Modes by their numbers; what is said of all of them stands behind them, once."""
     of_all: list[Pieces] = []
     if len(told_at) > 1:
@@ -115,7 +135,7 @@ def _modes(told_at: Mapping[int, Sequence[Pieces]], what: str, known: _Known) ->
         yield _item(number, (*head, *(piece for each in pieces for piece in each)))
     if of_all:
         words = in_a_row(of_all)
-        yield filled(sentence(f"  Each of them: {words[0].lower()}{words[1:]}"), hanging=True)
+        yield Told(sentence(f"  Each of them: {words[0].lower()}{words[1:]}"), hangs=True)
 
 
 class _Known:
@@ -133,34 +153,39 @@ class _Known:
         return (f"The cause is that of {first}.",)
 
 
-def _more(count: int, what: str, ending: str) -> Iterator[str]:
-    if count > 0:
-        yield f"  ... and {counted(count, f'more {what}', '', ending)}"
+def _both(advice: Advice) -> Iterator[Told]:
+    """Which constraint is spent twice while which motion is free."""
+    if both := both_in_words(advice.analysis, advice.causes):
+        yield Told(Line(ended(begun(both))))
 
 
-def _steps(advice: Advice, most: int | None) -> Iterator[str]:
+def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
     if not advice.steps and advice.analysis.verdict is Verdict.EXACT:
-        yield "There is nothing to mend."
+        yield (Told(sentence("There is nothing to mend.")),)
     kinds = groupby(advice.steps, lambda one: (_AIMS[one.purpose], one.outcome))
-    for place, ((aim, outcome), steps) in enumerate(kinds):
-        if place:
-            yield ""
+    for (aim, outcome), steps in kinds:
         told = tuple(steps)
-        yield filled(sentence(f"{aim}; then it is {outcome}"))
-        yield from (_item(step.number, step.pieces) for step in told[:most])
-        yield from _more(len(told) - len(told[:most]), "such way", "s")
-    if numbers := advice.exact_by:
-        steps_told = listed(list(map(str, numbers)))
-        how = f"--apply {','.join(map(str, numbers))}"
-        yield ""
-        yield f"Steps {steps_told} together make it exactly constrained ({how})."
-    if missing := tuple(left_out(advice)):
-        yield filled(Line(("Left out: ",), tuple((each,) for each in missing)))
+        shown = told[:most]
+        yield (
+            Told(sentence(f"{aim}; then it is {outcome}")),
+            *(_item(step.number, step.pieces) for step in shown),
+            *_more(len(told) - len(shown), "such way", "s"),
+        )
+    if numbers := tuple(map(str, advice.exact_by)):
+        how = f"--apply {','.join(numbers)}"
+        words = f"Steps {listed(numbers)} together make it exactly constrained ({how})."
+        yield (Told(sentence(words)),)
 
 
-def _spaces(advice: Advice) -> Iterator[str]:
-    yield from map(filled, spaces_lines(advice.analysis, advice.spaces))
+def _left_out(advice: Advice) -> Iterator[Told]:
+    if missing := tuple((each,) for each in left_out(advice)):
+        yield Told(Line(("Left out: ",), missing))
 
 
-def _item(number: int, pieces: Pieces) -> str:
-    return filled(Line((f"  {number}. ", *pieces)), hanging=True)
+def _item(number: int, pieces: Pieces) -> Told:
+    return Told(Line((f"  {number}. ", *pieces)), hangs=True)
+
+
+def _more(count: int, what: str, ending: str) -> Iterator[Told]:
+    if count > 0:
+        yield Told(sentence(f"  ... and {counted(count, f'more {what}', '', ending)}"))

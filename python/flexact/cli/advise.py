@@ -32,6 +32,7 @@ from flexact.saving import PAGES
 from flexact.text.margin import verdict_word
 from flexact.text.naming import counts_in_words
 from flexact.text.places import listed
+from flexact.text.sentences import Pieces
 
 _STEP = re.compile(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?")
 
@@ -114,6 +115,8 @@ class Taken(NamedTuple):
     """Such as "steps 1 and 8"."""
     change: Change
     after: After
+    pieces: Pieces
+    """What is done."""
 
 
 class _Work:
@@ -169,7 +172,8 @@ class _Work:
         change = together(step.chosen(choice) for step, choice in steps)
         after = steps[0][0].after if len(steps) == 1 else tried(advice.analysis, change)
         numbers = listed([str(one.step) for one in asked])
-        return Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after)
+        pieces = tuple(piece for step, _ in steps for piece in (*step.pieces, " "))
+        return Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after, pieces)
 
     def _words(self, advice: Advice) -> str:
         if self.chosen.json:
@@ -180,13 +184,18 @@ class _Work:
     def _written(self, advice: Advice, taken: Taken) -> str:
         """Write what was asked for, and say so."""
         assert self.target is not None
-        model = taken.change.apply(advice.analysis.given)
+        given = advice.analysis.given
         if self._is_page:
-            raise NotImplementedError
-        write_together({self.target: edited_deck(advice.analysis.given, model.data)})
+            page = load("flexact.advising.pages").page_of
+            content: bytes = page(advice, taken.change, taken.pieces)
+        else:
+            content = edited_deck(given, taken.change.apply(given).data)
+        write_together({self.target: content})
         counts = counts_in_words(taken.after.under_constrained, taken.after.over_constrained)
         deck, name = harmless(advice.analysis.name), harmless(str(self.target))
-        return f"{deck}: {taken.words} written to {name}, {counts}"
+        how = "shown" if self._is_page else "written"
+        where = "in" if self._is_page else "to"
+        return f"{deck}: {taken.words} {how} {where} {name}, {counts}"
 
 
 def _there(advice: Advice) -> str:

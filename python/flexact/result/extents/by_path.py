@@ -16,7 +16,8 @@ from .walking import GOAL, Walk, walk
 #: Components of more coordinates are followed about the reference alone.
 _MOST_COORDINATES = 120
 _WHOLE = 1.0 - 1.0e-9
-_WISHES = Wishes(length=GOAL, steps=500, through=True)
+# The follower ends within a least step of the length that is asked for.
+_WISHES = Wishes(length=1.01 * GOAL, steps=500, through=True)
 
 
 def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:

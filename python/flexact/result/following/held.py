@@ -218,7 +218,9 @@ class Held:
         sums = [np.bincount(column, value * each[row], self._wide_size) for each in stresses.T]
         if not sums:
             return np.zeros((self.columns.size, 0))
-        return np.stack(sums, axis=1)[self._narrow] * self._column_factor[:, None]
+        wide = np.stack(sums, axis=1).astype(np.float64)
+        made: FloatArray = wide[self._narrow] * self._column_factor[:, None]
+        return made
 
     def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
         """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
