@@ -47,6 +47,8 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .tracing.trace import Trace
+    from .tracing.tracer import trace
     from .variants.search.crossing import Crossing, Crossings
     from .variants.sweep import sweep
     from .variants.sweeps.parameters import grid
@@ -76,6 +78,8 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
+    "tracing.tracer": ("trace",),
+    "tracing.trace": ("Trace",),
     "variants.search.crossing": ("Crossing", "Crossings"),
     "variants.sweeps.parameters": ("grid",),
     "variants.sweep": ("sweep",),
@@ -119,6 +123,7 @@ __all__ = [
     "Sheet",
     "Table",
     "Tolerances",
+    "Trace",
     "Verdict",
     "Wire",
     "__version__",
@@ -130,6 +135,7 @@ __all__ = [
     "read_text",
     "sweep",
     "tolerances",
+    "trace",
 ]
 
 

@@ -15,7 +15,8 @@ from vtk_files import LINE, QUAD
 import flexact
 from flexact.drawing.selection import select_motion
 from flexact.files.outputs import OutputError
-from flexact.mesh.cycle import Cycle, write_cycle
+from flexact.mesh.collection import write_collection
+from flexact.mesh.cycle import Cycle
 
 #: A rigid arm of length 2 that turns about z at (1, 0, 0).
 ARM = """\
@@ -35,7 +36,7 @@ def play(tmp_path: Path) -> Callable[[flexact.Analysis], Path]:
     def to_file(analysis: flexact.Analysis) -> Path:
         chosen = select_motion(analysis)
         target = tmp_path / "x.pvd"
-        write_cycle(Cycle(analysis, None if chosen is None else chosen.motion, target))
+        write_collection(Cycle(analysis, None if chosen is None else chosen.motion, target))
         return target
 
     return to_file
@@ -175,7 +176,7 @@ def test_a_failing_cycle_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.Mo
         "flexact.mesh.cycle.named_bytes", lambda *given: next(made, None) or fail(*given)
     )
     with pytest.raises(OutputError, match="not enough memory"):
-        write_cycle(cycle)
+        write_collection(cycle)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -183,7 +184,7 @@ def test_a_failing_cycle_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.Mo
 def test_a_cycle_names_its_files_whatever_it_is_called(stem: str, tmp_path: Path) -> None:
     analysis = flexact.analyse(ROOT / "input_decks" / "flexures" / "six_wires.dat")
     target = tmp_path / f"{stem}.pvd"
-    write_cycle(Cycle(analysis, None, target))
+    write_collection(Cycle(analysis, None, target))
     ((_, path),) = steps_of(target)
     assert path.is_file()
 

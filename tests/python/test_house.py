@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("saving", "variants"),
+    ("saving", "tracing", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )

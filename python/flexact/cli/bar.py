@@ -63,14 +63,21 @@ class Bar:
 
     def show_frames(self, done: float) -> None:
         """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
+        self._show_always("drawing", done)
+
+    def show_steps(self, done: float) -> None:
+        """Draw the bar of a path, of which a part from 0 to 1 is traced; always wanted."""
+        self._show_always("tracing", done)
+
+    def _show_always(self, what: str, done: float) -> None:
         self._wanted = True
         if not is_watched():
             return
         with contextlib.suppress(ImportError, OSError):
             if self._bar is None or done <= self._bar.n:
                 self.clear()
-                self._bar = _drawn(f"{self._deck}: drawing")
-            self._bar.set_description_str(f"{self._deck}: drawing", refresh=False)
+                self._bar = _drawn(f"{self._deck}: {what}")
+            self._bar.set_description_str(f"{self._deck}: {what}", refresh=False)
             self._bar.n = done
             self._bar.refresh()
 

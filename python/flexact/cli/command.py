@@ -37,6 +37,7 @@ VERBS = {
     "regress": "compare decks with stored answers, or store them",
     "picture": "a deck's mechanism as a picture: its motion, its self-stress",
     "export": "a deck's mechanism with its modes as a mesh, for ParaView",
+    "trace": "the path of a motion, both ways, with its dead points",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
 }

@@ -18,7 +18,8 @@ from flexact.cli.terminal import complain, say
 from flexact.drawing.selection import select_motion
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import plan_file, plan_files
-from flexact.mesh.cycle import ENDINGS, STEM, SUFFIX, folder_of
+from flexact.mesh.collection import SUFFIX, folder_of
+from flexact.mesh.cycle import ENDINGS, STEM
 from flexact.mesh.writing import mesh_writer
 from flexact.text.naming import motion_in_words
 

@@ -73,13 +73,13 @@ def follow(motion: Velocities, shares: FloatArray) -> Path | None:
         if here is None:
             return None
         deviation = max(deviation, here.residual)
-        poses.append(_pose(held, here.configuration))
+        poses.append(pose_in(held, here.configuration))
         direction = onward(here, direction)
     return Path(tuple(poses), deviation)
 
 
-def _pose(held: Held, here: Configuration) -> Pose:
-    """The pose that a configuration means, where the model stands."""
+def pose_in(held: Held, here: Configuration) -> Pose:
+    """The pose that a configuration means, which `Held` has, where the model stands."""
     placed = (held.arrays.node_kind <= NodeKind.POSITION)[:, None]
     there = pose_of(held.data.arrays, held.outside(here))
     return Pose(np.where(placed, there.position, 0.0), there.rotation)

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..drawing import Moving
 from ..files.outputs import OutputError, write_together
 from ..result.result import Result
-from . import cycle, polydata
+from . import collection, cycle, polydata
 from .content import mesh_of
 from .file import find_format, named_bytes
 
@@ -25,7 +25,7 @@ def mesh_writer(target: Path) -> Write:
     suffix = target.suffix.lower()
     if not suffix:
         raise OutputError(f"the suffix of {target} is to say what to write: .vtu, .pvd, ...")
-    if suffix == cycle.SUFFIX:
+    if suffix == collection.SUFFIX:
         find_format("vtu")
         return _write_cycle
     if suffix == ".vtp":
@@ -44,4 +44,4 @@ def _write_polydata(analysis: Result, shown: Moving | None, target: Path) -> Non
 
 
 def _write_cycle(analysis: Result, shown: Moving | None, target: Path) -> None:
-    cycle.write_cycle(cycle.Cycle(analysis, shown, target))
+    collection.write_collection(cycle.Cycle(analysis, shown, target))

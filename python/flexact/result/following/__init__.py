@@ -2,9 +2,10 @@
 """Configurations in which the held deformations stay zero: where a motion leads."""
 
 from .ending import Ending, Stop
-from .follow import Followed, Station, Wishes, follow, follow_both_ways
+from .follow import Followed, Wishes, follow, follow_both_ways
 from .held import MOST_COORDINATES, Held, Place, is_followed
 from .least import Least, least_error
+from .station import Station
 
 __all__ = [
     "MOST_COORDINATES",

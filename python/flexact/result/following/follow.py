@@ -8,42 +8,49 @@ D(x) = 0 across it. A step that fails is halved; they grow again.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
-from ...model.configuration import Configuration
 from ..velocities import Velocities
+from .branches import branch_about, branch_between, sign_between
 from .chart import Chart, Near
 from .ending import Ending, Stop
 from .held import Held
 from .least import across, descend
+from .passing import passing
+from .station import Between, Station, arc_between, station_at
 
 #: Held deformations up to this part of the size are zero.
 TRUE = 1.0e-12
 #: Scaled singular values up to here are zero away from the reference, where rounding of
-#: positions is magnified; and how many of the smallest are kept.
-_ZERO = 1.0e-10
-_KEPT = 6
+#: positions is magnified.
+ZERO = 1.0e-10
 #: The correction of a step may be this part of it, and the cosine between two directions is at
 #: least so large.
 _FARTHEST = 0.25
 _STRAIGHT = 0.8
+#: Steps grow where the correction is below this part of them.
+_EASY, _GROWTH = 0.06, 1.5
 #: Where the first step is halved, the correction of a path becomes smaller by this at least.
 _CURVED = 0.35
-#: Back at the start, for a closed path: by this part of the step that leads past it.
-_CLOSED = 1.0e-9
+#: Back at the start a path is closed: nearer to it than this.
+_CLOSED = 1.0e-8
+#: A closed path has so many stations at least.
+_FEWEST = 6
 
 
 @dataclass(frozen=True)
 class Wishes:
     """How a path is to be followed.
 
+    Lengths are in sizes of the model, of the node that moves farthest; rotations in radians.
+
     Attributes:
-        length: How far each way, in sizes of the model.
-        first: The first step, likewise.
+        length: How far each way.
+        first: The first step.
         largest: The largest step.
         least: The least step; where one of it fails the path ends.
         steps: How many steps each way at most.
@@ -59,46 +66,18 @@ class Wishes:
 
 
 @dataclass(frozen=True, eq=False)
-class Station(Frozen):
-    """A configuration of a path.
-
-    Attributes:
-        configuration: In metres, where the model stands.
-        arc: How far it is along the path, in sizes: of displacements by the size, rotations in
-            radians, the root of the sum of the squares of all dependent coordinates.
-        residual: The largest held deformation, lengths by the size, angles in radians.
-        tangent: (n,) along the path, displacements by the size, rotations in radians; norm 1.
-        values: The smallest singular values of the scaled matrix, theory.md (2), ascending,
-            at most six.
-        rank: How many of all of them are not zero.
-        signed: The smallest of these, with a sign that changes where it passes zero.
-    """
-
-    configuration: Configuration
-    arc: float
-    residual: float
-    tangent: FloatArray
-    values: FloatArray
-    rank: int
-    signed: float
-
-    @property
-    def directions(self) -> int:
-        """In how many independent directions it goes on from here, to first order."""
-        return self.tangent.size - self.rank
-
-
-@dataclass(frozen=True, eq=False)
 class Followed(Frozen):
     """A path from the reference one way.
 
     Attributes:
         stations: The first is the reference.
         stop: Why it was not followed farther.
+        branches: Where other paths branch off, also the one where it stops.
     """
 
     stations: tuple[Station, ...]
     stop: Stop
+    branches: tuple[Station, ...] = ()
 
     @property
     def length(self) -> float:
@@ -112,7 +91,7 @@ class Followed(Frozen):
 
 
 def follow_both_ways(
-    motion: Velocities, rank: int, wishes: Wishes, zero: float = _ZERO
+    motion: Velocities, rank: int, wishes: Wishes, zero: float = ZERO
 ) -> tuple[Followed, Followed]:
     """The path of a motion against it and along it; see `follow`."""
     held = Held(motion.data)
@@ -128,7 +107,7 @@ def follow(
     direction: FloatArray,
     rank: int,
     wishes: Wishes,
-    zero: float = _ZERO,
+    zero: float = ZERO,
     on_step: Callable[[float], None] | None = None,
 ) -> Followed:
     """The path from the reference on, along a motion.
@@ -144,140 +123,146 @@ def follow(
     return _Walk(held, wishes, zero, on_step).walk(direction, rank)
 
 
-@dataclass(frozen=True, eq=False)
-class _Here(Frozen):
-    """A station as the walk needs it."""
-
-    station: Station
-    chart: Chart
-    along: FloatArray
-
-
 class _Walk:
+    """Goes from station to station."""
+
     def __init__(
         self, held: Held, wishes: Wishes, zero: float, on_step: Callable[[float], None] | None
     ) -> None:
-        self.held, self.wishes, self.zero, self.on_step = held, wishes, zero, on_step
+        self.held, self.wishes, self.zero = held, wishes, zero
+        self.on_step = on_step or (lambda _: None)
         self.failed = Stop(Ending.STEPS)
+        self.stations: list[Station] = []
+        self.branches: list[Station] = []
 
     def walk(self, direction: FloatArray, rank: int) -> Followed:
-        here = self._start(direction, rank)
-        made, step = [here.station], self.wishes.first
-        for _ in range(self.wishes.steps):
-            left = self.wishes.length - here.station.arc
-            if left <= 1.0e-12 * self.wishes.length:
-                return Followed(tuple(made), Stop(Ending.LENGTH, step))
-            found = self._onward(here, min(step, left), is_first=len(made) == 1)
+        """Step until something stops it."""
+        start, along = self.held.reference, direction / np.linalg.norm(direction)
+        chart = Chart(self.held, start, rank)
+        residual = self.held.at(start).residual
+        values = self.held.values(start)
+        first = station_at(self.held, start, rank, along, 0.0, residual, 1.0, values)
+        self.stations.append(first)
+        step, stop = self.wishes.first, None
+        while stop is None:
+            if len(self.stations) > self.wishes.steps:
+                stop = Stop(Ending.STEPS, step)
+                break
+            left = self.wishes.length - self.stations[-1].arc
+            if left < max(1.0e-9 * self.wishes.length, self.wishes.least):
+                stop = Stop(Ending.LENGTH, step)
+                break
+            found = self._onward(chart, min(step, left))
             if found is None:
-                return Followed(tuple(made), self.failed)
-            there, step = found
-            made.append(there.station)
-            if self.on_step is not None:
-                self.on_step(there.station.arc)
-            stop = self._stop(here, there)
-            if stop is not None:
-                return Followed(tuple(made), stop)
-            here = there
-        return Followed(tuple(made), Stop(Ending.STEPS, step))
+                stop = self.failed
+                break
+            there, chart, step = found
+            stop = self._arrive(there)
+            self.on_step(self.stations[-1].arc)
+        return Followed(tuple(self.stations), stop, tuple(self.branches))
 
-    def _start(self, direction: FloatArray, rank: int) -> _Here:
-        middle = self.held.reference
-        chart = Chart(self.held, middle, rank)
-        along = direction / np.linalg.norm(direction)
-        return self._arrived(middle, chart, along, 0.0, 0.0, 1.0)
+    def _arrive(self, there: Station) -> Stop | None:
+        """Take a station, unless something came before it; why to stop there, if at all."""
+        last = self.stations[-1]
+        if self._is_back(last, there):
+            start = self.stations[0]
+            self.stations.append(replace(start, arc=self._arc_of_start(last, there)))
+            return Stop(Ending.CLOSED)
+        branch = branch_between(self.held, last, there, self.zero)
+        if branch is None and len(self.stations) > 1:
+            before = self.stations[-2]
+            branch = branch_about(self.held, before, last, there, self.zero)
+        if branch is not None:
+            self.branches.append(branch)
+            if not self.wishes.through:
+                if branch.arc <= last.arc:
+                    self.stations.pop()
+                self.stations.append(branch)
+                return Stop(Ending.BRANCHES, 0.0, branch.residual, branch.directions)
+        self.stations.append(there)
+        return None
 
-    def _arrived(
-        self,
-        where: Configuration,
-        chart: Chart,
-        along: FloatArray,
-        arc: float,
-        residual: float,
-        sign: float,
-    ) -> _Here:
-        values = np.linalg.svd(self.held.scaled(where), compute_uv=False)
-        rank = chart.right.shape[1]
-        station = Station(
-            self.held.outside(where),
-            arc,
-            residual,
-            along,
-            np.array(values[::-1][:_KEPT], np.float64),
-            rank,
-            sign * float(values[rank - 1]) if rank else 0.0,
+    def _is_back(self, last: Station, there: Station) -> bool:
+        """Whether the path passes its start, the same way as it left it."""
+        start, held = self.stations[0], self.held
+        before = held.difference(start.within, last.within)
+        behind = held.difference(start.within, there.within)
+        is_near = max(map(held.reach, (before, behind))) < 2.0 * (there.arc - last.arc)
+        if len(self.stations) < _FEWEST or not is_near:
+            return False
+        passed = passing(
+            Between(held, last, there),
+            lambda near: float(
+                start.tangent @ held.difference(start.within, near.place.configuration)
+            ),
         )
-        return _Here(station, chart, along)
+        if passed is None or start.tangent @ passed.tangent < _STRAIGHT:
+            return False
+        return held.reach(held.difference(start.within, passed.where)) < _CLOSED
 
-    def _onward(self, here: _Here, step: float, is_first: bool) -> tuple[_Here, float] | None:
-        """The next station, and the step to try from there; None where there is none."""
+    def _arc_of_start(self, last: Station, there: Station) -> float:
+        start = self.stations[0].within
+        before, behind = (
+            self.held.reach(self.held.difference(start, each.within)) for each in (last, there)
+        )
+        return last.arc + (there.arc - last.arc) * before / (before + behind)
+
+    def _onward(self, chart: Chart, step: float) -> tuple[Station, Chart, float] | None:
+        """The next station with its chart, and the step to try from there; None without any."""
+        here = self.stations[-1]
+        reach = self.held.reach(here.tangent)
         while step >= self.wishes.least:
-            ahead = here.along * step
-            near = here.chart.near(ahead)
+            ahead = here.tangent * (step / reach)
+            near = chart.near(ahead)
             if near is None or near.place.residual > TRUE:
-                near = self._among_branches(here, ahead, near, is_first) or near
-            there = None if near is None else self._accepted(here, near, step)
-            if there is not None:
-                bent = float(np.linalg.norm(near.across)) / step if near else 0.0
-                grown = step * (1.5 if bent < 0.25 * _FARTHEST else 1.0)
-                return there, min(grown, self.wishes.largest)
+                near = self._among_branches(here, ahead) or near
+            found = None if near is None else self._accepted(here, chart, near, step)
+            if near is not None and found is not None:
+                bent = float(np.linalg.norm(near.across)) / float(np.linalg.norm(ahead))
+                grown = step * (_GROWTH if bent < _EASY else 1.0)
+                return *found, min(grown, self.wishes.largest)
             step *= 0.5
         return None
 
-    def _among_branches(
-        self, here: _Here, ahead: FloatArray, near: Near | None, is_first: bool
-    ) -> Near | None:
+    def _among_branches(self, here: Station, ahead: FloatArray) -> Near | None:
         """Where the null space is larger than the path is wide, corrections within it, too."""
-        if here.chart.null.shape[1] < 2:
+        if here.directions < 2:
             return None
-        direction = here.along / np.linalg.norm(here.along)
-        base = across(direction)
-        place, change = descend(self.held, here.chart.middle, ahead, base)
-        found = Near(place, change)
+        base = across(here.tangent)
+        place, change = descend(self.held, here.within, ahead, base)
         if place.residual > TRUE:
             return None
         # A path that is tangent to the motion leaves it by the square of the step, another one
         # by the step itself.
-        half, less = descend(self.held, here.chart.middle, 0.5 * ahead, base)
-        is_path = half.residual <= TRUE
+        half, less = descend(self.held, here.within, 0.5 * ahead, base)
         curved = np.linalg.norm(less) <= _CURVED * np.linalg.norm(change) + 1.0e-9
-        return found if is_path and curved else None
+        return Near(place, change) if half.residual <= TRUE and curved else None
 
-    def _accepted(self, here: _Here, near: Near, step: float) -> _Here | None:
-        """The station there, if it is one of the path."""
+    def _accepted(
+        self, here: Station, last: Chart, near: Near, step: float
+    ) -> tuple[Station, Chart] | None:
+        """The station there with its chart, if it is one of the path."""
         where, residual = near.place.configuration, near.place.residual
         self.failed = Stop(Ending.NOT_ZERO, step, residual)
-        if residual > TRUE:
-            return None
-        if float(np.linalg.norm(near.across)) > _FARTHEST * step:
+        way = step / self.held.reach(here.tangent)
+        if residual > TRUE or float(np.linalg.norm(near.across)) > _FARTHEST * way:
             return None
         beyond = self.held.beyond(where)
         if beyond is not None:
             self.failed = Stop(Ending.ELEMENT, step, residual, 0, *beyond)
             return None
-        values = np.linalg.svd(self.held.scaled(where), compute_uv=False)
-        chart = Chart(self.held, where, int(np.count_nonzero(values > self.zero)))
+        values = self.held.values(where)
+        rank = int(np.count_nonzero(values > self.zero))
+        chart = Chart(self.held, where, rank)
         # What came last, as it is carried along by what was done.
-        along = chart.null @ (chart.null.T @ here.along)
+        along = chart.null @ (chart.null.T @ here.tangent)
         straight = float(np.linalg.norm(along))
         if straight < _STRAIGHT:
             if chart.null.shape[1]:
                 self.failed = Stop(Ending.TURNS_BACK, step, residual)
             return None
-        sign = _sign_between(here.chart, chart) * np.sign(here.station.signed)
-        arc = here.station.arc + step * float(np.hypot(1.0, np.linalg.norm(near.across) / step))
-        return self._arrived(where, chart, along / straight, arc, residual, float(sign))
-
-    def _stop(self, here: _Here, there: _Here) -> Stop | None:
-        directions = there.station.directions
-        if directions > here.station.directions and not self.wishes.through:
-            return Stop(Ending.BRANCHES, 0.0, there.station.residual, directions)
-        return None
-
-
-def _sign_between(one: Chart, other: Chart) -> float:
-    """-1 where a singular value passes zero between two charts, with its left or right vector."""
-    if one.right.shape[1] != other.right.shape[1]:
-        return 1.0
-    left = np.linalg.slogdet(one.left.T @ other.left)[0]
-    right = np.linalg.slogdet(one.right.T @ other.right)[0]
-    return float(left * right) or 1.0
+        sign = sign_between(last, chart) * float(np.sign(here.signed) or 1.0)
+        arc = here.arc + arc_between(self.held, here, where, along)
+        along /= straight
+        made = station_at(self.held, where, rank, along, arc, residual, sign, values)
+        return made, chart

@@ -26,7 +26,7 @@ from ...model.data import ModelData
 from ..velocities import Velocities
 
 #: More coordinates than these are not followed: each step solves a dense system.
-MOST_COORDINATES = 2_000
+MOST_COORDINATES = 1_000
 #: A length below this part of its own at first is none; a sine above this is no bending.
 _NO_LENGTH = 1.0e-6
 _NO_BENDING = 0.999
@@ -91,7 +91,6 @@ class Held:
         held = (classes == Class.FIXED) | (classes == Class.INDEPENDENT)
         self.rows = np.flatnonzero(held.T.ravel())
         self.columns = np.flatnonzero((self.arrays.coordinate_class == Class.DEPENDENT).T.ravel())
-        self._turning = np.flatnonzero(self.arrays.node_kind == NodeKind.ORIENTATION)
         by_size = self.sizes.size / self.sizes.unit
         turns = dual_table()[self.arrays.element_kind].ravel()[self.rows] == Dual.MOMENT
         self._row_factor = np.where(turns, 1.0, 1.0 / by_size)
@@ -100,8 +99,15 @@ class Held:
         place = np.full(classes.size, -1)
         place[self.rows] = np.arange(self.rows.size)
         self._row_place = place
+        # Of an orientation all three rotations count, even if one of them is not dependent.
+        free = (self.arrays.coordinate_class == Class.DEPENDENT).any(axis=0)
+        self._turning = np.flatnonzero(free & (self.arrays.node_kind == NodeKind.ORIENTATION))
+        whole = (3 * self._turning[:, None] + np.arange(3)).ravel()
+        wide = np.union1d(self.columns, whole)
+        self._narrow = np.searchsorted(wide, self.columns)
+        self._wide_size = wide.size
         place = np.full(self.arrays.coordinate_class.size, -1)
-        place[self.columns] = np.arange(self.columns.size)
+        place[wide] = np.arange(wide.size)
         self._column_place = place
 
     @property
@@ -137,48 +143,42 @@ class Held:
         both = (motion.displacement / self.size + motion.rotation).ravel()
         return np.asarray(both[self.columns])
 
+    def reach(self, change: FloatArray) -> float:
+        """How far a change moves the node that it moves farthest, by the size or in radians."""
+        return float(np.linalg.norm(self.at_nodes(change), axis=1).max())
+
+    def at_nodes(self, change: FloatArray) -> FloatArray:
+        """(nodes, 3) a change of the coordinates: by the size, or in radians."""
+        made = np.zeros(self.arrays.coordinate_class.size)
+        made[self.columns] = change
+        return made.reshape(-1, 3)
+
+    def difference(self, one: Configuration, other: Configuration) -> FloatArray:
+        """(n,) the change that leads from a configuration to another one."""
+        delta = np.zeros((one.kinds.size, 3))
+        placed = one.kinds <= NodeKind.POSITION
+        delta[placed] = (other.value - one.value)[placed, :3]
+        plane = one.kinds == NodeKind.ANGLE
+        angle = (other.value - one.value)[plane, 0]
+        delta[plane, 2] = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
+        turned = self._turning
+        delta[turned] = _rotation_between(one.value[turned], other.value[turned])
+        return np.asarray(delta.ravel()[self.columns] / self._column_factor)
+
     def at(self, here: Configuration, change: FloatArray | None = None) -> Place:
         """The held deformations after a change (n,) of the coordinates, as a `direction`.
 
         The derivatives are with respect to the change.
         """
+        delta = np.zeros((self.arrays.node_kind.size, 3))
         if change is None or not change.any():
-            return Place(here, *self._assembled(here))
-        delta = self._delta(change)
-        there = here.moved(delta)
-        error, jacobian = self._assembled(there)
-        if self._turning.size:
-            jacobian = jacobian @ self._turn_of(delta)
-        return Place(there, error, jacobian)
+            return self._placed(here, delta)
+        delta.ravel()[self.columns] = change * self._column_factor
+        return self._placed(here.moved(delta), delta)
 
     def moved(self, here: Configuration, change: FloatArray) -> Configuration:
         """The nodes after a change (n,) of the coordinates."""
-        return here.moved(self._delta(change))
-
-    def _delta(self, change: FloatArray) -> FloatArray:
-        delta = np.zeros((self.arrays.node_kind.size, 3))
-        delta.ravel()[self.columns] = change * self._column_factor
-        return delta
-
-    def _turn_of(self, delta: FloatArray) -> FloatArray:
-        """(n, n) small rotations made by a change of rotation vectors, exp(T dv) exp(v)."""
-        made = np.eye(self.columns.size)
-        block = _left_jacobian(delta[self._turning])
-        for node, turn in zip(self._turning.tolist(), block, strict=True):
-            place = self._column_place[3 * node : 3 * node + 3]
-            there = place >= 0
-            made[np.ix_(place[there], place[there])] = turn[np.ix_(there, there)]
-        return made
-
-    def _assembled(self, here: Configuration) -> tuple[FloatArray, FloatArray]:
-        raw = self._raw(here)
-        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
-        there = (row >= 0) & (column >= 0)
-        m, n = self.rows.size, self.columns.size
-        place = row[there] * n + column[there]
-        flat = np.bincount(place, raw.value[there], m * n).astype(np.float64)
-        error = raw.deformation.T.ravel()[self.rows] * self._row_factor
-        return error, self._row_factor[:, None] * flat.reshape(m, n) * self._column_factor
+        return here.moved(self.at_nodes(change * self._column_factor))
 
     def pressed(self, here: Configuration, stresses: FloatArray) -> FloatArray:
         """(n, s) u' D of some stresses (m, s), without the matrix in full.
@@ -187,12 +187,46 @@ class Held:
         """
         raw = self._raw(here)
         row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
-        there = (row >= 0) & (column >= 0)
-        row, column = row[there], column[there]
-        value = raw.value[there] * self._row_factor[row] * self._column_factor[column]
-        many = self.columns.size
-        sums = [np.bincount(column, value * each[row], many) for each in stresses.T]
-        return np.stack(sums, axis=1) if sums else np.zeros((many, 0))
+        known = (row >= 0) & (column >= 0)
+        row, column = row[known], column[known]
+        value = raw.value[known] * self._row_factor[row]
+        made = np.zeros((self._wide_size, stresses.shape[1]))
+        for k, stress in enumerate(stresses.T):
+            made[:, k] = np.bincount(column, value * stress[row], self._wide_size)
+        return made[self._narrow] * self._column_factor[:, None]
+
+    def _placed(self, there: Configuration, delta: FloatArray) -> Place:
+        """The place to which a change, (nodes, 3), has led."""
+        raw = self._raw(there)
+        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
+        known = (row >= 0) & (column >= 0)
+        m, n = self.rows.size, self._wide_size
+        place = row[known] * n + column[known]
+        wide = np.bincount(place, raw.value[known], m * n).astype(np.float64).reshape(m, n)
+        if self._turning.size and delta.any():
+            self._turn(wide, delta)
+        error = raw.deformation.T.ravel()[self.rows] * self._row_factor
+        jacobian = self._row_factor[:, None] * wide[:, self._narrow] * self._column_factor
+        return Place(there, error, jacobian)
+
+    def _turn(self, wide: FloatArray, delta: FloatArray) -> None:
+        """Make derivatives by rotation vectors of those by small rotations, exp(T dv) exp(v)."""
+        first = self._column_place[3 * self._turning]
+        columns = first[:, None] + np.arange(3)
+        blocks = wide[:, columns]
+        wide[:, columns] = np.einsum("mkx,kxy->mky", blocks, _left_jacobian(delta[self._turning]))
+
+    def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
+        """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
+        raw = self._raw(here)
+        mine = raw.row_of == row
+        full = np.zeros(self.arrays.coordinate_class.size)
+        full[self.columns] = change * self._column_factor
+        return float(raw.value[mine] @ full[raw.column_of[mine]])
+
+    def deformation(self, here: Configuration, row: int) -> float:
+        """A deformation, held or not, by its row, in the unit if it is a length, else [rad]."""
+        return float(self._raw(here).deformation.T.ravel()[row])
 
     def _raw(self, here: Configuration) -> RawAssembly:
         return calls.assemble(self._packed, here.value.T, np.zeros(self.arrays.element_number.size))
@@ -212,6 +246,10 @@ class Held:
         full[:, np.repeat(self.arrays.node_kind > NodeKind.POSITION, 3)] /= self._mean_length
         norm = np.linalg.norm(full, axis=1, keepdims=True)
         return np.asarray(full[:, self.columns] / np.where(norm > 0.0, norm, 1.0))
+
+    def values(self, here: Configuration) -> FloatArray:
+        """All singular values of the scaled matrix, descending."""
+        return np.asarray(np.linalg.svd(self.scaled(here), compute_uv=False), np.float64)
 
     @cached_property
     def _lengths(self) -> FloatArray:
@@ -238,6 +276,20 @@ class Held:
         bent = np.abs(self._raw(here).deformation) > _NO_BENDING * self._lengths
         over = (bends & bent).any(axis=0)
         return (int(np.argmax(over)), "bending") if over.any() else None
+
+
+def _rotation_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(k, 3) rotation vectors that turn Euler parameters (k, 4) into others."""
+    a, u = one[:, :1], one[:, 1:]
+    b, v = other[:, :1], other[:, 1:]
+    scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
+    vector = v * a - b * u - np.cross(v, u)
+    sine = np.linalg.norm(vector, axis=1, keepdims=True)
+    flip = np.where(scalar < 0.0, -1.0, 1.0)
+    angle = 2.0 * np.arctan2(sine, np.abs(scalar))
+    size = np.where(sine > 0.0, sine, 1.0)
+    factor = np.where(sine > 1.0e-9, angle / size, 2.0 / np.where(scalar == 0.0, 1.0, abs(scalar)))
+    return np.asarray(flip * factor * vector)
 
 
 def _left_jacobian(vector: FloatArray) -> FloatArray:

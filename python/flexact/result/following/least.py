@@ -52,11 +52,12 @@ def least_error(motion: Velocities | Held, direction: FloatArray, distance: floa
     Args:
         motion: A motion, whose model holds what it holds; or what was made of its model.
         direction: (n,) of any length: `Held.direction` of the motion or of another one.
-        distance: How far, in sizes: displacements by the size, rotations in radians.
+        distance: How far the node that moves farthest, by the size; in radians if it turns.
     """
     held = motion if isinstance(motion, Held) else Held(motion.data)
     ahead = direction / np.linalg.norm(direction)
-    place, change = descend(held, held.reference, ahead * distance, across(ahead))
+    step = ahead * (distance / held.reach(ahead))
+    place, change = descend(held, held.reference, step, across(ahead))
     return Least(
         held.outside(place.configuration),
         float(np.linalg.norm(place.error)),

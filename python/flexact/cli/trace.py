@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact trace``: the path of a motion, both ways, with its dead points."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from dataclasses import replace
+from pathlib import Path
+
+from flexact.base.errors import BatchError, FlexactError
+from flexact.base.interruption import unwinding
+from flexact.base.plain_text import harmless
+from flexact.cli.analysed import add_decision, read_and_analysed
+from flexact.cli.bar import Bar
+from flexact.cli.decks import take
+from flexact.cli.outcome import ExitCode, Outcome
+from flexact.cli.showing import add_shown, number, one_deck
+from flexact.cli.terminal import say
+from flexact.files.decks import DeckFile
+from flexact.files.outputs import plan_file, plan_files
+from flexact.mesh.collection import SUFFIX, folder_of
+from flexact.tracing.playing import ENDINGS, STEM
+from flexact.tracing.saving import require_suffix, save
+from flexact.tracing.tracer import STEPS, trace
+from flexact.tracing.words import lines
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Follow a motion, or a declared degree of freedom, both ways from the reference with every "
+        "held deformation zero; say how far it goes, what stops it, and where its dead points are."
+    )
+    parser.add_argument("deck", metavar="DECK", help="a deck")
+    add_shown(parser)
+    parser.add_argument(
+        "--length",
+        type=_length,
+        metavar="L",
+        help="how far each way, in m, of the node that moves farthest; a rotation of 1 rad "
+        "counts as the model's size (default: that size)",
+    )
+    parser.add_argument(
+        "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
+    )
+    parser.add_argument(
+        "--through",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="whether to go straight on where other paths branch off, which is said; else the "
+        "path ends there",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="the path: .csv, a row a step; .png, singular values and places along the path; "
+        ".pvd, a cycle that plays in ParaView",
+    )
+    add_decision(parser)
+    parser.set_defaults(run=trace_deck, accuracy=None)
+
+
+def _length(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0.0):
+        raise argparse.ArgumentTypeError(f"a length above 0 is wanted, in m, not {text!r}")
+    return value
+
+
+def trace_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Analyse the deck and trace the motion."""
+    deck, target = one_deck(chosen), chosen.output
+    if target is not None:
+        _plan(deck, target)
+        with unwinding():
+            require_suffix(target)
+
+    def step(deck: DeckFile) -> Outcome:
+        with Bar(deck.name, deck.path) as bar:
+            analysis = read_and_analysed(deck, chosen, bar)
+            try:
+                with unwinding():
+                    made = trace(
+                        analysis,
+                        motion=chosen.motion,
+                        freedom=chosen.freedom,
+                        length=chosen.length,
+                        steps=chosen.steps,
+                        through=chosen.through,
+                        progress=bar.show_steps,
+                    )
+            except BatchError:
+                raise
+            except FlexactError as error:
+                raise BatchError(str(error)) from error
+            if target is not None:
+                with unwinding():
+                    save(made, target)
+        for line in lines(made):
+            say(harmless(line))
+        if target is not None:
+            say(f"{harmless(deck.name)}: written to {harmless(str(target))}")
+        return Outcome(deck.name, ExitCode.ANALYSED, "traced")
+
+    return take([deck], step)
+
+
+def _plan(deck: DeckFile, target: Path) -> None:
+    """Find out what is wrong with the file before anything is analysed."""
+    plan_file(deck, target)
+    if target.suffix.lower() == SUFFIX:
+        plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A traced path in plain English."""
+
+from __future__ import annotations
+
+import math
+from itertools import groupby
+
+from ..result.following import Ending, Stop
+from ..text.naming import (
+    counted,
+    counts_in_words,
+    freedom_in_words,
+    in_words,
+    motion_in_words,
+    named_element,
+)
+from ..text.places import listed, with_article
+from ..text.sentences import plain
+from .drive import drive_unit
+from .names import ROTATION
+from .values import DeadPoint, Step, Traced, Way
+
+_RANGES = {
+    "length": "its ends have come to one point",
+    "bending": "an end of it is at right angles to the line between its ends",
+}
+#: How many dead points, and how many changes of the counts, are told one by one.
+_MOST = 12
+#: Residuals up to here are rounding.
+_ROUNDING = 1.0e-14
+
+
+def lines(trace: Traced) -> list[str]:
+    """What is to be said of a path, in sentences."""
+    result = trace.result
+    told = [
+        f"{_capital(motion_in_words(result, trace.shown.number, trace.shown.freedom))}, followed "
+        "both ways with every held deformation zero.",
+        f"Along it: {_way(trace, trace.along)}.",
+        f"Against it: {_way(trace, trace.against)}.",
+        *_drive(trace),
+    ]
+    dead = trace.dead_points
+    told += [f"{_place(step)}: {_dead(trace, step)}." for step in dead[:_MOST]]
+    if len(dead) > _MOST:
+        told.append(f"{len(dead) - _MOST} more dead points are in the file that -o writes.")
+    told += _verdicts(trace)
+    told.append(
+        f"Held deformations stay below {_bound(trace.residual):.0e} of the model's size (angles in "
+        "rad) all along."
+    )
+    return told
+
+
+def _bound(residual: float) -> float:
+    """The next power of ten; what is rounding on any machine is one."""
+    return float(10.0 ** math.ceil(math.log10(max(residual, _ROUNDING))))
+
+
+def _place(step: Step) -> str:
+    return "At the reference" if step.arc == 0.0 else f"At {step.arc:+.6g} m"
+
+
+def _dead(trace: Traced, step: Step) -> str:
+    if step.dead is None:
+        return ""
+    is_last = step is trace.steps[0] or step is trace.steps[-1]
+    on = "; the path goes straight on" if step.dead.is_branch and not is_last else ""
+    return f"{dead_in_words(step, step.dead)}{on}"
+
+
+def _way(trace: Traced, way: Way) -> str:
+    return f"{way.length:.4g} m; {stop_in_words(trace, way.stop)}"
+
+
+def stop_in_words(trace: Traced, stop: Stop) -> str:
+    """Why a path was not followed farther."""
+    ending = stop.ending
+    if ending is Ending.BRANCHES:
+        return f"there {_branches(stop.directions)}, and none was chosen"
+    if ending is Ending.NOT_ZERO:
+        return (
+            f"there it ends: {stop.step * trace.size:.2g} m on, held deformations of "
+            f"{stop.residual:.2g} of the model's size are left"
+        )
+    if ending is Ending.ELEMENT:
+        element = int(trace.result.data.arrays.element_number[stop.element])
+        name = plain((named_element(trace.result, element),))
+        return f"there {name} leaves its range: {_RANGES[stop.range]}"
+    return {
+        Ending.LENGTH: "as far as was asked",
+        Ending.CLOSED: "there it is back at the reference: the path is closed",
+        Ending.TURNS_BACK: "there it ends in a cusp: no direction leads on but the one back",
+    }.get(ending, "more steps than are allowed would be needed")
+
+
+def _branches(directions: int) -> str:
+    return (
+        f"other paths branch off: the mechanism can move in {in_words(directions)} independent "
+        "directions"
+    )
+
+
+def dead_in_words(step: Step, dead: DeadPoint) -> str:
+    """What is special at a step."""
+    told = []
+    if dead.is_drive:
+        told.append("the declared degree of freedom turns back, as it can be driven no farther")
+    if dead.turning:
+        names = listed([_named(name) for name in dead.turning])
+        told.append(f"{names} {'turns' if len(dead.turning) == 1 else 'turn'} back")
+    if dead.is_branch:
+        told.append(_branches(dead.directions))
+    counts = counts_in_words(step.under_constrained, step.over_constrained)
+    return f"{'; '.join(told)} ({counts})"
+
+
+def _named(name: str) -> str:
+    if name.startswith(ROTATION):
+        return f"the rotation of {with_article(name.removeprefix(ROTATION))}"
+    return with_article(name)
+
+
+def _drive(trace: Traced) -> list[str]:
+    if trace.shown.freedom is None:
+        return []
+    values = [step.drive for step in trace.steps]
+    name = plain(freedom_in_words(trace.shown.freedom))
+    unit = drive_unit(trace.shown.freedom)
+    return [
+        f"{_capital(name)} goes from {min(values):+.6g} to {max(values):+.6g} {unit}; its "
+        "declaration was let loose."
+    ]
+
+
+def _verdicts(trace: Traced) -> list[str]:
+    plain_steps = [step for step in trace.steps if step.dead is None]
+    runs = [
+        list(run)
+        for _, run in groupby(
+            plain_steps, lambda step: (step.under_constrained, step.over_constrained)
+        )
+    ]
+    special = "" if len(plain_steps) == len(trace.steps) else ", but for the places above"
+    if len(runs) == 1:
+        counts = counts_in_words(runs[0][0].under_constrained, runs[0][0].over_constrained)
+        return [f"All along{special}: {counts}."]
+    told = [
+        f"From {run[0].arc:+.4g} to {run[-1].arc:+.4g} m: "
+        f"{counts_in_words(run[0].under_constrained, run[0].over_constrained)}."
+        for run in runs[:_MOST]
+    ]
+    if len(runs) > _MOST:
+        told.append(f"The counts change {counted(len(runs) - _MOST, 'more time', '', 's')}.")
+    return told
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
