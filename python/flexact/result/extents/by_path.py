@@ -15,9 +15,7 @@ from .walking import GOAL, Walk, walk
 
 #: Components of more coordinates are followed about the reference alone.
 _MOST_COORDINATES = 120
-_WHOLE = 1.0 - 1.0e-9
-# The follower ends within a least step of the length that is asked for.
-_WISHES = Wishes(length=1.01 * GOAL, steps=500, through=True)
+_WISHES = Wishes(length=GOAL, steps=500, through=True)
 
 
 def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
@@ -63,8 +61,9 @@ def _gone(
     felt, stop = reduced.felt, Ending.NOT_ZERO
     if motion.size <= _MOST_COORDINATES:
         path = follow(felt.held, motion, motion.size - felt.many, _WISHES)
-        if path.length >= GOAL * _WHOLE or not (felt.many > 1 or floor):
-            return Walk(path.length, path.residual), path.stop.ending
+        arrived = path.stop.ending in (Ending.LENGTH, Ending.CLOSED)
+        if arrived or not (felt.many > 1 or floor):
+            return Walk(path.length, path.residual, arrived), path.stop.ending
         stop = path.stop.ending
     found = walk(reduced, unit, sign, floor)
     return found, Ending.LENGTH if found.arrived else stop

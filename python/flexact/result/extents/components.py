@@ -23,27 +23,27 @@ _UNSEEN = 1.0e-10
 
 @dataclass(frozen=True, eq=False)
 class Component(Frozen):
-    """Coordinates that hang together, with the null vectors that reach them.
+    """Coordinates that hang together and feel a self-stress.
 
     Attributes:
         columns: Of D(c), ascending.
         elements: Indices of the elements that hold them, in the model as analysed.
         motions: Vectors of the space of motions that belong to it.
-        stresses: Vectors of the space of self-stresses likewise.
+        stresses: How many independent self-stresses are in it.
     """
 
     columns: NDArray[np.integer]
     elements: NDArray[np.integer]
     motions: tuple[int, ...]
-    stresses: tuple[int, ...]
+    stresses: int
 
 
 def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
     """The components in which both motions and self-stresses are, and all other motions' number.
 
-    A vector of a basis that reaches over several makes one of them.
+    All motions have to be known. A vector that reaches over several components makes one of them.
     """
-    columns = spaces.columns
+    columns, basis = spaces.columns, spaces.motion_space
     groups = _Groups(columns + spaces.data.arrays.element_number.size)
     nodes, elements = _incidence(spaces)
     node, axis = spaces.raw.column_label - 1
@@ -52,16 +52,15 @@ def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
     for k in range(3):
         there = column_at[nodes, k]
         groups.join(there[there >= 0], elements[there >= 0] + columns)
-    both = (
-        (spaces.motion_space, np.arange(columns)),
-        (spaces.stress_space, spaces.raw.row_label[0] - 1 + columns),
-    )
-    for basis, place in both:
-        groups.join(*_within_vectors(basis, place))
+    groups.join(*_within_vectors(basis))
     group = groups.found()
-    moving, stressed = (_of_vectors(group, place, basis) for basis, place in both)
-    felt = np.intersect1d(moving, stressed)
-    free = int(np.count_nonzero(~np.isin(moving, felt)))
+    moving = _of_vectors(group, basis)
+    # Rows less rank, by component.
+    stresses = np.bincount(group[spaces.raw.row_label[0] - 1 + columns], minlength=group.size)
+    stresses = stresses - np.bincount(group[:columns], minlength=group.size)
+    stresses = stresses + np.bincount(moving, minlength=group.size)
+    felt = np.unique(moving[stresses[moving] > 0])
+    free = int(np.count_nonzero(stresses[moving] <= 0))
     # Columns and elements of each, without going through all of them for each.
     order = np.argsort(group, kind="stable")
     first, last = (np.searchsorted(group[order], felt, side) for side in ("left", "right"))
@@ -73,28 +72,24 @@ def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
                 members[members < columns],
                 members[members >= columns] - columns,
                 tuple(np.flatnonzero(moving == mine).tolist()),
-                tuple(np.flatnonzero(stressed == mine).tolist()),
+                int(stresses[mine]),
             )
         )
     return tuple(made), free
 
 
-def _of_vectors(
-    group: NDArray[np.integer], place: NDArray[np.integer], basis: Basis
-) -> NDArray[np.integer]:
+def _of_vectors(group: NDArray[np.integer], basis: Basis) -> NDArray[np.integer]:
     """(vectors,) the group that each vector of a basis belongs to."""
     made = np.zeros(basis.vectors, np.int64)
     seen = _seen(basis)
-    made[basis.of_entries()[seen]] = group[place[basis.place[seen]]]
+    made[basis.of_entries()[seen]] = group[basis.place[seen]]
     return made
 
 
-def _within_vectors(
-    basis: Basis, place: NDArray[np.integer]
-) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def _within_vectors(basis: Basis) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Places that a vector reaches, each beside one of them."""
     seen = _seen(basis)
-    where, vector = place[basis.place[seen]], basis.of_entries()[seen]
+    where, vector = basis.place[seen], basis.of_entries()[seen]
     one = np.zeros(basis.vectors, np.int64)
     one[vector] = where
     return where, one[vector]

@@ -15,10 +15,8 @@ from .components import Component, components_of
 from .extent import EvidenceKind, Extent, Extents, Kind, Reason
 from .judge import Decided, Judge
 
-#: Of more motions, or numbers in all forms, or work for these, there are none; nor of more
-#: components than this.
-_MOST_MOTIONS, _MOST_NUMBERS, _MOST_WORK = 400, 4_000_000, 400_000
-_MOST_COMPONENTS = 60
+#: More components than this are not looked at, nor more motions in one, nor entries of these.
+_MOST_COMPONENTS, _MOST_MOTIONS, _MOST_ENTRIES = 60, 400, 4_000_000
 #: A told motion has no part in a component where it is below this.
 _UNSEEN = 1.0e-9
 _FREE = Extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS)
@@ -33,9 +31,11 @@ def extents_of(spaces: Spaces) -> Extents:
     is not the velocity of a path. What is left is followed, or its least strain is fitted.
     """
     many = spaces.motion_basis.vectors
-    if spaces.raw.stresses.vectors < spaces.over_constrained:
-        extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
-        return Extents((extent,) * many, None)
+    if spaces.raw.motions.vectors < spaces.under_constrained:
+        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
+        if spaces.over_constrained:
+            return Extents((unknown,) * many, None)
+        return Extents((_FREE,) * many, spaces.under_constrained)
     felt, free = components_of(spaces)
     told = _told_in(spaces, felt)
     # Matrices are so small that more threads would slow them down.
@@ -49,8 +49,7 @@ def extents_of(spaces: Spaces) -> Extents:
         for k, extent in each.motions.items():
             parts[k].append(extent)
     known = [each.dimension for each in decided if each.dimension is not None]
-    is_whole = spaces.raw.motions.vectors == spaces.under_constrained
-    whole = sum(known) + free if len(known) == len(decided) and is_whole else None
+    whole = sum(known) + free if len(known) == len(decided) else None
     branches = tuple(branch for each in decided for branch in each.branches)
     return Extents(tuple(map(_of_all, parts)), whole, branches)
 
@@ -89,10 +88,8 @@ def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int
 def _of_component(
     spaces: Spaces, component: Component, told: dict[int, FloatArray], looked_at: bool
 ) -> Decided:
-    many, stresses = len(component.motions), len(component.stresses)
-    numbers = many * component.columns.size + stresses * (many**2 + component.columns.size)
-    work = many * component.elements.size * (2 + 0.15 * stresses)
-    too_large = many > _MOST_MOTIONS or numbers > _MOST_NUMBERS or work > _MOST_WORK
+    many = len(component.motions)
+    too_large = many > _MOST_MOTIONS or many * component.columns.size > _MOST_ENTRIES
     if too_large or not looked_at:
         extent = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
         return Decided(dict.fromkeys(told, extent), None)

@@ -85,9 +85,8 @@ class Extent(Frozen):
         kind: "finite", "infinitesimal" or "undecided".
         evidence: "certified", "followed", "fitted", or "" where it is undecided.
         reason: What it rests on, or what kept it open.
-        reach: How far it was followed backwards and forwards, lengths of the path [m]: root of
-            the sum of the squares of displacements, and of rotations times `size`; None where
-            it was not tried.
+        reach: How far it was followed backwards and forwards, lengths of the path of the node
+            that moves farthest [m], rotations times `size`; None where it was not tried.
         stops: Why it was not followed farther, backwards and forwards; None likewise.
         residual: The largest deformation that is held on that path, or where it was least,
             as a part of `size`; None where it was not tried.

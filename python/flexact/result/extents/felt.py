@@ -7,6 +7,7 @@ All is free of units, as `flexact.result.following.held` has it.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ from ..weights import column_weights, row_weights
 from .components import Component
 from .rigid import leading_rows, rigid_motions
 
+#: Entries of D(c) of a component that is small; of self-stresses that are looked at.
+_MOST_NUMBERS, _MOST_ENTRIES = 650_000, 4_000_000
+
 
 class Felt:
     """A component at the reference.
@@ -30,7 +34,7 @@ class Felt:
             stopped that it cannot move as one rigid body: that would carry a path to paths.
         rigid: How many motions as one rigid body it has besides.
         motions: (n, N) orthonormal.
-        stresses: (m, s) orthonormal, dual to the deformations.
+        is_small: Whether a position in it costs little.
     """
 
     def __init__(self, spaces: Spaces, component: Component) -> None:
@@ -49,16 +53,17 @@ class Felt:
         motions = _dense(spaces.motion_space, component.motions)[component.columns]
         left, _, _ = np.linalg.svd(self.of(motions / told[:, None]), full_matrices=False)
         self.motions = np.asarray(left[:, : len(component.motions) - self.rigid])
-        element, deformation = spaces.raw.row_label - 1
-        rows = np.flatnonzero(element_place[element] >= 0)
-        places = np.searchsorted(held.rows, 6 * element_place[element[rows]] + deformation[rows])
-        stresses = _dense(spaces.stress_space, component.stresses)[rows]
-        made = np.zeros((held.rows.size, len(component.stresses)))
-        made[places] = stresses / row_weights(spaces)[rows][:, None]
-        kinds = spaces.data.arrays.element_kind[element[rows]]
-        turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
-        made[places] *= np.where(turns, 1.0, held.size)[:, None]
-        self.stresses = np.asarray(np.linalg.qr(made)[0])
+        self.is_small = held.rows.size * held.columns.size <= _MOST_NUMBERS
+        self._of_stresses = partial(_of_space, spaces, component.stresses, element_place, held)
+        self._many_stresses = component.stresses
+
+    @cached_property
+    def stresses(self) -> FloatArray | None:
+        """(m, s) orthonormal, dual to the deformations; None where not all are known."""
+        if not self.is_small:
+            return self._of_stresses()
+        left = np.linalg.svd(self.held.at(self.held.reference).jacobian)[0]
+        return np.asarray(left[:, left.shape[1] - self._many_stresses :])
 
     @property
     def many(self) -> int:
@@ -84,6 +89,29 @@ class Felt:
     def within(self, change: FloatArray) -> FloatArray:
         """(N,) what a change of the coordinates (n,) has of each motion."""
         return np.asarray(self.motions.T @ change)
+
+
+def _of_space(
+    spaces: Spaces, many: int, element_place: NDArray[np.integer], held: Held
+) -> FloatArray | None:
+    """(m, s) orthonormal, what the self-stresses of the analysis have in a component."""
+    if spaces.raw.stresses.vectors < spaces.over_constrained:
+        return None
+    element, deformation = spaces.raw.row_label - 1
+    rows = np.flatnonzero(element_place[element] >= 0)
+    space, mine = spaces.stress_space, np.zeros(spaces.rows, bool)
+    mine[rows] = True
+    vectors = np.unique(space.of_entries()[mine[space.place]])
+    if vectors.size * held.rows.size > _MOST_ENTRIES:
+        return None
+    places = np.searchsorted(held.rows, 6 * element_place[element[rows]] + deformation[rows])
+    made = np.zeros((held.rows.size, vectors.size))
+    of_rows = _dense(space, tuple(vectors.tolist()))[rows]
+    made[places] = of_rows / row_weights(spaces)[rows][:, None]
+    kinds = spaces.data.arrays.element_kind[element[rows]]
+    turns = dual_table()[kinds, deformation[rows]] == Dual.MOMENT
+    made[places] *= np.where(turns, 1.0, held.size)[:, None]
+    return np.asarray(np.linalg.svd(made, full_matrices=False)[0][:, :many])
 
 
 def _stopped(whole: Held, columns: NDArray[np.integer]) -> Held:

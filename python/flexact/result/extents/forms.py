@@ -43,17 +43,15 @@ class Forms(NamedTuple):
         return np.asarray(self.matrix @ motion)
 
 
-def forms_of(felt: Felt, explained: float) -> Forms:
-    """The forms of all self-stresses on all motions.
+def forms_of(felt: Felt, stresses: FloatArray, explained: float) -> Forms:
+    """The forms of some self-stresses on all motions.
 
     Args:
         felt: The component.
+        stresses: (m, s) the self-stresses.
         explained: What part of a form the rounding of the geometry may make.
     """
-    many = felt.many
-    if not many:
-        return Forms(np.zeros((felt.stresses.shape[1], 0, 0)), _PART)
-    rates, errors = zip(*(_rate(felt, felt.motions[:, j]) for j in range(many)), strict=True)
+    rates, errors = zip(*(_rate(felt, stresses, motion) for motion in felt.motions.T), strict=True)
     matrix = np.stack(rates, axis=1)
     skew = np.abs(matrix - np.swapaxes(matrix, 1, 2)).max(initial=0.0)
     size = np.abs(matrix).max(initial=0.0)
@@ -61,12 +59,12 @@ def forms_of(felt: Felt, explained: float) -> Forms:
     return Forms((matrix + np.swapaxes(matrix, 1, 2)) / 2.0, error)
 
 
-def _rate(felt: Felt, motion: FloatArray) -> tuple[FloatArray, float]:
+def _rate(felt: Felt, stresses: FloatArray, motion: FloatArray) -> tuple[FloatArray, float]:
     """(s, N) d/dt u' D(x + t v) v by differences, and their error (Ridders, Richardson)."""
     best, error = None, np.inf
     before: list[FloatArray] = []
     for step in _STEPS.tolist():
-        ahead, behind = (_pressed(felt, sign * step * motion) for sign in (1.0, -1.0))
+        ahead, behind = (_pressed(felt, stresses, sign * step * motion) for sign in (1.0, -1.0))
         now = [(ahead - behind) / (2.0 * step)]
         for k, other in enumerate(before):
             factor = 16.0 ** (k + 1)
@@ -80,11 +78,11 @@ def _rate(felt: Felt, motion: FloatArray) -> tuple[FloatArray, float]:
     return np.asarray(best), error
 
 
-def _pressed(felt: Felt, change: FloatArray) -> FloatArray:
+def _pressed(felt: Felt, stresses: FloatArray, change: FloatArray) -> FloatArray:
     """(s, N) u' D v after a change, whose derivative along itself does not turn with it."""
     held = felt.held
     where = held.moved(held.reference, change)
-    return np.asarray(held.pressed(where, felt.stresses).T @ felt.motions)
+    return np.asarray(held.pressed(where, stresses).T @ felt.motions)
 
 
 class Combination(NamedTuple):

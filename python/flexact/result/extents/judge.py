@@ -20,9 +20,8 @@ from .felt import Felt
 from .forms import cone_of, forms_of
 from .reduced import Reduced
 
-#: More coordinates than these in a component are not followed, nor more motions.
-_MOST_COORDINATES = 800
-_MOST_FOLLOWED = 40
+#: More motions are not followed; forms that cost more than this work are not made.
+_MOST_FOLLOWED, _MOST_WORK = 40, 400_000.0
 #: Singular values of the derivatives of the forms above this are not zero.
 _CLEAR_OF_ZERO = 1.0e-6
 #: A motion is rigid where this part of it is not.
@@ -45,18 +44,10 @@ class Judge:
     """A component whose motions feel a self-stress."""
 
     def __init__(self, spaces: Spaces, component: Component) -> None:
-        """Make the forms, and what they leave."""
+        """Make the model of the component."""
         self.spaces, self.felt = spaces, Felt(spaces, component)
-        self.size = self.felt.held.size
-        zero, noise = spaces.gap.largest_zero or 0.0, spaces.raw.noise
-        # What the rounding of the geometry lifts the zeros by, where that is more than arithmetic.
-        self.floor = zero if zero > noise else 0.0
-        self.forms = forms_of(self.felt, 100.0 * self.floor)
-        self.cone, self._asked = cone_of(self.forms), 0
-        self.stresses, self.motions = self.forms.matrix.shape[:2]
-        rows, columns = self.felt.stresses.shape[0], self.felt.motions.shape[0]
-        is_small = max(rows, columns) <= _MOST_COORDINATES
-        self.reduced = Reduced(self.felt) if is_small else None
+        self.size, self._asked = self.felt.held.size, 0
+        self.motions, self.stresses = self.felt.many, component.stresses
 
     def decided(self, told: dict[int, FloatArray]) -> Decided:
         """All told motions, and the dimension of what goes on."""
@@ -68,12 +59,26 @@ class Judge:
                 motions[k] = self._extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.RIGID)
             else:
                 vectors[k] = within
-        found, dimension, branches = self._of_others(vectors)
         rigid = self.felt.rigid
-        return Decided(motions | found, None if dimension is None else dimension + rigid, branches)
+        if not self.motions:
+            return Decided(motions, rigid)
+        found, dimension, branches = self._of_others(vectors)
+        whole = None if dimension is None else dimension + rigid
+        return Decided(motions | found, whole, branches)
 
     def _of_others(self, vectors: dict[int, FloatArray]) -> Decided:
         """Motions that are not those of one rigid body."""
+        work = self.motions * self.felt.held.rows.size * (2.0 + 0.15 * self.stresses)
+        stresses = self.felt.stresses if work <= _MOST_WORK else None
+        if stresses is None:
+            extent = self._extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
+            return Decided(dict.fromkeys(vectors, extent), None)
+        zero, noise = self.spaces.gap.largest_zero or 0.0, self.spaces.raw.noise
+        # What the rounding of the geometry lifts the zeros by, where that is more than arithmetic.
+        self.floor = zero if zero > noise else 0.0
+        self.forms = forms_of(self.felt, stresses, 100.0 * self.floor)
+        self.cone = cone_of(self.forms)
+        self.reduced = Reduced(self.felt, stresses) if self.felt.is_small else None
         if not self.cone.basis.shape[1]:
             extent = self._extent(
                 *(Kind.INFINITESIMAL, EvidenceKind.CERTIFIED, Reason.DEFINITE),

@@ -44,11 +44,11 @@ class Here(NamedTuple):
 class Reduced:
     """g near the reference of a component."""
 
-    def __init__(self, felt: Felt) -> None:
+    def __init__(self, felt: Felt, stresses: FloatArray) -> None:
         """Complete the null vectors to bases of all coordinates and deformations."""
-        self.felt = felt
+        self.felt, self.stresses = felt, stresses
         self._across = _complement(felt.motions)
-        self._rest = _complement(felt.stresses)
+        self._rest = _complement(stresses)
 
     def at(self, shares: FloatArray, guess: FloatArray | None = None) -> Here | None:
         """The position after some shares of the motions (N,); None where Newton finds none.
@@ -77,8 +77,8 @@ class Reduced:
             now = float(np.linalg.norm(both[:, 0]))
             if now <= _SETTLED or _SHRINKS * last < now <= _ROUNDING:
                 along = felt.motions - self._across @ both[:, 1:]
-                by_stress = felt.stresses.T @ place.jacobian
-                left = felt.stresses.T @ place.error
+                by_stress = self.stresses.T @ place.jacobian
+                left = self.stresses.T @ place.error
                 return Here(shares, change, left, by_stress @ along, place.residual)
             if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
                 return None

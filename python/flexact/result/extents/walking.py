@@ -31,14 +31,12 @@ class Walk(NamedTuple):
     """How far a path was followed one way."""
 
     gone: float
-    """Length of the path, in parts of the size."""
+    """Length of the path of the node that moves farthest, in parts of the size."""
     strain: float
     """The largest on the path."""
 
-    @property
-    def arrived(self) -> bool:
-        """Whether it went as far as it was to go."""
-        return self.gone >= GOAL * (1.0 - 1.0e-9)
+    arrived: bool
+    """Whether it went as far as it was to go, or came back to where it began."""
 
 
 def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
@@ -51,7 +49,7 @@ def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
         floor: What the rounding of the geometry strains for each unit of the way.
     """
     if unit.size > 1 and not _begins(reduced, unit, sign, floor):
-        return Walk(0.0, 0.0)
+        return Walk(0.0, 0.0, False)
     here, gone, worst, step = reduced.at(np.zeros(unit.size)), 0.0, 0.0, _STEP
     ahead = sign * unit
     while here is not None and gone < GOAL:
@@ -68,10 +66,13 @@ def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
             if step < _LEAST_STEP:
                 break
             continue
-        gone, worst = gone + _norm(there.change - here.change), max(worst, there.strain)
+        gone, worst = (
+            gone + reduced.felt.held.reach(there.change - here.change),
+            max(worst, there.strain),
+        )
         ahead = (there.shares - here.shares) / _norm(there.shares - here.shares)
         here, step = there, min(2.0 * step, _STEP)
-    return Walk(gone, worst)
+    return Walk(gone, worst, gone >= GOAL)
 
 
 def _begins(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> bool:

@@ -170,19 +170,30 @@ class Held:
 
         The derivatives are with respect to the change.
         """
+        delta = np.zeros((self.arrays.node_kind.size, 3))
         if change is None or not change.any():
-            return self._placed(here, np.zeros((self.arrays.node_kind.size, 3)))
-        delta = self._delta(change)
+            return self._placed(here, delta)
+        delta.ravel()[self.columns] = change * self._column_factor
         return self._placed(here.moved(delta), delta)
 
     def moved(self, here: Configuration, change: FloatArray) -> Configuration:
         """The nodes after a change (n,) of the coordinates."""
-        return here.moved(self._delta(change))
+        return here.moved(self.at_nodes(change * self._column_factor))
 
-    def _delta(self, change: FloatArray) -> FloatArray:
-        delta = np.zeros((self.arrays.node_kind.size, 3))
-        delta.ravel()[self.columns] = change * self._column_factor
-        return delta
+    def pressed(self, here: Configuration, stresses: FloatArray) -> FloatArray:
+        """(n, s) u' D of some stresses (m, s), without the matrix in full.
+
+        They are dual to `Place.error`, and the derivatives are those there.
+        """
+        raw = self._raw(here)
+        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
+        known = (row >= 0) & (column >= 0)
+        row, column = row[known], column[known]
+        value = raw.value[known] * self._row_factor[row]
+        made = np.zeros((self._wide_size, stresses.shape[1]))
+        for k, stress in enumerate(stresses.T):
+            made[:, k] = np.bincount(column, value * stress[row], self._wide_size)
+        return made[self._narrow] * self._column_factor[:, None]
 
     def _placed(self, there: Configuration, delta: FloatArray) -> Place:
         """The place to which a change, (nodes, 3), has led."""
@@ -204,23 +215,6 @@ class Held:
         columns = first[:, None] + np.arange(3)
         blocks = wide[:, columns]
         wide[:, columns] = np.einsum("mkx,kxy->mky", blocks, _left_jacobian(delta[self._turning]))
-
-    def pressed(self, here: Configuration, stresses: FloatArray) -> FloatArray:
-        """(n, s) u' D of some stresses (m, s), without the matrix in full.
-
-        They are dual to `Place.error`, and the derivatives are those there.
-        """
-        raw = self._raw(here)
-        row, column = self._row_place[raw.row_of], self._column_place[raw.column_of]
-        there = (row >= 0) & (column >= 0)
-        row, column = row[there], column[there]
-        value = raw.value[there] * self._row_factor[row]
-        sums = [np.bincount(column, value * each[row], self._wide_size) for each in stresses.T]
-        if not sums:
-            return np.zeros((self.columns.size, 0))
-        wide = np.stack(sums, axis=1).astype(np.float64)
-        made: FloatArray = wide[self._narrow] * self._column_factor[:, None]
-        return made
 
     def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
         """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
