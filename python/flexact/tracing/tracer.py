@@ -25,8 +25,8 @@ from .values import Way
 #: How far each way by default, in sizes of the model, and by how many steps.
 LENGTH, STEPS = 1.0, 50
 #: What ends both ways within so small a part of the size is no path: held deformations have not
-#: become larger than what counts as zero.
-_NO_PATH = 1.0e-3
+#: become larger than what counts as zero. Nor is it where they have grown out of rounding.
+_NO_PATH, _NEAR, _GROWN = 1.0e-3, 0.1, 1.0e-14
 #: Where held deformations are looked at if there is no path, a part of the size.
 _TRIED = 0.01
 #: Halved so often a step is too small.
@@ -172,7 +172,8 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
     """
     far = max(way.length for way in ways)
     ends = all(way.stop.ending is Ending.NOT_ZERO for way in ways)
-    if far > 0.0 and not (ends and far < _NO_PATH):
+    grown = far < _NEAR and max(way.residual for way in ways) > _GROWN
+    if far > 0.0 and not (ends and (far < _NO_PATH or grown)):
         return
     start, stop = ways[1].stations[0], ways[1].stop
     if stop.ending is Ending.ELEMENT:

@@ -19,7 +19,7 @@ from .branches import branch_about, branch_between, sign_between
 from .chart import Chart, Near
 from .ending import Ending, Stop
 from .held import Held
-from .least import across, descend
+from .least import least_near
 from .passing import passing
 from .station import Between, Station, arc_between, station_at
 
@@ -215,7 +215,7 @@ class _Walk:
             ahead = here.tangent * (step / reach)
             near = chart.near(ahead)
             if near is None or near.place.residual > TRUE:
-                near = self._among_branches(here, ahead) or near
+                near = self._among_branches(here, chart, ahead) or near
             found = None if near is None else self._accepted(here, chart, near, step)
             if near is not None and found is not None:
                 bent = float(np.linalg.norm(near.across)) / float(np.linalg.norm(ahead))
@@ -224,19 +224,18 @@ class _Walk:
             step *= 0.5
         return None
 
-    def _among_branches(self, here: Station, ahead: FloatArray) -> Near | None:
+    def _among_branches(self, here: Station, chart: Chart, ahead: FloatArray) -> Near | None:
         """Where the null space is larger than the path is wide, corrections within it, too."""
         if here.directions < 2:
             return None
-        base = across(here.tangent)
-        place, change = descend(self.held, here.within, ahead, base)
-        if place.residual > TRUE:
+        near = least_near(chart, ahead)
+        if near.place.residual > TRUE:
             return None
         # A path that is tangent to the motion leaves it by the square of the step, another one
         # by the step itself.
-        half, less = descend(self.held, here.within, 0.5 * ahead, base)
-        curved = np.linalg.norm(less) <= _CURVED * np.linalg.norm(change) + 1.0e-9
-        return Near(place, change) if half.residual <= TRUE and curved else None
+        half = least_near(chart, 0.5 * ahead)
+        less, more = (float(np.linalg.norm(each.across)) for each in (half, near))
+        return near if half.place.residual <= TRUE and less <= _CURVED * more + 1.0e-9 else None
 
     def _accepted(
         self, here: Station, last: Chart, near: Near, step: float
