@@ -57,6 +57,19 @@ def test_a_cylindroid_with_pitches_of_one_sign_is_told_by_its_principal_screws()
         assert np.allclose(np.cross(each.point, axis), 0.0, atol=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_screws_of_one_pitch_do_not_depend_on_the_basis(seed: int) -> None:
+    """All screws of the pencil, or of the bundle, have that pitch: those along x, y, z are told."""
+    random = np.random.default_rng(seed)
+    for axes in ((X, Y), (X, Y, Z)):
+        rows = np.array([screw(axis, 0.5, (0.1, 0.2, 0)) for axis in axes])
+        found = space(*random.normal(size=(len(axes), len(axes))) @ rows).families
+        assert [each.kind for each in found] == [K.SCREW] * len(axes)
+        for each in found:
+            assert each.pitch == pytest.approx(0.5)
+            assert np.abs(each.direction).max() == pytest.approx(1.0)
+
+
 def test_one_line_of_a_cylindroid_and_the_screw_across_it() -> None:
     found = space(screw(X, 0.0), screw(Y, 0.2)).families
     assert [each.kind for each in found] == [K.LINE, K.SCREW]
