@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from flexact.advice.spaces.families import FamilyKind
-from flexact.advice.spaces.screw_space import ScrewSpace
+from flexact.advice.spaces.screw_space import ScrewSpace, canonical
 
 K = FamilyKind
 X, Y, Z = np.eye(3)
@@ -161,3 +161,14 @@ def test_a_small_offset_is_none_and_a_larger_one_is_told() -> None:
     other = space(screw(X, 0.0), screw(Y, 0.0, (0, 0, 1e-3)))
     assert [each.kind for each in one.families] == [K.PENCIL]
     assert [each.kind for each in other.families] == [K.LINE, K.LINE]
+
+
+@pytest.mark.parametrize("count", range(1, 6))
+def test_rows_follow_from_the_space_alone(count: int) -> None:
+    random = np.random.default_rng(count)
+    rows = np.linalg.qr(random.normal(size=(6, count)))[0].T
+    turned = np.linalg.qr(random.normal(size=(count, count)))[0] @ rows
+    one, other = canonical(rows), canonical(turned)
+    assert np.allclose(one, other, atol=1e-9)
+    assert np.allclose(one @ one.T, np.eye(count), atol=1e-9)
+    assert np.allclose(one.T @ one, rows.T @ rows, atol=1e-9)
