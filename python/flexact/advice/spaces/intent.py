@@ -32,7 +32,8 @@ def declared_of(result: Result, subject: Subject, space: ScrewSpace) -> tuple[Wa
     it, if the body can do that; every other one is the motion in which the others stand still.
     """
     made = []
-    undeclared = left if (left := Freed.as_declared(result).space(subject)).dimension else None
+    left = Freed.as_declared(result)
+    undeclared = left.space(subject) if left.is_known else None
     for freedom in result.freedoms[:_MOST]:
         found = _own(result, subject, space, freedom) or _moved(subject, space, freedom, undeclared)
         if found is not None:

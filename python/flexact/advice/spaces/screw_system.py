@@ -178,9 +178,9 @@ def _screws(lined: FloatArray, spanned: FloatArray, count: int) -> list[Family]:
     # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
     back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
     form = lined[:, :3] @ lined[:, 3:].T
-    vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)[1]
+    pitches, vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)
     made = []
-    for row in vectors.T @ back @ lined:
+    for row in _told(pitches, vectors.T @ back @ lined):
         more = np.concatenate((spanned, row[None]))
         if _rank(more) > _rank(spanned):
             spanned = more
@@ -188,6 +188,24 @@ def _screws(lined: FloatArray, spanned: FloatArray, count: int) -> list[Family]:
             kind = FamilyKind.SCREW if abs(pitch) > SAME else FamilyKind.LINE
             made.append(Family(kind, point, direction, pitch=pitch * (kind is FamilyKind.SCREW)))
     return made
+
+
+def _told(pitches: FloatArray, rows: FloatArray) -> Iterator[FloatArray]:
+    """Screws of unit axes at right angles; of those with one pitch the nearest to x, y and z."""
+    first = 0
+    while first < pitches.size:
+        group = rows[np.abs(pitches - pitches[first]) <= SAME]
+        first += len(group)
+        if len(group) == 1:
+            yield group[0]
+            continue
+        taken = np.zeros((0, len(group)))
+        for shares in group[:, :3].T:
+            rest = shares - (shares @ taken.T) @ taken
+            size = float(np.linalg.norm(rest))
+            if size > 0.1 and len(taken) < len(group):
+                taken = np.concatenate((taken, rest[None] / size))
+                yield taken[-1] @ group
 
 
 def _rank(rows: FloatArray) -> int:

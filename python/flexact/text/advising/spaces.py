@@ -91,7 +91,7 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
     yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
     if spaces.stoppable < count:
         yield sentence(_impossible(spaces))
-    if not spaces.tried:
+    if not spaces.tried and not result.is_told_by_parts:
         yield sentence("The mechanism is so large that no wires were tried.")
     yield from _taken_back(result, spaces)
     what = " and nothing that is wanted" if had else ""
