@@ -99,14 +99,16 @@ _MOST, _MOST_NAMES = 20, 3
 
 def _of_several(cause: Cause, word: str) -> Pieces:
     """Which of several are special, where that depends on the misalignment."""
-    numbers = listed([str(k + 1) for k in cause.together])
-    rest = len(cause.together) - cause.special
+    many = len(cause.together)
+    rest = many - cause.special
     some = "one is" if cause.special == 1 else f"{in_words(cause.special)} are"
     others = "the other is" if rest == 1 else f"the other {in_words(rest)} are"
-    ending = "es" if word.endswith("s") else "s"
+    words = f"{word}{'es' if word.endswith('s') else 's'}"
+    which = listed([str(k + 1) for k in cause.together])
+    these = f"{words} {which}" if many <= _MOST else f"{many} {words}"
     return (
-        f"of {word}{ending} {numbers} {some} special and {others} generic, and which depends on "
-        "the misalignment. What is special lives on this geometry",
+        f"of {these} {some} special and {others} generic, and which depends on the "
+        "misalignment. What is special lives on this geometry",
     )
 
 
@@ -115,6 +117,8 @@ def _special(result: Result, cause: Cause, word: str) -> Pieces:
     if cause.together:
         head = _of_several(cause, word)
     where = (", where ", *relations_in_words(result, cause.relations)) if cause.relations else ()
+    if cause.is_first_order is None:
+        return (*head, *where)
     return (*head, *where, ". ", *_lift(result, cause))
 
 
