@@ -6,11 +6,18 @@ from __future__ import annotations
 import math
 
 from ...advice.causes.cause import Cause, CauseKind, Causes, Lift
+from ...advice.causes.driven import driven_against
 from ...advice.causes.mend import Mend
 from ...model.parts.parts import PartKind
 from ...result.modes import Motion
 from ...result.result import Result
-from ..naming import in_words, named_element, named_node
+from ..naming import (
+    coordinate_in_words,
+    deformation_in_words,
+    in_words,
+    named_element,
+    named_node,
+)
 from ..places import listed, part_words, with_article
 from ..self_stresses import conflict_in_words
 from ..sentences import Named, Piece, Pieces
@@ -41,8 +48,25 @@ def cause_of_stress_in_words(result: Result, k: int, causes: Causes) -> Pieces:
     if cause.kind is CauseKind.UNKNOWN:
         return _UNKNOWN
     if cause.kind is CauseKind.GENERIC and not cause.together:
-        return ("generic: any geometry of these parts has it; better alignment does not help",)
-    return _special(result, cause, "self-stress")
+        words = "generic: any geometry of these parts has it; better alignment does not help"
+        return (words, *_driven(result, k))
+    return (*_special(result, cause, "self-stress"), *_driven(result, k))
+
+
+def _driven(result: Result, k: int) -> Pieces:
+    """Which declared freedoms a self-stress acts on: they are held, or depend on each other."""
+    found = driven_against(result, k)
+    names = [deformation_in_words(result, *each) for each in found.deformations]
+    names += [coordinate_in_words(result, *each) for each in found.coordinates]
+    if not names:
+        return ()
+    rest = len(names) - _MOST_NAMES
+    shown: list[Pieces] = names if rest <= 0 else [*names[:_MOST_NAMES], (f"{rest} more",)]
+    made: list[Piece] = [". It acts on what is declared, "]
+    for place, name in enumerate(shown):
+        made += [" and " if place == len(shown) - 1 else ", "] * (place > 0) + list(name)
+    held = ", which the constraints hold already"
+    return (*made, held if len(names) == 1 else ": these cannot be driven one by one")
 
 
 def both_in_words(result: Result, causes: Causes) -> Pieces:
