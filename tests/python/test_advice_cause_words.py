@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 from divided import Division
+from known_models import bar_driven_twice
 from reference_decks import text_of, transform
 from test_advice_causes import wires
 from turned_elements import plain as told_plainly
@@ -100,6 +101,21 @@ def test_a_designer_is_told_the_names_of_parts() -> None:
         assert word in mend
     assert "by 90 degrees" in mend
     assert "exactly constrained" in mend
+
+
+def test_what_is_declared_where_it_is_held_is_told() -> None:
+    """The trap: the bending of a clamped folded sheet is declared where the sheet cannot bend."""
+    *_, held, _ = words_of(flexact.read_text(text_of("flexures/folded_sheet_clamped_trap")))
+    assert "declared, the first sheet, ground to fold: out-of-plane bending" in held
+    assert "hold already" in held
+    other = words_of(flexact.read_text(text_of("flexures/folded_sheet_clamped_internal")))
+    assert not any("declared" in each for each in other)
+
+
+def test_declarations_that_depend_on_each_other_are_told() -> None:
+    """Driven at its end and in length, a bar is driven twice."""
+    (stress, _) = words_of(bar_driven_twice())
+    assert "cannot be driven one by one" in stress
 
 
 def test_a_guide_is_told_what_both_sheets_hold_and_what_is_free() -> None:

@@ -131,10 +131,10 @@ class Cause(Frozen):
             are special is free: a misalignment lifts so many of them, and which depends on it.
             Empty where it is this one whatever the misalignment.
         special: How many of them are special.
-        lift: How fast a misalignment lifts it; None of what nothing lifts, or where that was
-            not looked at.
-        is_first_order: Whether some misalignment lifts it to first order; else, of what is
-            special, some misalignment lifts it to a higher order alone.
+        lift: How fast a misalignment lifts it; None of what nothing lifts to first order, or
+            where that was not looked at.
+        is_first_order: Whether some misalignment of one node or element lifts it to first
+            order; None where that was not looked at, and of what is generic.
         relations: What makes this geometry special, the most telling first.
     """
 
@@ -142,7 +142,7 @@ class Cause(Frozen):
     together: tuple[int, ...] = ()
     special: int = 0
     lift: Lift | None = None
-    is_first_order: bool = False
+    is_first_order: bool | None = None
     relations: tuple[Relation, ...] = ()
 
 

@@ -191,7 +191,7 @@ def _made(told: Told, cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Caus
                 told.together if k in together else (),
                 told.special if k in together else 0,
                 found.lift or None,
-                bool(found.lift),
+                None if found.lift is None else bool(found.lift),
                 found.relations,
             )
         )

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...model.parts.parts import PartKind
 from ...result.modes import SelfStress
 from ...result.order import without_sense
 from ...result.result import Result
@@ -52,7 +53,7 @@ def of_forces(result: Result, stress: SelfStress, limbs: Limbs) -> list[Relation
     able = [
         found
         for found in pushes_on(stress, limbs)
-        if len(found) > 1 and all(push.wrench.kind is WrenchKind.FORCE for push in found)
+        if len(found) > 1 and all(_has_line(push) for push in found)
     ]
     for pushes in sorted(able, key=lambda found: -len(found)):
         lines = Lines(
@@ -77,6 +78,17 @@ def of_forces(result: Result, stress: SelfStress, limbs: Limbs) -> list[Relation
         if made:
             return made
     return []
+
+
+def _has_line(push: Push) -> bool:
+    """Whether a limb can press along one line only: a wire, a bar, or a folded sheet.
+
+    Of other limbs the loads of two or three on a body in balance always share a line or a plane.
+    """
+    kinds = [part.kind for part in push.limb.parts]
+    is_straight = len(kinds) == 1 and kinds[0] in (PartKind.WIRE, PartKind.BAR)
+    is_folded = kinds == [PartKind.SHEET] * 2
+    return push.wrench.kind is WrenchKind.FORCE and (is_straight or is_folded)
 
 
 def _couple(wrenches: list[Wrench]) -> FloatArray:

@@ -19,7 +19,6 @@ from ...result.screws import Screw
 from ..change import Change
 from ..proposal import After, Purpose
 from .cause import Relation
-from .limbs import Limbs
 from .mend import Mend
 from .turn_search import Tried, TurnSearch
 
@@ -103,20 +102,20 @@ def _condition(whole: Result, after: After) -> float:
 def _stopped(search: TurnSearch, change: Change, end: int) -> Screw | None:
     """How what a limb holds moved in a special motion that it cannot do any more."""
     whole = search.whole
+    body = whole.parts.body_at.get(end)
+    turned = whole.parts.bodies[body].orientations[0] if body is not None else None
+    nodes = (end, turned if turned is not None else search.limbs.orientation_at(end))
     after: Result = result_of(
         change.apply(whole.given).data, Asked(whole.asked.method, prove=False)
     )
-    twists = [_twist(whole, search.limbs, motion, end) for motion in after.motions]
-    left = [twist for twist in twists if np.linalg.norm(twist) > _STOPPED]
+    left = _twists(after, nodes)
     for motion in search.special:
         screw = _screw(whole, motion, end)
         if screw is None:
             continue
-        mine = _twist(whole, search.limbs, motion, end)
-        if not left:
-            return screw
-        others = np.stack(left, axis=1)
-        rest = mine - others @ np.linalg.lstsq(others, mine, rcond=1.0e-9)[0]
+        rotation = motion.rotation[nodes[1]] if nodes[1] is not None else np.zeros(3)
+        mine = np.concatenate((motion.displacement[end], whole.characteristic_length * rotation))
+        rest = mine - left @ np.linalg.lstsq(left, mine, rcond=1.0e-9)[0]
         if np.linalg.norm(rest) > _STOPPED * np.linalg.norm(mine):
             return screw
     return None
@@ -132,15 +131,18 @@ def _screw(whole: Result, motion: Motion, end: int) -> Screw | None:
     return None
 
 
-def _twist(whole: Result, limbs: Limbs, motion: Motion, end: int) -> FloatArray:
-    """(6,) displacement and rotation of what is at a position node, in lengths.
+def _twists(result: Result, nodes: tuple[int, int | None]) -> FloatArray:
+    """(6, motions) what all motions make of a position and an orientation, in lengths.
 
-    Beside the largest of the motion.
+    Those that do not move it are left out.
     """
-    length = whole.characteristic_length
-    body = whole.parts.body_at.get(end)
-    turned = whole.parts.bodies[body].orientations[0] if body is not None else None
-    node = turned if turned is not None else limbs.orientation_at(end)
-    rotation = motion.rotation[node] if node is not None else np.zeros(3)
-    largest = max(np.abs(motion.displacement).max(), length * np.abs(motion.rotation).max())
-    return np.concatenate((motion.displacement[end], length * rotation)) / float(largest)
+    node, axis = result.raw.column_label - 1
+    given = result.condensed.nodes[node]
+    motions = result.raw.motions.toarray() / result.raw.column_scale[:, None]
+    motions /= np.linalg.norm(motions, axis=0)
+    made = np.zeros((6, motions.shape[1]))
+    for k, wanted in enumerate(nodes):
+        here = np.flatnonzero(given == (-1 if wanted is None else wanted))
+        made[3 * k + axis[here]] = motions[here] * result.raw.column_scale[here, None]
+    made[3:] *= result.characteristic_length
+    return made[:, np.linalg.norm(made, axis=0) > _STOPPED]

@@ -6,11 +6,18 @@ from __future__ import annotations
 import math
 
 from ...advice.causes.cause import Cause, CauseKind, Causes, Lift
+from ...advice.causes.driven import driven_against
 from ...advice.causes.mend import Mend
 from ...model.parts.parts import PartKind
 from ...result.modes import Motion
 from ...result.result import Result
-from ..naming import in_words, named_element, named_node
+from ..naming import (
+    coordinate_in_words,
+    deformation_in_words,
+    in_words,
+    named_element,
+    named_node,
+)
 from ..places import listed, part_words, with_article
 from ..self_stresses import conflict_in_words
 from ..sentences import Named, Piece, Pieces
@@ -41,8 +48,25 @@ def cause_of_stress_in_words(result: Result, k: int, causes: Causes) -> Pieces:
     if cause.kind is CauseKind.UNKNOWN:
         return _UNKNOWN
     if cause.kind is CauseKind.GENERIC and not cause.together:
-        return ("generic: any geometry of these parts has it; better alignment does not help",)
-    return _special(result, cause, "self-stress")
+        words = "generic: any geometry of these parts has it; better alignment does not help"
+        return (words, *_driven(result, k))
+    return (*_special(result, cause, "self-stress"), *_driven(result, k))
+
+
+def _driven(result: Result, k: int) -> Pieces:
+    """Which declared freedoms a self-stress acts on: they are held, or depend on each other."""
+    found = driven_against(result, k)
+    names = [deformation_in_words(result, *each) for each in found.deformations]
+    names += [coordinate_in_words(result, *each) for each in found.coordinates]
+    if not names:
+        return ()
+    rest = len(names) - _MOST_NAMES
+    shown: list[Pieces] = names if rest <= 0 else [*names[:_MOST_NAMES], (f"{rest} more",)]
+    made: list[Piece] = [". It acts on what is declared, "]
+    for place, name in enumerate(shown):
+        made += [" and " if place == len(shown) - 1 else ", "] * (place > 0) + list(name)
+    held = ", which the constraints hold already"
+    return (*made, held if len(names) == 1 else ": these cannot be driven one by one")
 
 
 def both_in_words(result: Result, causes: Causes) -> Pieces:
@@ -99,14 +123,16 @@ _MOST, _MOST_NAMES = 20, 3
 
 def _of_several(cause: Cause, word: str) -> Pieces:
     """Which of several are special, where that depends on the misalignment."""
-    numbers = listed([str(k + 1) for k in cause.together])
-    rest = len(cause.together) - cause.special
+    many = len(cause.together)
+    rest = many - cause.special
     some = "one is" if cause.special == 1 else f"{in_words(cause.special)} are"
     others = "the other is" if rest == 1 else f"the other {in_words(rest)} are"
-    ending = "es" if word.endswith("s") else "s"
+    words = f"{word}{'es' if word.endswith('s') else 's'}"
+    which = listed([str(k + 1) for k in cause.together])
+    these = f"{words} {which}" if many <= _MOST else f"{many} {words}"
     return (
-        f"of {word}{ending} {numbers} {some} special and {others} generic, and which depends on "
-        "the misalignment. What is special lives on this geometry",
+        f"of {these} {some} special and {others} generic, and which depends on the "
+        "misalignment. What is special lives on this geometry",
     )
 
 
@@ -115,6 +141,8 @@ def _special(result: Result, cause: Cause, word: str) -> Pieces:
     if cause.together:
         head = _of_several(cause, word)
     where = (", where ", *relations_in_words(result, cause.relations)) if cause.relations else ()
+    if cause.is_first_order is None:
+        return (*head, *where)
     return (*head, *where, ". ", *_lift(result, cause))
 
 
