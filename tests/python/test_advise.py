@@ -275,6 +275,23 @@ def test_steps_are_taken_together(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert advice("paper/six_folded_sheets").exact_by == ()
 
 
+@pytest.mark.parametrize("chosen", [[], ["--apply", "2"]])
+def test_a_page_shows_before_and_after(
+    chosen: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = tmp_path / "page.html"
+    path = str(INPUT / "flexures" / "parallel_guide.dat")
+    code, out, _ = run(capsys, path, *chosen, "-o", str(target))
+    step = advice("flexures/parallel_guide")[int(chosen[1]) - 1 if chosen else 0]
+    assert code == 0 and f"step {step.number} shown in" in out
+    page = target.read_text(encoding="utf-8")
+    assert "before and after" in page and "exactly constrained" in page.lower()
+    assert "Constraint of" in page
+    exact = write(tmp_path / "exact.dat", DECKS["exact"])
+    code, _, err = run(capsys, str(exact), "-o", str(tmp_path / "none.html"))
+    assert code == 1 and "nothing to mend" in err and not (tmp_path / "none.html").exists()
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -167,7 +167,7 @@ def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
         told = tuple(steps)
         shown = told[:most]
         yield (
-            Told(sentence(f"{aim}; then it is {outcome}")),
+            Told(sentence(f"{aim}; then it is {outcome}"), hangs=True),
             *(_item(step.number, step.pieces) for step in shown),
             *_more(len(told) - len(shown), "such way", "s"),
         )

@@ -7,7 +7,8 @@ from ...result.body_motions import BodyMotion
 from ...result.modes import Motion
 from ...result.result import Result
 from ..motions import group_in_words, joined, largest_first, motion_in_parts, parts_in_words
-from ..sentences import Pieces
+from ..places import with_article
+from ..sentences import Named, Piece, Pieces
 
 #: How many things that move are named.
 _MOST_NAMED = 3
@@ -21,7 +22,8 @@ def motion_in_sentence(result: Result, motion: Motion) -> Pieces:
         inside = parts_in_words(result, motion.internal_to)
         return ("inside ", *inside, " something moves, and nothing outside does")
     told = moving_groups(result, motion)
-    pieces = joined(tuple(group_in_words(result, group, len(told) == 1) for group in told))
+    groups = tuple(group_in_words(result, group, len(told) == 1) for group in told)
+    pieces = tuple(map(_called, joined(groups)))
     is_inside = result.are_between_ends[motion.index]
     return (*pieces, ", and nothing else moves") if is_inside else pieces
 
@@ -50,3 +52,13 @@ def moving_groups(result: Result, motion: Motion) -> tuple[BodyMotion, ...]:
 
 def _without_folds(group: BodyMotion) -> BodyMotion:
     return group._replace(joints=tuple(joint for joint in group.joints if not joint.is_fold))
+
+
+def _called(piece: Piece) -> Piece:
+    """A point that is named "sheet 1, fold" as one says it: the fold of sheet 1."""
+    if not isinstance(piece, Named) or piece.kind != "node":
+        return piece
+    whole, comma, own = piece.words.rpartition(", ")
+    if not comma or not own[:1].islower():
+        return piece
+    return piece._replace(words=f"{with_article(own)} of {with_article(whole)}")
