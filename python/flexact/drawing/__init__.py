@@ -17,6 +17,7 @@ from .quantities import BENDING, UNITS, meanings_in, names_in, quantity_named, s
 from .resultants import Resultants, resultants
 from .shapes import Field, Strip, field_along, stations
 from .solids import axes_of, cylinders, solid
+from .spaces import SpaceShape, dashes, shape_of_space
 from .supports import Arrows, Support, Supports
 
 __all__ = [
@@ -34,11 +35,13 @@ __all__ = [
     "Pose",
     "Resultants",
     "Solid",
+    "SpaceShape",
     "Strip",
     "Support",
     "Supports",
     "axes_of",
     "cylinders",
+    "dashes",
     "drawing_of",
     "field_along",
     "joints_of",
@@ -49,6 +52,7 @@ __all__ = [
     "reach_of",
     "reference_pose",
     "resultants",
+    "shape_of_space",
     "sides_in",
     "solid",
     "stations",

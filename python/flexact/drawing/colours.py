@@ -40,6 +40,10 @@ GHOST = (0.72, 0.74, 0.77)
 #: Displacements of a motion, and declared degrees of freedom.
 ARROW = (0.85, 0.37, 0.01)
 FREEDOM = (0.11, 0.55, 0.38)
+#: Freedom and constraint spaces, red and blue as in the literature on them; wires to add.
+FREEDOM_SPACE = (0.83, 0.16, 0.22)
+CONSTRAINT_SPACE = (0.07, 0.36, 0.78)
+NEW_WIRE = (0.45, 0.27, 0.02)
 
 
 def of_forms(form: np.ndarray) -> FloatArray:

@@ -27,6 +27,7 @@ SCRIPTS = (
     "bodies.js",
     "diagram.js",
     "symbols.js",
+    "spaces.js",
     "overlay.js",
     "pointing.js",
     "links.js",

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from ..advice.spaces.spaces import Spaces
 from ..base.errors import require_kind
 from ..drawing import drawing_of
 from ..result.result import Result
@@ -28,6 +29,7 @@ def before_and_after(
     told: Iterable[Line] = (),
     stills: tuple[bytes | None, bytes | None] = (None, None),
     first: tuple[tuple[str, int], ...] = (),
+    spaces: tuple[Spaces | None, Spaces | None] = (None, None),
 ) -> str:
     """The page of a result beside that of a changed mechanism.
 
@@ -41,12 +43,13 @@ def before_and_after(
         stills: Pictures of both as PNG, for browsers without scripts or WebGL.
         first: What of the mechanism as it is is shown at first, such as ("motion", 2) and
             ("self-stress", 1); else what its verdict says, both where it is both.
+        spaces: Freedom and constraint spaces of a body of each, to be switched on.
     """
     require_kind(before, Result, "a page is that of a result")
     require_kind(after, Result, "a page is that of a result")
     results = (before, after)
     frames = frames_of(*(drawing_of(each.given) for each in results))
-    one, two = (viewer_data(each, frame) for each, frame in zip(results, frames, strict=True))
+    one, two = (viewer_data(*each) for each in zip(results, frames, spaces, strict=True))
     one["first"] = _chosen(first) or _everything(one)
     name = file_name(before.name)
     title = f"{name or 'model'}: before and after"

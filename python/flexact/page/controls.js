@@ -13,6 +13,7 @@ const Controls = (() => {
         movement: (value) => viewer.showMovement(value === "" ? -1 : Number(value)),
         stress: (value) => viewer.showStress(value === "" ? -1 : Number(value)),
         quantity: (value) => viewer.showQuantity(value),
+        space: (value) => viewer.showSpace(value === "" ? -1 : Number(value)),
       };
       for (const [name, show] of Object.entries(act)) {
         for (const input of this.inputs(name)) {

@@ -75,6 +75,7 @@ def choices_part(
         + _immovable(stuck)
         + (_radios(mark, "stress", "Self-stress", stresses, "None") if stresses else "")
         + (_radios(mark, "quantity", "Coloured by", quantities) if quantities else "")
+        + _spaces(data["spaces"], mark)
         + below
         + "</section>"
     )
@@ -93,6 +94,12 @@ def _movements(movements: Sequence[dict[str, Any]], mark: str) -> str:
             made += _radios(mark, "movement", legend, chosen, none)
             none = ""
     return made
+
+
+def _spaces(spaces: Sequence[dict[str, Any]], mark: str) -> str:
+    """Freedom space, constraint space, or none."""
+    chosen = [_choice(k, space) for k, space in enumerate(spaces)]
+    return _radios(mark, "space", "Freedom and constraint", chosen, "None") if chosen else ""
 
 
 def _choice(index: int, mode: dict[str, Any]) -> tuple[str, str, str]:

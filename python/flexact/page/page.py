@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from ..advice.spaces.spaces import Spaces
 from ..base.errors import require_kind
 from ..diagnostics.errors import ProblemsError
 from ..drawing import drawing_of
@@ -25,16 +26,17 @@ from .verdict_part import BROKEN, advice_part, advised, decision_part, head, ver
 from .viewer_data import left_out, stuck_in, viewer_data
 
 
-def page(analysis: Result, still: bytes | None = None) -> str:
+def page(analysis: Result, still: bytes | None = None, spaces: Spaces | None = None) -> str:
     """The page of a result.
 
     Args:
         analysis: The result.
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
+        spaces: The freedom space and the constraint space of a body, to be switched on.
     """
     require_kind(analysis, Result, "a page is that of a result")
     (frame,) = frames_of(drawing_of(analysis.given))
-    data = viewer_data(analysis, frame)
+    data = viewer_data(analysis, frame, spaces)
     every = warnings_of(analysis)
     name = file_name(analysis.name)
     raw, is_written = deck_of_model(analysis.given)

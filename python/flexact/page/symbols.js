@@ -260,5 +260,5 @@ const Symbols = (() => {
     }
   }
 
-  return { Supports, Joints, Hinges, Displacements, Freedoms, NodeMark };
+  return { Copies, Arrows, Supports, Joints, Hinges, Displacements, Freedoms, NodeMark };
 })();

@@ -5,8 +5,8 @@
 const Viewer = (() => {
   const HEAVY = 300; // members
   const CHROME = {
-    light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53] },
-    dark: { mark: [1, 0.83, 0.25], ghost: [0.62, 0.66, 0.72] },
+    light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53], lighter: 0 },
+    dark: { mark: [1, 0.83, 0.25], ghost: [0.62, 0.66, 0.72], lighter: 0.4 },
   };
 
   class Viewer {
@@ -16,7 +16,7 @@ const Viewer = (() => {
       this.peers = []; // viewers that look from the same side, and play in step
       this.changed = () => {}; // called when something else is shown
       this.pose = Tracks.reference(data);
-      this.movement = this.stress = null;
+      this.movement = this.stress = this.space = null;
       this.quantity = "";
       this.layers = { diagram: false, ghost: true, arrows: true, symbols: true };
       this.stage = new Stage.Stage(this.part("canvas"), context, data);
@@ -27,6 +27,7 @@ const Viewer = (() => {
       this.joints = new Symbols.Joints(data);
       this.freedoms = new Symbols.Freedoms(data);
       this.displacements = new Symbols.Displacements(data.colours.arrow);
+      this.spaces = new Spaces.Spaces(data);
       this.nodeMark = new Symbols.NodeMark();
       this.diagram = new Diagram.Diagram(this.members);
       this.overlay = new Overlay.Overlay(this.part("overlay"), this.stage, data, this);
@@ -43,7 +44,7 @@ const Viewer = (() => {
     assemble() {
       const { stage } = this;
       for (const part of [this.members, this.bodies, this.hinges, this.supports, this.joints,
-        this.freedoms, this.displacements, this.diagram]) stage.scene.add(part.group);
+        this.freedoms, this.displacements, this.diagram, this.spaces]) stage.scene.add(part.group);
       stage.scene.add(this.nodeMark.mesh);
       stage.before.push((time) => this.player.step(time));
       stage.after.push(() => this.overlay.draw());
@@ -134,6 +135,14 @@ const Viewer = (() => {
     showStress(which) {
       this.stress = this.data.stresses[which] || null;
       this.showQuantity(this.stress ? this.stress.dominant : this.quantity);
+    }
+
+    showSpace(which) {
+      this.space = this.data.spaces[which] || null;
+      this.spaces.show(which);
+      this.stage.refit();
+      this.stage.request();
+      this.refresh();
     }
 
     showQuantity(quantity) {
@@ -262,6 +271,7 @@ const Viewer = (() => {
       const chrome = CHROME[Theme.isDark() ? "dark" : "light"];
       this.members.dress(chrome);
       this.bodies.dress(chrome);
+      this.spaces.dress(chrome);
       this.nodeMark.dress(chrome);
       this.stage.request();
     }
@@ -286,8 +296,9 @@ const Viewer = (() => {
     }
 
     caption() {
-      const { movement, stress, quantity, data } = this;
+      const { movement, stress, quantity, space, data } = this;
       const parts = [];
+      if (space) parts.push(space.title);
       if (movement) parts.push(`${movement.title}. ${movement.note}`);
       if (stress) parts.push(`${stress.title}: ${data.meaning[quantity]}.`);
       return parts.join(" ") || "The reference configuration.";

@@ -6,16 +6,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from ..advice.spaces.spaces import Spaces
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from .drawing_data import Frame, static_data
 from .limits import MOST_MEMBERS
 from .modes_data import looked_at, movements, stresses
+from .spaces_data import spaces_data
 from .tracks import Tracks
 
 
-def viewer_data(analysis: Result, frame: Frame) -> dict[str, Any]:
-    """All that is drawn of a result, and the choices that are made at first."""
+def viewer_data(analysis: Result, frame: Frame, spaces: Spaces | None = None) -> dict[str, Any]:
+    """All that is drawn of a result, with spaces of a body, and the first choices."""
     tracks = Tracks(frame)
     data = {
         **static_data(analysis, frame),
@@ -23,6 +25,7 @@ def viewer_data(analysis: Result, frame: Frame) -> dict[str, Any]:
         "segments": tracks.segments,
         "movements": movements(analysis, tracks),
         "stresses": stresses(analysis, frame),
+        "spaces": spaces_data(analysis, frame, spaces),
     }
     return {**data, "first": _first(data)}
 

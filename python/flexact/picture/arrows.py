@@ -33,7 +33,7 @@ _MOST_FREEDOMS = 60
 def add_displacements(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Arrows from where nodes were to where they are, of the largest displacements."""
     start, end = _largest(drawing, pose)
-    _add_straight(canvas, start, end, ARROW, drawing.size)
+    add_straight(canvas, start, end, ARROW, drawing.size)
 
 
 def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> None:
@@ -77,7 +77,7 @@ def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
     straight = ~arrows.turning
     start = place[straight]
     end = start + _LENGTH * drawing.size * arrows.direction[straight]
-    _add_straight(canvas, start, end, FREEDOM, drawing.size)
+    add_straight(canvas, start, end, FREEDOM, drawing.size)
     for row in np.flatnonzero(arrows.turning).tolist():
         _add_turning(canvas, place[row], arrows.direction[row], drawing.size, FREEDOM)
 
@@ -109,7 +109,7 @@ def _apart(place: FloatArray, order: np.ndarray, apart: float, most: int) -> lis
     return chosen
 
 
-def _add_straight(
+def add_straight(
     canvas: Canvas,
     start: FloatArray,
     end: FloatArray,

@@ -82,10 +82,14 @@ def compose(
     scale = float(np.clip(width / len(subjects) / PANEL[0], 0.3, 2.0))
     frame = _Frame(figure, width, height, scale)
     top = 0.0 if plain else _add_verdict(frame, analysis)
-    for number, subject in enumerate(subjects):
+    fineness = 0.2 + 0.6 * scale if plain else scale
+    panels = [paint(drawing, subject, view, phase, fineness) for subject in subjects]
+    if box is None and all(subject.space is not None for subject in subjects):
+        # Spaces of one body are seen in one scale.
+        low, high = zip(*(panel.canvas.box for panel in panels), strict=True)
+        box = (np.min(low, axis=0), np.max(high, axis=0))
+    for number, (subject, panel) in enumerate(zip(subjects, panels, strict=True)):
         left, right = (width * n / len(subjects) for n in (number, number + 1))
-        fineness = 0.2 + 0.6 * scale if plain else scale
-        panel = paint(drawing, subject, view, phase, fineness)
         seen = panel.canvas.box if box is None else box
         _add_panel(frame, drawing, subject, panel, seen, (left, right), top, plain)
     return figure
@@ -243,6 +247,8 @@ def caption(drawing: Drawing, subject: Subject) -> str:
 
 def _about(drawing: Drawing, subject: Subject) -> str:
     movement, stress = subject.movement, subject.stress
+    if subject.space is not None:
+        return subject.space.words
     if stress is not None:
         return "Relative values, only their ratios matter."
     if movement is None:

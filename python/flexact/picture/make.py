@@ -13,6 +13,7 @@ from numbers import Real
 from operator import index
 from typing import TYPE_CHECKING, Any
 
+from ..advice.spaces.spaces import Spaces
 from ..base.errors import BatchError, require_kind
 from ..base.plain_text import harmless, in_short
 from ..drawing import drawing_of
@@ -80,6 +81,7 @@ def draw(
     freedom: int | None = None,
     stress: int | None = None,
     quantity: str | None = None,
+    spaces: Spaces | None = None,
     view: str | None = None,
     phase: float = 1.0,
     size: tuple[int, int] | None = None,
@@ -97,6 +99,8 @@ def draw(
         stress: Number of a self-stress, from 1.
         quantity: Of the self-stress, one of `flexact.drawing.QUANTITIES`; by default the dominant
             one.
+        spaces: The freedom space and the constraint space of a body, which are shown side by side
+            with the wires of the first proposal, dashed (`flexact.advice.spaces.spaces`).
         view: `iso`, `front`, `back`, `left`, `right`, `top`, `bottom`, or the azimuth and the
             elevation of the eye in degrees, as in `-60,25`; z is up. Planar models are drawn
             in their plane.
@@ -114,7 +118,9 @@ def draw(
         TypeError: What is given is of another kind than it must be.
         ValueError: The phase or the size is out of range.
     """
-    return _figure(analysis, Chosen(motion, freedom, stress, quantity), view, phase, size, plain)
+    return _figure(
+        analysis, Chosen(motion, freedom, stress, quantity, spaces), view, phase, size, plain
+    )
 
 
 def _figure(
@@ -166,7 +172,7 @@ def picture_bytes(
         size: See there.
         plain: See there.
         progress: Called with the part of a GIF's frames that is drawn, from 0 to 1.
-        chosen: `motion`, `freedom`, `stress` and `quantity`, as of `draw`.
+        chosen: `motion`, `freedom`, `stress`, `quantity` and `spaces`, as of `draw`.
 
     Raises:
         PictureError: There is no such kind of picture, or a package is missing; else as `draw`.

@@ -23,6 +23,7 @@ from .members import (
     add_solids,
     detail_of,
 )
+from .spaces import add_space
 from .stress import PIECES, Peak, add_diagrams
 from .subject import Subject
 
@@ -72,7 +73,9 @@ def paint(
         symbols.add_joints(canvas, drawing, pose)
         symbols.add_hinges(canvas, drawing, pose, stress.hinge_colours() if stress else None)
         symbols.add_supports(canvas, drawing, pose)
-    if stress is None:
+    if subject.space is not None:
+        add_space(canvas, drawing, subject.space)
+    elif stress is None:
         add_freedoms(canvas, drawing)
     elif len(drawing.members) <= _MOST_DIAGRAMS:
         peaks = add_diagrams(canvas, drawing, stress)

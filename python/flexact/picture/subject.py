@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from operator import index
 from typing import SupportsIndex
 
+from ..advice.spaces.spaces import Spaces
 from ..base.errors import BatchError, require_kind
 from ..base.plain_text import harmless
 from ..drawing import QUANTITIES, Drawing, Movement, move, quantity_named, resultants
 from ..drawing.selection import Selection, require_there, select_motion
 from ..result.result import Result
 from ..text.naming import motion_in_words
+from .spaces import SpaceShown, spaces_shown
 from .stress import Stress, stress_of
 
 
@@ -28,11 +30,13 @@ class Subject:
         title: Above it.
         movement: A motion as it is drawn.
         stress: A self-stress as it is drawn.
+        space: A freedom or a constraint space as it is drawn.
     """
 
     title: str = "Reference shape"
     movement: Movement | None = None
     stress: Stress | None = None
+    space: SpaceShown | None = None
 
 
 def _require_whole(number: SupportsIndex, name: str) -> None:
@@ -50,9 +54,14 @@ class Chosen:
     freedom: int | None = None
     stress: int | None = None
     quantity: str | None = None
+    spaces: Spaces | None = None
 
     def __post_init__(self) -> None:
         """Check what can be checked without an analysis."""
+        if self.spaces is not None:
+            require_kind(self.spaces, Spaces, "spaces are those of a body, as advice has them")
+            if self.moves or self.is_stressed:
+                raise SubjectError("a picture shows spaces, or motions and self-stresses, not both")
         for name in ("motion", "freedom", "stress"):
             if (number := getattr(self, name)) is not None:
                 _require_whole(number, name)
@@ -79,14 +88,17 @@ class Chosen:
 def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subject]:
     """What a still picture shows, a panel each.
 
-    What was chosen; else the first motion and the first self-stress, those that there are; else
-    the first degree of freedom that moves; else the drawing.
+    What was chosen, of spaces two; else the first motion and the first self-stress, those that
+    there are; else the first degree of freedom that moves; else the drawing.
 
     Raises:
         NotThereError: Something chosen is not there.
     """
     if chosen.moves or chosen.is_stressed:
         return _asked_for(analysis, drawing, chosen)
+    if chosen.spaces is not None:
+        shown = spaces_shown(analysis, drawing, chosen.spaces)
+        return [Subject(_heading(title), space=space) for title, space in shown]
     made = []
     if len(analysis.motions) or not len(analysis.self_stresses):
         made += _moving(analysis, drawing, select_motion(analysis))
@@ -105,6 +117,8 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
         NotThereError: What was chosen is not there.
         SubjectError: Several were chosen.
     """
+    if chosen.spaces is not None:
+        raise SubjectError("freedom and constraint spaces do not move: they are a PNG or an SVG")
     if chosen.moves or chosen.is_stressed:
         made = _asked_for(analysis, drawing, chosen)
         if len(made) > 1:

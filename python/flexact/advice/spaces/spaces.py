@@ -6,8 +6,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...base.frozen import Frozen
 from ...base.plain_text import in_short
+from ...core.arrays import FloatArray
 from ...diagnostics.errors import model_error
 from ...model.parts.parts import Part
 from ...result.carriers import Joint
@@ -56,6 +59,12 @@ class Spaces(Frozen):
     def body(self) -> Part | Joint:
         """The body, or the joint with an orientation."""
         return self.subject.body
+
+    @property
+    def new_wires(self) -> FloatArray:
+        """(w, 2, 3) ends of the wires of the first proposal, on the body and on the ground [m]."""
+        wires = [wire for proposal in self.proposals[:1] for wire in proposal.change.wires]
+        return np.array([(wire.end, wire.ground) for wire in wires]).reshape(-1, 2, 3)
 
     @property
     def redundant(self) -> tuple[Family, ...]:

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Freedom and constraint spaces of a body as data of a page."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..advice.spaces.spaces import Spaces
+from ..base.plain_text import harmless
+from ..core.arrays import FloatArray
+from ..drawing import SpaceShape, dashes, shape_of_space
+from ..result.result import Result
+from ..text.advising.spaces import spaces_lines
+from ..text.sentences import plain
+from .drawing_data import Frame
+from .packing import floats, integers
+
+
+def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[dict[str, Any]]:
+    """The freedom space and the constraint space; nothing where none are to be shown."""
+    if spaces is None:
+        return []
+    lines = spaces_lines(analysis, spaces)
+    made = []
+    for label, space, line in zip(
+        ("Freedom", "Constraint"), (spaces.freedom, spaces.constraint), lines, strict=False
+    ):
+        is_freedom = not space.of_wrenches
+        shape = shape_of_space(space.families, space.about, frame.size, is_freedom=is_freedom)
+        wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
+        words = harmless(plain(line.head) + "; ".join(map(plain, line.items)))
+        words += "; dashed: a wire to add" * (len(wires) > 0)
+        made.append(
+            {
+                "label": f"{label} space",
+                "title": f"{words}.",
+                "freedom": is_freedom,
+                **_drawn(shape, frame),
+                "wires": floats(frame.places(dashes(wires, frame.size))),
+            }
+        )
+    return made
+
+
+def _drawn(shape: SpaceShape, frame: Frame) -> dict[str, Any]:
+    """Pieces of lines and arrows by their ends, and faces as triangles."""
+    pieces = [np.stack((line[:-1], line[1:]), axis=1) for line in shape.lines]
+    corners, triangles, behind = [], [], 0
+    for face in shape.faces:
+        fan = np.arange(1, len(face) - 1)
+        triangles.append(behind + np.stack((np.zeros_like(fan), fan, fan + 1), axis=1))
+        corners.append(face)
+        behind += len(face)
+    return {
+        "lines": floats(_placed(pieces, frame)),
+        "arrows": floats(_placed([each[None] for each in shape.arrows], frame)),
+        "corners": floats(_placed(corners, frame)),
+        "triangles": integers(np.concatenate([np.zeros((0, 3), int), *triangles])),
+    }
+
+
+def _placed(points: list[FloatArray], frame: Frame) -> FloatArray:
+    every = [np.zeros((0, 3)), *(each.reshape(-1, 3) for each in points)]
+    return frame.places(np.concatenate(every))

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Freedom and constraint spaces of a body in a picture: a panel each, and wires to add."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..advice.spaces.spaces import Spaces
+from ..core.arrays import FloatArray
+from ..drawing import Drawing, SpaceShape, dashes, shape_of_space
+from ..drawing.colours import CONSTRAINT_SPACE, FREEDOM_SPACE, NEW_WIRE
+from ..result.result import Result
+from ..text.advising.spaces import spaces_lines
+from ..text.sentences import plain
+from .arrows import add_straight
+from .canvas import OVER, Canvas
+
+#: Of lines [pt]; and of faces, whose edges are as wide as this.
+_WIDTH, _EDGE, _DASH = 1.5, 0.7, 2.6
+_OPACITY = 0.16
+#: Where the second head of a couple is, along its arrow.
+_SECOND = 0.84
+
+
+@dataclass(frozen=True)
+class SpaceShown:
+    """A space in a panel.
+
+    Attributes:
+        shape: What is drawn of it.
+        words: What it is.
+        wires: (w, 2, 3) ends of wires that may be added [m].
+    """
+
+    shape: SpaceShape
+    words: str
+    wires: FloatArray
+
+
+def spaces_shown(
+    result: Result, drawing: Drawing, spaces: Spaces
+) -> Iterator[tuple[str, SpaceShown]]:
+    """The freedom space and the constraint space of a body, each with a title."""
+    lines = spaces_lines(result, spaces)
+    for which, space, line in zip(
+        ("Freedom", "Constraint"), (spaces.freedom, spaces.constraint), lines, strict=False
+    ):
+        is_freedom = not space.of_wrenches
+        shape = shape_of_space(space.families, space.about, drawing.size, is_freedom=is_freedom)
+        wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
+        words = plain(line.head) + "; ".join(map(plain, line.items))
+        words += "; dashed: a wire to add" * (len(wires) > 0)
+        yield f"{which} space of {spaces.subject.name}", SpaceShown(shape, words, wires)
+
+
+def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
+    """Draw a space over the mechanism."""
+    shape = shown.shape
+    colour = np.array(FREEDOM_SPACE if shape.is_freedom else CONSTRAINT_SPACE)
+    for face in shape.faces:
+        canvas.polygons(face[None], colour, opacity=_OPACITY)
+        canvas.lines(np.concatenate((face, face[:1]))[None], colour, _EDGE)
+    for line in shape.lines:
+        canvas.lines(line[None], colour, _WIDTH)
+    if shape.arrows:
+        ends = np.array(shape.arrows)
+        # A couple has two heads.
+        for part in (1.0,) if shape.is_freedom else (1.0, _SECOND):
+            tips = ends[:, 0] + part * (ends[:, 1] - ends[:, 0])
+            add_straight(canvas, ends[:, 0], tips, tuple(colour.tolist()), drawing.size)
+    if len(shown.wires):
+        canvas.lines(
+            dashes(shown.wires, drawing.size),
+            np.array(NEW_WIRE),
+            _DASH,
+            layer=OVER,
+            nearer=20 * drawing.size,
+        )
