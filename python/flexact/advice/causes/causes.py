@@ -65,7 +65,9 @@ def causes_of(result: Result) -> Causes:
 
 
 def _by_count(count: int, generic: int, special: int) -> tuple[Cause, ...]:
-    told = all_alike(count, True) if generic == 0 else by_count(count, min(special, count))
+    if generic == 0:
+        return (Cause(CauseKind.SPECIAL),) * count
+    told = list(by_count(range(count), min(special, count)).values())
     return _made(told, lambda _, kind: Cause(kind))
 
 
@@ -117,11 +119,30 @@ class _Special:
 
     # Which are special ------------------------------------------------------
 
-    def _motions_told(self, told: FloatArray) -> Told:
-        return _told(told, self.generic[0], self.lifted.motions)
+    def _motions_told(self, told: FloatArray) -> list[Told]:
+        groups = self.lifted.groups(self.shares.own_stresses, told)
+        return self._told(
+            told, self.generic[0], self.lifted.motions, None if groups is None else groups.motions
+        )
 
-    def _stresses_told(self, told: FloatArray) -> Told:
-        return _told(told, self.generic[1], self.lifted.stresses)
+    def _stresses_told(self, told: FloatArray) -> list[Told]:
+        groups = self.lifted.groups(told, self.shares.own_motions)
+        return self._told(
+            told, self.generic[1], self.lifted.stresses, None if groups is None else groups.stresses
+        )
+
+    def _told(
+        self,
+        told: FloatArray,
+        generic: int,
+        never: FloatArray,
+        groups: list[tuple[list[int], int]] | None,
+    ) -> list[Told]:
+        """Which of some told vectors are special; what the undivided mechanism has not is not."""
+        there = np.flatnonzero(np.linalg.norm(told, axis=0) > THERE).tolist()
+        if generic == 0 and len(there) == told.shape[1]:
+            return all_alike(len(there), True)
+        return told_apart(told, never, groups or [(there, self.lifted.special)])
 
     @cached_property
     def _motions(self) -> list[Motion]:
@@ -129,7 +150,7 @@ class _Special:
         if not self.whole.is_told_by_parts:
             return []
         told = self._motions_told(self.shares.own_motions)
-        return [self.whole.motions[k] for k in np.flatnonzero(told.is_special).tolist()]
+        return [self.whole.motions[k] for k, one in enumerate(told) if one.is_special]
 
     # What makes them so -----------------------------------------------------
 
@@ -140,12 +161,17 @@ class _Special:
         if not whole.is_told_by_parts:
             return {}
         told = self._stresses_told(self.shares.own_stresses)
-        chosen = np.flatnonzero(told.is_special)[:_MOST_EXPLAINED].tolist()
-        if not told.together:
-            return {k: relations_of(whole, (k,), self._motions) for k in chosen}
-        found = relations_of(whole, told.together, self._motions)
-        found = found or relations_of(whole, chosen[-1:], self._motions)
-        return dict.fromkeys(chosen, found)
+        chosen = [k for k, one in enumerate(told) if one.is_special][:_MOST_EXPLAINED]
+        made: dict[int, tuple[Relation, ...]] = {}
+        for k in chosen:
+            # Which of several is special is free: they have one explanation.
+            same = next((j for j in made if told[k].together and j in told[k].together), None)
+            if same is not None:
+                made[k] = made[same]
+                continue
+            found = relations_of(whole, told[k].together, self._motions) if told[k].together else ()
+            made[k] = found or relations_of(whole, (k,), self._motions)
+        return made
 
     def _of_stress(self, share: FloatArray) -> tuple[Relation, ...]:
         """Of the special self-stress that has the largest part in one."""
@@ -163,33 +189,19 @@ class _Special:
         return merged(one for k in able for one in special[k])[:_MOST_RELATIONS]
 
 
-def _told(told: FloatArray, generic: int, never: FloatArray) -> Told:
-    """Which of some told vectors are special; what the undivided mechanism has not is generic."""
-    count = told.shape[1]
-    there = np.flatnonzero(np.linalg.norm(told, axis=0) > THERE)
-    if generic == 0 and there.size == count:
-        return all_alike(count, True)
-    found = told_apart(told[:, there], never, generic)
-    labels = np.zeros(count, bool)
-    labels[there] = found.is_special
-    together = tuple(there[list(found.together)].tolist())
-    return Told(tuple(labels.tolist()), together, found.special)
-
-
-def _made(told: Told, cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Cause, ...]:
+def _made(told: list[Told], cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Cause, ...]:
     """The causes of some modes; `cause_of` makes what may be special."""
     made = []
-    together = set(told.together)
-    for k, is_special in enumerate(told.is_special):
-        if not is_special and k not in together:
+    for k, one in enumerate(told):
+        if not one.is_special and not one.together:
             made.append(Cause(CauseKind.GENERIC))
             continue
-        found = cause_of(k, CauseKind.SPECIAL if is_special else CauseKind.GENERIC)
+        found = cause_of(k, CauseKind.SPECIAL if one.is_special else CauseKind.GENERIC)
         made.append(
             Cause(
                 found.kind,
-                told.together if k in together else (),
-                told.special if k in together else 0,
+                one.together,
+                one.special,
                 found.lift or None,
                 None if found.lift is None else bool(found.lift),
                 found.relations,

@@ -163,7 +163,7 @@ class _Ladder:
 
 
 def merged(relations: Iterable[Relation]) -> tuple[Relation, ...]:
-    """Each relation once; lines that are parallel to the same direction all together."""
+    """Each relation once; parallel lines that share some are all told together."""
     made: list[Relation] = []
     for one in relations:
         same = next((k for k, other in enumerate(made) if _go_together(one, other)), None)
@@ -180,5 +180,7 @@ def _go_together(one: Relation, other: Relation) -> bool:
     if one.kind is not other.kind or one.of is not other.of:
         return False
     if one.kind is not RelationKind.PARALLEL and one.parts != other.parts:
+        return False
+    if not set(one.parts) & set(other.parts):
         return False
     return bool(np.linalg.norm(np.cross(one.direction, other.direction)) <= _SAME)

@@ -23,7 +23,7 @@ from .limbs import Limb, Limbs
 from .turns import Turn, change_of
 
 #: How many limbs are turned, and what is spent: analyses times elements.
-_MOST_LIMBS, _MOST_WORK = 8, 40_000
+_MOST_LIMBS, _MOST_WORK = 8, 20_000
 #: Directions about which a limb is turned.
 _MOST_AXES = 4
 #: Angles that a workshop likes; the later ones where none of the first helps.
