@@ -275,21 +275,39 @@ def test_steps_are_taken_together(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert advice("paper/six_folded_sheets").exact_by == ()
 
 
-@pytest.mark.parametrize("chosen", [[], ["--apply", "2"]])
-def test_a_page_shows_before_and_after(
-    chosen: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_page_shows_before_and_after(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "page.html"
     path = str(INPUT / "flexures" / "parallel_guide.dat")
-    code, out, _ = run(capsys, path, *chosen, "-o", str(target))
-    step = advice("flexures/parallel_guide")[int(chosen[1]) - 1 if chosen else 0]
-    assert code == 0 and f"step {step.number} shown in" in out
+    code, out, _ = run(capsys, path, "-o", str(target))
+    assert code == 0 and "step 1 shown in" in out
     page = target.read_text(encoding="utf-8")
     assert "before and after" in page and "exactly constrained" in page.lower()
     assert "Constraint of" in page
-    exact = write(tmp_path / "exact.dat", DECKS["exact"])
-    code, _, err = run(capsys, str(exact), "-o", str(tmp_path / "none.html"))
-    assert code == 1 and "nothing to mend" in err and not (tmp_path / "none.html").exists()
+
+
+def test_a_page_of_an_exact_mechanism_shows_it_as_it_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, target = write(tmp_path / "exact.dat", DECKS["exact"]), tmp_path / "page.html"
+    code, out, _ = run(capsys, str(path), "-o", str(target))
+    assert code == 0 and "nothing to mend" in out
+    assert "before and after" not in target.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg"])
+def test_a_picture_shows_freedom_and_constraint(
+    suffix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    target = tmp_path / f"spaces{suffix}"
+    path = str(INPUT / "flexures" / "cross_hinge_undeclared.dat")
+    code, out, _ = run(capsys, path, "--body", "body", "-o", str(target))
+    assert code == 0 and "drawn in" in out
+    assert target.stat().st_size > 5000
+    # A framework has no bodies.
+    bars = write(tmp_path / "bars.dat", DECKS["exact"])
+    code, _, err = run(capsys, str(bars), "-o", str(tmp_path / "bars.png"))
+    assert code == 1 and "freedom space" in err and not (tmp_path / "bars.png").exists()
 
 
 @pytest.mark.parametrize(
@@ -301,6 +319,8 @@ def test_a_page_shows_before_and_after(
         (["--apply", "1,99", "-o", "new.dat"], "there is no step 99"),
         (["--apply", "1", "-o", "{deck}"], "would overwrite"),
         (["-o", "new.dat"], "--apply"),
+        (["-o", "new.gif"], "picture"),
+        (["--apply", "1", "-o", "new.png"], "picture"),
         (["--apply", "0", "-o", "new.dat"], "number of a step"),
         (["--apply", "-1", "-o", "new.dat"], "number of a step"),
         (["--apply", "one", "-o", "new.dat"], "number of a step"),
@@ -320,12 +340,12 @@ def test_mistakes_are_told_in_words(
     write(tmp_path / "missing.dat", "")
     places = {"deck": str(deck), "folder": str(tmp_path)}
     given = [word.format(**places) for word in words]
-    given = [str(tmp_path / word) if word == "new.dat" else word for word in given]
+    given = [str(tmp_path / word) if word.startswith("new.") else word for word in given]
     code, out, err = run(capsys, str(deck), *given)
     assert (code, out) == (1, "")
     assert said in err and "Traceback" not in err
     assert deck.read_text() == guide_deck()
-    assert not (tmp_path / "new.dat").exists()
+    assert not list(tmp_path.glob("new.*"))
 
 
 def guide_deck() -> str:
