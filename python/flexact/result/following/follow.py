@@ -235,6 +235,8 @@ class _Walk:
         near = least_near(chart, ahead)
         if near.place.residual > TRUE:
             return None
+        if len(self.stations) > 1:
+            return near
         # A path that is tangent to the motion leaves it by the square of the step, another one
         # by the step itself.
         half = least_near(chart, 0.5 * ahead)
@@ -260,7 +262,12 @@ class _Walk:
             rank = here.rank
         chart = Chart(self.held, where, rank)
         # What came last, as it is carried along by what was done.
-        along = chart.null @ (chart.null.T @ here.tangent)
+        last_way = here.tangent
+        if here.directions > 1 and chart.null.shape[1] > 1:
+            # The null space does not say how the path is curved within it; the way so far does.
+            gone = self.held.difference(here.within, where)
+            last_way = 2.0 * gone / np.linalg.norm(gone) - here.tangent
+        along = chart.null @ (chart.null.T @ last_way)
         straight = float(np.linalg.norm(along))
         if straight < _STRAIGHT:
             if chart.null.shape[1]:
