@@ -16,6 +16,7 @@ from ..drawing.selection import Selection, select_motion
 from ..model.model import Model
 from ..result.decompose import asked_for
 from ..result.following import Ending, Followed, Held, Wishes, follow, is_followed, least_error
+from ..result.following.follow import TRUE
 from ..result.following.held import MOST_COORDINATES
 from ..result.result import Result, result_of
 from .stroke import Stroke
@@ -185,10 +186,14 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
         "model's size are left at the least"
     )
     if start.directions > 1:
+        here = f"the mechanism can move in {start.directions} independent directions here"
+        if least.largest <= TRUE:
+            raise TraceError(
+                f"the path cannot be begun: {here}, and the paths that are near leave in others "
+                "than this one. Trace from a configuration a little way along one of them"
+            )
         raise TraceError(
-            f"the path cannot be begun: the mechanism can move in {start.directions} independent "
-            f"directions here, and no path leads along this one: {tried}. Where paths cross, "
-            "trace from a configuration a little way along one of them"
+            f"the path cannot be begun: {here}, and no path leads along this one: {tried}"
         )
     raise TraceError(
         f"the path cannot be begun: the motion is infinitesimal, or ends here; {tried}"
