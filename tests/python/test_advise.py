@@ -56,7 +56,7 @@ def test_steps_are_a_sequence_in_the_order_of_their_numbers() -> None:
     assert steps[0] in steps and steps[-1] is steps[len(steps) - 1]
     assert [step.number for step in steps[1:3]] == [2, 3]
     order = [
-        *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
+        *(Purpose.MEND, Purpose.UNDECLARE, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
         *(Purpose.ADD_WIRE, Purpose.ADD_SHEET),
     ]
     places = [order.index(step.purpose) for step in steps]
@@ -130,6 +130,27 @@ def test_internal_motions_have_no_bodies() -> None:
         (True, 0): 1,
         (False, 1): 5,
     }
+
+
+def test_what_is_driven_against_a_constraint_is_taken_back() -> None:
+    """A four-bar linkage has one freedom, so that two driven cranks fight; either may go."""
+    text = (INPUT / "linkages" / "four_bar_planar.dat").read_text(encoding="utf-8")
+    made = analyse(flexact.read_text(text.replace("END", "DYNX 13 1\nDYNX 33 1\nEND", 1))).advice()
+    assert made.analysis.verdict is flexact.Verdict.OVER
+    driven = [step for step in made if step.purpose is Purpose.UNDECLARE]
+    assert [step.number for step in driven] == [1, 2]
+    assert {step.change.coordinates[0][0] for step in driven} == {13, 33}
+    assert all(analyse(step.apply()).verdict is flexact.Verdict.EXACT for step in driven)
+
+
+def test_a_trap_of_declarations_is_left_in_two_steps() -> None:
+    """Bendings that were declared at clamps are taken back, and the folds declared instead."""
+    made = advice("flexures/five_folded_sheets_trap")
+    first = made[0]
+    assert first.purpose is Purpose.UNDECLARE
+    assert len(first.change.deformations) == made.analysis.over_constrained == 5
+    assert (first.after.under_constrained, first.after.over_constrained) == (5, 0)
+    assert made.exact_by[0] == 1 and len(made.exact_by) == 2
 
 
 def test_an_exact_mechanism_has_nothing_to_mend() -> None:
