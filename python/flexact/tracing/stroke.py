@@ -116,7 +116,9 @@ class Stroke:
     def _of_station(self, station: Station, rank: int | None = None) -> Step:
         if rank is None and self.judged is self.held:
             rank = station.rank
-        return self._step(station.within, station.arc, station.residual, self.zero, rank)
+        # Where the path is a multiple zero of D(x) it is known to half as many digits.
+        zero = self.zero if station.directions == 1 else max(self.zero, _ZERO_AT_DEAD)
+        return self._step(station.within, station.arc, station.residual, zero, rank)
 
     def _of_found(self, found: _Found) -> Step:
         resting = np.zeros(self.held.arrays.node_kind.size, bool)

@@ -16,6 +16,7 @@ from ..drawing.selection import Selection, select_motion
 from ..model.model import Model
 from ..result.decompose import asked_for
 from ..result.following import Ending, Followed, Held, Wishes, follow, is_followed, least_error
+from ..result.following.follow import TRUE
 from ..result.following.held import MOST_COORDINATES
 from ..result.result import Result, result_of
 from .stroke import Stroke
@@ -25,8 +26,8 @@ from .values import Way
 #: How far each way by default, in sizes of the model, and by how many steps.
 LENGTH, STEPS = 1.0, 50
 #: What ends both ways within so small a part of the size is no path: held deformations have not
-#: become larger than what counts as zero.
-_NO_PATH = 1.0e-3
+#: become larger than what counts as zero. Nor is it where they have grown out of rounding.
+_NO_PATH, _NEAR, _GROWN = 1.0e-3, 0.1, 1.0e-14
 #: Where held deformations are looked at if there is no path, a part of the size.
 _TRIED = 0.01
 #: Halved so often a step is too small.
@@ -172,7 +173,8 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
     """
     far = max(way.length for way in ways)
     ends = all(way.stop.ending is Ending.NOT_ZERO for way in ways)
-    if far > 0.0 and not (ends and far < _NO_PATH):
+    grown = far < _NEAR and max(way.residual for way in ways) > _GROWN
+    if far > 0.0 and not (ends and (far < _NO_PATH or grown)):
         return
     start, stop = ways[1].stations[0], ways[1].stop
     if stop.ending is Ending.ELEMENT:
@@ -184,10 +186,14 @@ def _require_begun(result: Result, ways: list[Followed], held: Held) -> None:
         "model's size are left at the least"
     )
     if start.directions > 1:
+        here = f"the mechanism can move in {start.directions} independent directions here"
+        if least.largest <= TRUE:
+            raise TraceError(
+                f"the path cannot be begun: {here}, and the paths that are near leave in others "
+                "than this one. Trace from a configuration a little way along one of them"
+            )
         raise TraceError(
-            f"the path cannot be begun: the mechanism can move in {start.directions} independent "
-            f"directions here, and no path leads along this one: {tried}. Where paths cross, "
-            "trace from a configuration a little way along one of them"
+            f"the path cannot be begun: {here}, and no path leads along this one: {tried}"
         )
     raise TraceError(
         f"the path cannot be begun: the motion is infinitesimal, or ends here; {tried}"

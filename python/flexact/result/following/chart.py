@@ -40,7 +40,8 @@ class Chart:
         """Decompose D(c) there, of a given rank."""
         self.held, self.middle = held, middle
         left, _, right = np.linalg.svd(held.at(middle).jacobian)
-        self.left, self.right, self.null = left[:, :rank], right[:rank].T, right[rank:].T
+        self.left, self.rest = left[:, :rank], left[:, rank:]
+        self.right, self.null = right[:rank].T, right[rank:].T
 
     def near(self, ahead: FloatArray) -> Near | None:
         """The place after a change (n,) in the null space; None where Newton finds none."""

@@ -19,7 +19,7 @@ from .branches import branch_about, branch_between, sign_between
 from .chart import Chart, Near
 from .ending import Ending, Stop
 from .held import Held
-from .least import across, descend
+from .least import least_near
 from .passing import passing
 from .station import Between, Station, arc_between, station_at
 
@@ -28,6 +28,10 @@ TRUE = 1.0e-12
 #: Scaled singular values up to here are zero away from the reference, where rounding of
 #: positions is magnified.
 ZERO = 1.0e-10
+#: Where the null space is larger than the path is wide, what exceeds rounding is corrected within
+#: it; a multiple zero of D(x) is known to half as many digits, and singular values that were zero
+#: count as such up to here.
+_ROUNDING, _STILL_ZERO = 5.0e-15, 1.0e-7
 #: The correction of a step may be this part of it, and the cosine between two directions is at
 #: least so large.
 _FARTHEST = 0.25
@@ -214,8 +218,8 @@ class _Walk:
         while step >= self.wishes.least:
             ahead = here.tangent * (step / reach)
             near = chart.near(ahead)
-            if near is None or near.place.residual > TRUE:
-                near = self._among_branches(here, ahead) or near
+            if near is None or near.place.residual > _ROUNDING:
+                near = self._among_branches(here, chart, ahead) or near
             found = None if near is None else self._accepted(here, chart, near, step)
             if near is not None and found is not None:
                 bent = float(np.linalg.norm(near.across)) / float(np.linalg.norm(ahead))
@@ -224,19 +228,20 @@ class _Walk:
             step *= 0.5
         return None
 
-    def _among_branches(self, here: Station, ahead: FloatArray) -> Near | None:
+    def _among_branches(self, here: Station, chart: Chart, ahead: FloatArray) -> Near | None:
         """Where the null space is larger than the path is wide, corrections within it, too."""
         if here.directions < 2:
             return None
-        base = across(here.tangent)
-        place, change = descend(self.held, here.within, ahead, base)
-        if place.residual > TRUE:
+        near = least_near(chart, ahead)
+        if near.place.residual > TRUE:
             return None
+        if len(self.stations) > 1:
+            return near
         # A path that is tangent to the motion leaves it by the square of the step, another one
         # by the step itself.
-        half, less = descend(self.held, here.within, 0.5 * ahead, base)
-        curved = np.linalg.norm(less) <= _CURVED * np.linalg.norm(change) + 1.0e-9
-        return Near(place, change) if half.residual <= TRUE and curved else None
+        half = least_near(chart, 0.5 * ahead)
+        less, more = (float(np.linalg.norm(each.across)) for each in (half, near))
+        return near if half.place.residual <= TRUE and less <= _CURVED * more + 1.0e-9 else None
 
     def _accepted(
         self, here: Station, last: Chart, near: Near, step: float
@@ -253,9 +258,16 @@ class _Walk:
             return None
         values = self.held.values(where)
         rank = int(np.count_nonzero(values > self.zero))
+        if rank > here.rank and values[here.rank] <= _STILL_ZERO:
+            rank = here.rank
         chart = Chart(self.held, where, rank)
         # What came last, as it is carried along by what was done.
-        along = chart.null @ (chart.null.T @ here.tangent)
+        last_way = here.tangent
+        if here.directions > 1 and chart.null.shape[1] > 1:
+            # The null space does not say how the path is curved within it; the way so far does.
+            gone = self.held.difference(here.within, where)
+            last_way = 2.0 * gone / np.linalg.norm(gone) - here.tangent
+        along = chart.null @ (chart.null.T @ last_way)
         straight = float(np.linalg.norm(along))
         if straight < _STRAIGHT:
             if chart.null.shape[1]:

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The least held deformations near a point: how far a motion is from leading anywhere.
 
-Levenberg-Marquardt on |D(x)|, with corrections across the motion, so that its share stays. The
-damping is the square of the error: so it converges fast where D(x) = 0 has solutions, whether
-they are isolated or not (Yamashita and Fukushima, Computing Supplement 15, 2001), and where it
-has none it still goes down.
+First in a chart, where all equations but the few that rank leaves out are solved for, as a
+function of the few coordinates of the null space across the motion: the valleys in which it is
+small are curved, and no descent in all coordinates follows them. Then in all coordinates. Both by
+Levenberg and Marquardt's method, with corrections across the motion, so that its share stays.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,15 +18,20 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...model.configuration import Configuration
 from ..velocities import Velocities
-from .held import Held, Place
+from .chart import Chart, Near
+from .held import Held
 
-_MOST_STEPS = 60
+_MOST_STEPS, _MOST_IN_CHART = 12, 80
 #: A correction below this is rounding.
 _SETTLED = 2.0e-16
 #: What the error must go down by, a part of what the linear model says.
 _GOES_DOWN = 1.0e-4
-#: Damping, times the square of the error: at first, and how it changes.
-_DAMPING, _MORE, _LESS, _MOST = 1.0, 8.0, 0.2, 1.0e12
+#: Damping, times the largest singular value squared: at first, and how it changes.
+_DAMPING, _MORE, _LESS, _MOST = 1.0e-3, 8.0, 0.1, 1.0e8
+#: Scaled singular values up to here are zero where no rank is given.
+_ZERO = 1.0e-9
+
+Function = Callable[[FloatArray], "tuple[FloatArray, FloatArray] | None"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,24 +52,70 @@ class Least(Frozen):
     correction: float
 
 
-def least_error(motion: Velocities | Held, direction: FloatArray, distance: float) -> Least:
+def least_error(
+    motion: Velocities | Held, direction: FloatArray, distance: float, rank: int | None = None
+) -> Least:
     """The least held deformations after a distance along a motion from the reference.
 
     Args:
         motion: A motion, whose model holds what it holds; or what was made of its model.
         direction: (n,) of any length: `Held.direction` of the motion or of another one.
         distance: How far the node that moves farthest, by the size; in radians if it turns.
+        rank: Of D(c) at the reference; by default as its scaled singular values say.
     """
     held = motion if isinstance(motion, Held) else Held(motion.data)
-    ahead = direction / np.linalg.norm(direction)
-    step = ahead * (distance / held.reach(ahead))
-    place, change = descend(held, held.reference, step, across(ahead))
+    known = int(np.count_nonzero(held.values(held.reference) > _ZERO)) if rank is None else rank
+    chart = Chart(held, held.reference, known)
+    ahead = direction * (distance / held.reach(direction))
+    near = least_near(chart, ahead)
     return Least(
-        held.outside(place.configuration),
-        float(np.linalg.norm(place.error)),
-        place.residual,
-        float(np.linalg.norm(change)),
+        held.outside(near.place.configuration),
+        float(np.linalg.norm(near.place.error)),
+        near.place.residual,
+        float(np.linalg.norm(near.across)),
     )
+
+
+def least_near(chart: Chart, ahead: FloatArray) -> Near:
+    """The place of the least error after a step (n,) ahead from the middle of a chart."""
+    held, along = chart.held, ahead / np.linalg.norm(ahead)
+    change = _in_chart(chart, ahead, along)
+    basis = across(along)
+
+    def errors(share: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+        place = held.at(chart.middle, ahead + change + basis @ share)
+        return (place.error, place.jacobian @ basis) if place.is_finite else None
+
+    share = descend(errors, np.zeros(basis.shape[1]), _MOST_STEPS)
+    correction = change + basis @ share
+    return Near(held.at(chart.middle, ahead + correction), correction)
+
+
+def _in_chart(chart: Chart, ahead: FloatArray, along: FloatArray) -> FloatArray:
+    """(n,) the correction after which what rank leaves out is least, the rest being solved for."""
+    beside = chart.null - np.outer(along, along @ chart.null)
+    left, values, _ = np.linalg.svd(beside, full_matrices=False)
+    free = left[:, values > 0.5]
+    first = chart.near(ahead)
+    if first is None:
+        return np.zeros(ahead.size)
+
+    def rest(share: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+        near = chart.near(ahead + free @ share)
+        if near is None or float(np.linalg.norm(share)) > float(np.linalg.norm(ahead)):
+            return None
+        jacobian = near.place.jacobian
+        across_null = np.linalg.solve(
+            chart.left.T @ jacobian @ chart.right, chart.left.T @ jacobian @ free
+        )
+        slope = chart.rest.T @ jacobian @ (free - chart.right @ across_null)
+        return chart.rest.T @ near.place.error, slope
+
+    share = np.zeros(free.shape[1])
+    if share.size and chart.rest.size:
+        share = descend(rest, share, _MOST_IN_CHART)
+    near = chart.near(ahead + free @ share) or first
+    return free @ share + near.across
 
 
 def across(ahead: FloatArray) -> FloatArray:
@@ -71,38 +123,36 @@ def across(ahead: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:])
 
 
-def descend(
-    held: Held, start: Configuration, ahead: FloatArray, basis: FloatArray, most: int = _MOST_STEPS
-) -> tuple[Place, FloatArray]:
-    """The place of the least error after a step (n,) ahead, corrected within a basis (n, k).
+def descend(function: Function, start: FloatArray, most: int) -> FloatArray:
+    """Where a function's values are least, by their norm.
 
-    Returns:
-        The place, and the correction (n,).
+    Args:
+        function: Values and derivatives at a place; None where it is not defined.
+        start: Where to begin.
+        most: How many steps.
     """
-    share = np.zeros(basis.shape[1])
-    here, damping = held.at(start, ahead), _DAMPING
-    if not here.is_finite:
-        return here, basis @ share
-    best = float(here.error @ here.error)
+    place, here, damping = start, function(start), _DAMPING
     for _ in range(most):
-        if best == 0.0 or damping > _MOST:
+        if here is None or not here[0].any():
             break
-        left, values, right = np.linalg.svd(here.jacobian @ basis, full_matrices=False)
-        along = left.T @ here.error
+        error, jacobian = here
+        left, values, right = np.linalg.svd(jacobian, full_matrices=False)
+        along, best = left.T @ error, float(error @ error)
         while damping <= _MOST:
-            factor = values / (values**2 + damping * best + np.finfo(float).tiny)
+            scale = values**2 + damping * float(values.max(initial=0.0)) ** 2
+            factor = values / np.where(scale > 0.0, scale, 1.0)
             change = -right.T @ (factor * along)
-            there = held.at(start, ahead + basis @ (share + change))
-            error = float(there.error @ there.error) if there.is_finite else np.inf
+            there = function(place + change)
+            now = np.inf if there is None else float(there[0] @ there[0])
             promised = float(np.sum(along**2 * (1.0 - (1.0 - factor * values) ** 2)))
-            if best - error >= _GOES_DOWN * promised:
+            if best - now > _GOES_DOWN * promised:
                 break
             damping *= _MORE
         else:
             break
-        settled = float(np.linalg.norm(change)) <= _SETTLED or best - error <= 1.0e-14 * best
-        share, here, best = share + change, there, error
-        damping = max(damping * _LESS, 1.0e-12)
+        settled = float(np.linalg.norm(change)) <= _SETTLED or best - now <= 1.0e-14 * best
+        place, here = place + change, there
+        damping *= _LESS
         if settled:
             break
-    return here, basis @ share
+    return place
