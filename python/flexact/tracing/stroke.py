@@ -26,7 +26,7 @@ from .names import ROTATION, Names
 from .values import DeadPoint, Step, rank_of
 
 #: Velocities, with that of the fastest node one: below this a node rests, and above that it moves.
-_RESTS, _MOVES = 1.0e-7, 1.0e-9
+_RESTS, _MOVES = 1.0e-6, 1.0e-6
 #: Places nearer than this part of a step are one.
 _ONE_PLACE = 1.0e-5
 #: At a dead point singular values up to here are zero.
@@ -61,12 +61,17 @@ class Stroke:
         stations = way.stations
         branches = {id(station): station for station in way.branches}
         made = [self._of_station(stations[0], self.result.rank)]
-        for one, other in pairwise(stations):
+        for k, (one, other) in enumerate(pairwise(stations)):
             inside = [b for b in way.branches if one.arc < b.arc <= other.arc]
             found = self._between(one, other, inside)
             made += [self._of_found(each) for each in found]
             if id(other) not in branches:
-                made.append(self._of_station(other))
+                step = self._of_station(other)
+                if k + 2 < len(stations):
+                    names, is_drive = self._turning_at((one, 1.0), other, (stations[k + 2], 1.0))
+                    if names or is_drive:
+                        step = replace(step, dead=DeadPoint(names, is_drive))
+                made.append(step)
         if len(stations) > 1 and id(stations[-1]) in branches:
             made[-1] = self._at_last_branch(made[-1], stations[-2], stations[-1])
         return made
@@ -90,24 +95,34 @@ class Stroke:
         names: tuple[str, ...] = ()
         is_drive = False
         if len(beside) == 2:
-            before, behind = -self._speeds(beside[0]), self._speeds(beside[1])
-            resting = np.linalg.norm(self._speeds(start), axis=1) <= _RESTS
-            moves = _least_norm(before, behind) > _MOVES
-            turns = resting & moves & (np.sum(before * behind, axis=1) < 0.0)
+            names, is_drive = self._turning_at((beside[0], -1.0), start, (beside[1], 1.0))
             # What moves to second order only turns a little on both sides: that is none.
-            names = self.names.turning(np.flatnonzero(turns).tolist(), resting, turns)
             names = tuple(name for name in names if not name.startswith(ROTATION))
-            is_drive = self._drive_turns(beside)
         if names or directions or is_drive:
             dead = DeadPoint(names, is_drive, directions)
             made[place] = replace(made[place], dead=dead)
         return tuple(made)
 
-    def _drive_turns(self, beside: Sequence[Station]) -> bool:
+    def _turning_at(
+        self, before: tuple[Station, float], here: Station, behind: tuple[Station, float]
+    ) -> tuple[tuple[str, ...], bool]:
+        """What turns back at a station itself, and whether the drive does.
+
+        The stations beside it stand with 1, or -1 where their tangents point the other way.
+        """
+        came, goes = (sense * self._speeds(station) for station, sense in (before, behind))
+        resting = np.linalg.norm(self._speeds(here), axis=1) <= _RESTS
+        moves = _least_norm(came, goes) > _MOVES
+        turns = resting & moves & (np.sum(came * goes, axis=1) < 0.0)
+        names = self.names.turning(np.flatnonzero(turns).tolist(), resting, turns)
         if self.drive is None:
-            return False
-        before, behind = (self.drive.rate(each.within, each.tangent) for each in beside)
-        return before * behind > 0.0
+            return names, False
+        rates = [
+            sense * self.drive.rate(station.within, station.tangent)
+            for station, sense in (before, (here, 1.0), behind)
+        ]
+        least = _RESTS * max(abs(rate) for rate in rates)
+        return names, rates[0] * rates[2] < 0.0 and abs(rates[1]) <= least
 
     def _speeds(self, station: Station) -> FloatArray:
         """(nodes, 3) velocities along the path, that of the fastest node one."""
