@@ -3,25 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..drawing.inner_nodes import poses_with_inner_nodes
 from ..drawing.path import pose_in
 from ..drawing.selection import Selection
 from ..model.configuration import Configuration
 from ..result.following import Followed, Held, Station
-from ..result.following.chart import Near
-from ..result.following.passing import passing
-from ..result.following.station import Between
 from ..result.result import Result
 from .drive import Drive, drive_of
+from .found import Found, WayBetween, merged
 from .names import ROTATION, Names
 from .values import DeadPoint, Step, rank_of
 
@@ -33,17 +29,6 @@ _ONE_PLACE = 1.0e-5
 _ZERO_AT_DEAD = 1.0e-7
 #: How many of the smallest singular values are kept.
 _KEPT = 6
-
-
-@dataclass(frozen=True, eq=False)
-class _Found(Frozen):
-    """A place between two stations, and what is special there."""
-
-    arc: float
-    where: Configuration
-    nodes: tuple[int, ...] = ()
-    is_drive: bool = False
-    directions: int = 0
 
 
 class Stroke:
@@ -135,7 +120,7 @@ class Stroke:
         zero = self.zero if station.directions == 1 else max(self.zero, _ZERO_AT_DEAD)
         return self._step(station.within, station.arc, station.residual, zero, rank)
 
-    def _of_found(self, found: _Found) -> Step:
+    def _of_found(self, found: Found) -> Step:
         resting = np.zeros(self.held.arrays.node_kind.size, bool)
         resting[list(found.nodes)] = True
         names = self.names.turning(found.nodes, resting, resting)
@@ -168,15 +153,15 @@ class Stroke:
             np.nan if self.drive is None else self.drive.value(where, pose),
         )
 
-    def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[_Found]:
-        found = [_Found(b.arc, b.within, directions=b.directions) for b in branches]
+    def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[Found]:
+        found = [Found(b.arc, b.within, directions=b.directions) for b in branches]
         turning = self._turning(one, other)
         drive = self.drive
         turns = drive is not None and (
             drive.rate(one.within, one.tangent) * drive.rate(other.within, other.tangent) < 0.0
         )
         if turning or turns:
-            way = _Way(self.held, one, other)
+            way = WayBetween(self.held, one, other)
             if drive is not None and turns:
                 place = way.passing(lambda near, along: drive.rate(near, along))
                 found += [replace(each, is_drive=True) for each in place]
@@ -185,7 +170,7 @@ class Stroke:
                 place, at_rest = self._rest(way, node, self._difference(one, other, node))
                 turning = [each for each in turning[1:] if each not in at_rest]
                 found += [replace(each, nodes=tuple(at_rest)) for each in place if at_rest]
-        return _merged(found, _ONE_PLACE * (other.arc - one.arc))
+        return merged(found, _ONE_PLACE * (other.arc - one.arc))
 
     def _turning(self, one: Station, other: Station) -> list[int]:
         before, behind = self._speeds(one), self._speeds(other)
@@ -195,7 +180,9 @@ class Stroke:
     def _difference(self, one: Station, other: Station, node: int) -> FloatArray:
         return np.asarray(self._speeds(one)[node] - self._speeds(other)[node])
 
-    def _rest(self, way: _Way, node: int, difference: FloatArray) -> tuple[list[_Found], list[int]]:
+    def _rest(
+        self, way: WayBetween, node: int, difference: FloatArray
+    ) -> tuple[list[Found], list[int]]:
         """Where a node may come to rest on the way, and the nodes that do so with it."""
 
         def speed(_: Configuration, along: FloatArray) -> float:
@@ -213,42 +200,3 @@ class Stroke:
 
 def _least_norm(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)))
-
-
-class _Way:
-    """The path between two stations, decomposed when it is needed."""
-
-    def __init__(self, held: Held, one: Station, other: Station) -> None:
-        self.held, self.one, self.other = held, one, other
-        self.tangent: FloatArray | None = None
-
-    @cached_property
-    def _between(self) -> Between:
-        return Between(self.held, self.one, self.other)
-
-    def passing(self, function: Callable[[Configuration, FloatArray], float]) -> list[_Found]:
-        """Where a function of place and direction passes zero; none where it is not found."""
-
-        def of_near(near: Near) -> float:
-            return function(near.place.configuration, self._between.direction(near))
-
-        found = passing(self._between, of_near)
-        self.tangent = None if found is None else found.tangent
-        return [] if found is None else [_Found(found.arc, found.where)]
-
-
-def _merged(found: Sequence[_Found], apart: float) -> list[_Found]:
-    """What was found, in order; what is at one place is one."""
-    made: list[_Found] = []
-    for each in sorted(found, key=lambda one: one.arc):
-        if made and each.arc - made[-1].arc <= apart:
-            last = made[-1]
-            made[-1] = replace(
-                last,
-                nodes=tuple(sorted({*last.nodes, *each.nodes})),
-                is_drive=last.is_drive or each.is_drive,
-                directions=max(last.directions, each.directions),
-            )
-        else:
-            made.append(each)
-    return made
