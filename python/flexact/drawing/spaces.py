@@ -25,6 +25,10 @@ _REACH, _ARROW = 0.42, 0.26
 _START = 0.05
 #: Lines through a point in a plane, and corners of a disc.
 _FAN, _ROUND = 8, 40
+#: Radius of a ring about a pole, and of one that is a couple, in the plane.
+_POLE, _COUPLE = 0.02, 0.1
+#: Up to so many lines can be thick.
+_FEW = 3
 #: Lines side by side.
 _BESIDE = np.linspace(-0.75, 0.75, 5)
 #: Of a helix: radius, at most so many turns, and points of each.
@@ -80,9 +84,9 @@ class SpaceShape(Frozen):
     arrows: tuple[FloatArray, ...] = ()
 
     @property
-    def is_empty(self) -> bool:
-        """Whether there is nothing to draw."""
-        return not (self.lines or self.faces or self.arrows)
+    def is_bold(self) -> bool:
+        """Whether its lines are so few that they can be thick."""
+        return len(self.lines) <= _FEW
 
     def __add__(self, other: SpaceShape) -> SpaceShape:
         """Both together."""
@@ -95,7 +99,12 @@ class SpaceShape(Frozen):
 
 
 def shape_of_space(
-    families: Iterable[FamilyLike], middle: FloatArray, size: float, *, is_freedom: bool
+    families: Iterable[FamilyLike],
+    middle: FloatArray,
+    size: float,
+    *,
+    is_freedom: bool,
+    planar: bool = False,
 ) -> SpaceShape:
     """What is drawn of a space.
 
@@ -104,12 +113,34 @@ def shape_of_space(
         middle: (3,) of the body [m].
         size: Of the drawing [m].
         is_freedom: Whether it is that of motions.
+        planar: Whether the drawing is; what is along z is a ring there.
     """
     made = SpaceShape(is_freedom)
     for family in families:
         lines, faces, arrows = _MADE_BY[family.kind.name](family, middle, size)
         made += SpaceShape(is_freedom, tuple(lines), tuple(faces), tuple(arrows))
-    return made
+    return _in_plane(made, size) if planar else made
+
+
+def _in_plane(shape: SpaceShape, size: float) -> SpaceShape:
+    """Rings about the poles of rotations, wider ones for couples, in place of what is along z."""
+    rings = [
+        _disc(parts.mean(axis=0), np.array((0.0, 0.0, 1.0)), radius * size)
+        for every, radius in ((shape.lines, _POLE), (shape.arrows[::2], _COUPLE))
+        for parts in every
+        if _is_upright(parts)
+    ]
+    closed = [np.concatenate((ring, ring[:1])) for ring in rings]
+    lines, arrows = (
+        tuple(parts for parts in every if not _is_upright(parts))
+        for every in (shape.lines, shape.arrows)
+    )
+    return SpaceShape(shape.is_freedom, (*lines, *closed), shape.faces, arrows)
+
+
+def _is_upright(parts: FloatArray) -> bool:
+    """Whether a line is along z."""
+    return bool(np.ptp(parts[:, :2], axis=0).max() < 1.0e-6 * np.ptp(parts[:, 2]))
 
 
 _Parts = tuple[list[FloatArray], list[FloatArray], list[FloatArray]]
@@ -209,21 +240,22 @@ def _some(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
 
 
 def _meeting_two(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    lines, _, _ = _some(family, middle, size)
+    """Lines from one to the other: the two themselves are lines of the reciprocal space."""
+    two, _, _ = _some(family, middle, size)
     first, second = (
-        np.linspace(0.12, 0.88, 4)[:, None] * (line[1] - line[0]) + line[0] for line in lines
+        np.linspace(0.1, 0.9, 4)[:, None] * (line[1] - line[0]) + line[0] for line in two
     )
-    lines += [np.stack((one, other)) for one in first for other in second]
-    return lines, [], []
+    return [np.stack((one, other)) for one in first for other in second], [], []
 
 
 def _meeting_across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    lines, _, _ = _some(family, middle, size)
+    """Pencils in parallel planes, round points of the line, which is of the reciprocal space."""
+    axis = _some(family, middle, size)[0][0]
     half = 0.6 * _REACH * size
-    places = np.linspace(0.15, 0.85, 3)[:, None] * (lines[0][1] - lines[0][0]) + lines[0][0]
-    faces = [_disc(place, family.direction, half) for place in places]
-    for place in places:
+    lines, faces = [], []
+    for place in np.linspace(0.15, 0.85, 3)[:, None] * (axis[1] - axis[0]) + axis[0]:
         lines += _segments(place, _fan(family.direction, 4), half)
+        faces.append(_disc(place, family.direction, half))
     return lines, faces, []
 
 
@@ -265,6 +297,19 @@ def _screw(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
     return [*_segments(family.point, family.direction, half), helix], [], []
 
 
+def _complex(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    """Lines round the axis, the steeper the nearer, and those that meet it at right angles."""
+    half, lines = _REACH * size, []
+    for distance in (0.25 * half, 0.75 * half):
+        for across in np.concatenate((fan := _fan(family.direction, 4), -fan)):
+            # In the moment about the axis, distance times the part along the tangent, and the
+            # pitch times the part along the axis cancel.
+            tangent = np.cross(family.direction, across)
+            way = unit(distance * family.direction - family.pitch * tangent)
+            lines += _segments(family.point + distance * across, way, 0.6 * half)
+    return lines + _segments(family.point, fan, 0.75 * half), [], []
+
+
 def _arrows(directions: FloatArray, middle: FloatArray, size: float) -> list[FloatArray]:
     ends = ((_START, _ARROW), (-_START, -_ARROW))
     return [
@@ -301,7 +346,7 @@ _MADE_BY: dict[str, Callable[[FamilyLike, FloatArray, float], _Parts]] = {
     "CONGRUENCE": _some,
     "MEETING": _meeting,
     "ACROSS": _across,
-    "COMPLEX": _screw,
+    "COMPLEX": _complex,
     "EVERY": _every,
     "DIRECTION": _direction,
     "DIRECTIONS_IN_PLANE": _directions_in_plane,
