@@ -15,7 +15,7 @@ from flexact.advice.spaces.families import Family, FamilyKind
 from flexact.advice.spaces.screw_space import ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
 from flexact.drawing import SpaceShape, dashes, shape_of_space
-from flexact.drawing.spaces import _MADE_BY
+from flexact.drawing.space_families import MADE_BY
 from flexact.page import page
 from flexact.picture import SubjectError, draw, has_packages, picture_bytes
 
@@ -39,7 +39,7 @@ def spaces_in(name: str) -> tuple[flexact.Analysis, Spaces]:
 
 
 def test_every_kind_of_family_is_drawn() -> None:
-    assert set(_MADE_BY) == {kind.name for kind in FamilyKind}
+    assert set(MADE_BY) == {kind.name for kind in FamilyKind}
 
 
 X, Y, Z = np.eye(3)
