@@ -121,6 +121,17 @@ def test_a_declaration_that_is_taken_back_is_said() -> None:
     assert "the declaration is taken back of: the stage along z" in text
 
 
+def test_wires_that_would_only_cause_self_stress_are_not_proposed() -> None:
+    """In the trap what moves is declared elsewhere: a wire would stop a declared freedom."""
+    trap = flexact.analyse("input_decks/flexures/five_folded_sheets_trap.dat")
+    found = spaces_of(trap, "upper 90, fold")
+    assert found is not None
+    assert found.stoppable == 2
+    assert found.proposals == ()
+    text = "\n".join(plain(line.head) for line in spaces_lines(trap, found))
+    assert "none stops only that and causes no self-stress" in text
+
+
 def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of very large mechanisms the core keeps only some of the motions."""
     result = flexact.analyse(on_wires(WIRES["guide"]))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from flexact.advice.spaces.families import FamilyKind
-from flexact.advice.spaces.screw_space import ScrewSpace
+from flexact.advice.spaces.screw_space import ScrewSpace, canonical
 
 K = FamilyKind
 X, Y, Z = np.eye(3)
@@ -55,6 +55,19 @@ def test_a_cylindroid_with_pitches_of_one_sign_is_told_by_its_principal_screws()
         assert each.pitch == pytest.approx(pitch)
         assert np.allclose(each.direction, axis, atol=1e-9)
         assert np.allclose(np.cross(each.point, axis), 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_screws_of_one_pitch_do_not_depend_on_the_basis(seed: int) -> None:
+    """All screws of the pencil, or of the bundle, have that pitch: those along x, y, z are told."""
+    random = np.random.default_rng(seed)
+    for axes in ((X, Y), (X, Y, Z)):
+        rows = np.array([screw(axis, 0.5, (0.1, 0.2, 0)) for axis in axes])
+        found = space(*random.normal(size=(len(axes), len(axes))) @ rows).families
+        assert [each.kind for each in found] == [K.SCREW] * len(axes)
+        for each in found:
+            assert each.pitch == pytest.approx(0.5)
+            assert np.abs(each.direction).max() == pytest.approx(1.0)
 
 
 def test_one_line_of_a_cylindroid_and_the_screw_across_it() -> None:
@@ -148,3 +161,14 @@ def test_a_small_offset_is_none_and_a_larger_one_is_told() -> None:
     other = space(screw(X, 0.0), screw(Y, 0.0, (0, 0, 1e-3)))
     assert [each.kind for each in one.families] == [K.PENCIL]
     assert [each.kind for each in other.families] == [K.LINE, K.LINE]
+
+
+@pytest.mark.parametrize("count", range(1, 6))
+def test_rows_follow_from_the_space_alone(count: int) -> None:
+    random = np.random.default_rng(count)
+    rows = np.linalg.qr(random.normal(size=(6, count)))[0].T
+    turned = np.linalg.qr(random.normal(size=(count, count)))[0] @ rows
+    one, other = canonical(rows), canonical(turned)
+    assert np.allclose(one, other, atol=1e-9)
+    assert np.allclose(one @ one.T, np.eye(count), atol=1e-9)
+    assert np.allclose(one.T @ one, rows.T @ rows, atol=1e-9)

@@ -25,7 +25,7 @@ from ...result.decompose import decompose
 from ...result.outcome import Asked
 from ...result.result import Result
 from ...result.weights import column_weights
-from .screw_space import ScrewSpace
+from .screw_space import ScrewSpace, canonical
 from .subjects import Subject
 
 
@@ -149,5 +149,5 @@ class Freed:
         length = one.characteristic_length
         left, sizes, _ = np.linalg.svd(self.twists(subject), full_matrices=False)
         rank = int(np.sum(sizes > self.outcome.rounding * max(1.0, sizes.max(initial=0.0))))
-        rows = left[:, :rank].T / np.repeat((length, 1.0), 3)
+        rows = canonical(left[:, :rank].T) / np.repeat((length, 1.0), 3)
         return ScrewSpace(rows, subject.middle(one), length, False, one.given.planar)

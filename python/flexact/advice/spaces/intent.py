@@ -17,7 +17,8 @@ from .aims import Aim
 from .freedom import Freed
 from .screw_space import ScrewSpace
 from .subjects import Subject
-from .wanted import Wanted, Written, wanted_of
+from .wanted import Wanted, wanted_of
+from .written import Written
 
 #: A body whose part in a motion is less stands still.
 _STILL = 1.0e-6
@@ -32,7 +33,8 @@ def declared_of(result: Result, subject: Subject, space: ScrewSpace) -> tuple[Wa
     it, if the body can do that; every other one is the motion in which the others stand still.
     """
     made = []
-    undeclared = left if (left := Freed.as_declared(result).space(subject)).dimension else None
+    left = Freed.as_declared(result)
+    undeclared = left.space(subject) if left.is_known else None
     for freedom in result.freedoms[:_MOST]:
         found = _own(result, subject, space, freedom) or _moved(subject, space, freedom, undeclared)
         if found is not None:

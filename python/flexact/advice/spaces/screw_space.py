@@ -141,6 +141,7 @@ class ScrewSpace(Frozen):
             used = np.array([2, 3, 4] if self.of_wrenches else [0, 1, 5])
         made = np.zeros((used.size - self.dimension, 6))
         made[:, used] = complement(swapped[:, used])
+        made = canonical(made)
         return ScrewSpace(
             made / self._factors, self.about, self.length, not self.of_wrenches, self.planar
         )
@@ -153,3 +154,20 @@ def complement(rows: FloatArray) -> FloatArray:
         return np.eye(size)
     right: FloatArray = np.linalg.svd(rows)[2]
     return right[count:]
+
+
+def canonical(rows: FloatArray) -> FloatArray:
+    """(k, n) orthonormal rows that follow from the space of some alone: nearest to unit vectors.
+
+    Args:
+        rows: (k, n) orthonormal.
+    """
+    made = np.zeros((0, rows.shape[1]))
+    chosen: list[int] = []
+    while len(made) < len(rows):
+        # The rest of each unit vector within the space, of which the largest is taken.
+        rest = rows.T @ rows - made.T @ made
+        place = int(np.argmax(np.round(np.diag(rest), 6)))
+        made = np.concatenate((made, rest[place][None] / np.linalg.norm(rest[place])))
+        chosen.append(place)
+    return made[np.argsort(chosen)]

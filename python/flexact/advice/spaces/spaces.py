@@ -25,8 +25,9 @@ from .intent import declared_of, not_wanted
 from .screw_space import ScrewSpace
 from .sheets import sheets_for
 from .subjects import Subject, rank_of, subject_named, subjects_of
-from .wanted import Wanted, read, wanted_of
+from .wanted import Wanted, wanted_of
 from .wires import wires_for
+from .written import read
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +43,8 @@ class Spaces(Frozen):
         stoppable: How many of these wires can stop without stopping anything that is wanted.
         proposals: Wires that do so, each analysed: first single ones, then, where more are
             needed, a set of them that stops all that can be stopped, and sheets that stop three.
-        tried: Whether wires were tried: of mechanisms that are not large.
+        tried: Whether wires and sheets were tried: if asked for, and of mechanisms that are not
+            large.
     """
 
     subject: Subject
@@ -71,7 +73,9 @@ class Spaces(Frozen):
         return self.constraint.lines
 
 
-def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = ()) -> Spaces | None:
+def spaces_of(
+    result: Result, body: str | None = None, wanted: Sequence[str] = (), *, wires: bool = True
+) -> Spaces | None:
     """The freedom space and the constraint space of a body.
 
     Args:
@@ -81,7 +85,8 @@ def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = (
             moves in most independent ways, then the largest; joints with an orientation serve
             where no body is declared or there is none, that at which most parts meet first.
         wanted: What it is meant to do, such as "stage: translation z"
-            (`flexact.advice.spaces.wanted`).
+            (`flexact.advice.spaces.written`).
+        wires: Whether wires and sheets are tried; each takes an analysis.
 
     Returns:
         None where no body is named and nothing in the mechanism has an orientation and can move,
@@ -108,7 +113,7 @@ def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = (
                 "ask for one body at a time",
             )
     freedom = freed.space(subject)
-    is_small = result.is_told_by_parts
+    is_tried = wires and result.is_told_by_parts
     meant = tuple(wanted_of(result, freedom, each) for each in written)
     meant = meant or declared_of(result, subject, freedom)
     aim = Aim.of(freedom, [each.twist for each in meant if each.is_free])
@@ -117,9 +122,9 @@ def spaces_of(result: Result, body: str | None = None, wanted: Sequence[str] = (
     return Spaces(
         *(subject, freedom, freedom.reciprocal, meant, len(aim.unwanted), aim.stoppable),
         (*wires_for(freed, site, aim, besides), *sheets_for(freed, site, aim, besides))
-        if is_small
+        if is_tried
         else (),
-        is_small,
+        is_tried,
     )
 
 

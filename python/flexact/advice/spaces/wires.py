@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
@@ -45,11 +45,25 @@ def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Prop
     single = (_wires(freed, site, aim, (line,), besides) for line in lines)
     made = list(islice(filter(None, single), _MOST_PROPOSALS))
     if len(aim.unwanted) > 1:
-        sets = [chosen for line in lines if len(chosen := _set_from(site, aim, line)) > 1]
-        sets.sort(key=len, reverse=True)
-        whole = (_wires(freed, site, aim, chosen, besides) for chosen in sets)
-        made += islice(filter(None, whole), 1)
+        made += _sets(freed, site, aim, lines, besides)
     return tuple(made)
+
+
+def _sets(
+    freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
+) -> Iterator[Proposal]:
+    """One set of wires that stops all that wires can stop; without one the largest there is."""
+    most, smaller = aim.stoppable, list[tuple[Line, ...]]()
+    for line in lines:
+        chosen = _set_from(site, aim, line)
+        found = _wires(freed, site, aim, chosen, besides) if len(chosen) == most > 1 else None
+        if found is not None:
+            yield found
+            return
+        smaller.append(chosen)
+    smaller.sort(key=len, reverse=True)
+    rest = (_wires(freed, site, aim, each, besides) for each in smaller if len(each) > 1)
+    yield from islice(filter(None, rest), 1)
 
 
 def _set_from(site: Site, aim: Aim, first: Line) -> tuple[Line, ...]:

@@ -91,8 +91,12 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
     yield sentence(f"{besides} in {in_words(count)} {others}independent way{'s' * (count > 1)}.")
     if spaces.stoppable < count:
         yield sentence(_impossible(spaces))
-    if not spaces.tried:
+    if not spaces.tried and not result.is_told_by_parts:
         yield sentence("The mechanism is so large that no wires were tried.")
+    if spaces.tried and spaces.stoppable and not spaces.proposals:
+        yield sentence(
+            "Of the wires that were tried none stops only that and causes no self-stress."
+        )
     yield from _taken_back(result, spaces)
     what = " and nothing that is wanted" if had else ""
     single = [each for each in spaces.proposals if len(each.change.wires) == 1]
