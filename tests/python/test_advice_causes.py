@@ -414,6 +414,41 @@ def test_what_cannot_be_tried_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) 
     assert causes.generic_rank is None
 
 
+def test_mechanisms_beside_each_other_are_told_apart() -> None:
+    """Two stages on five wires, four of them parallel: each has one motion too many."""
+    model = Model()
+    for unit, shift in (("a", 0.0), ("b", 0.5)):
+        ends = []
+        for k, (x, y, z) in enumerate(
+            ((1, -0.03, 0.02), (1, 0.03, 0.02), (0, 0, 0.02), (1, -0.03, -0.02), (1, 0.03, -0.02))
+        ):
+            way = np.array([x, 1 - x, 0])
+            ground, end = (r * way + (shift, y, z) for r in (0.1, 0.04))
+            model.wire(ground, end, name=f"{unit} wire {k + 1}")
+            model.fix(ground)
+            ends.append(end)
+        model.body(ends, name=f"{unit} stage")
+    result = flexact.analyse(model)
+    assert (result.under_constrained, result.over_constrained) == (4, 2)
+    causes = causes_of(result)
+    assert special(causes) == (2, 2)
+    for motion, cause in zip(result.motions, causes.motions, strict=True):
+        names = {result.motions[k].bodies[0].names[0][0] for k in cause.together}
+        assert names == {motion.bodies[0].names[0][0]}
+        assert (len(cause.together), cause.special) == (2, 1)
+    for stress, cause in zip(result.self_stresses, causes.self_stresses, strict=True):
+        (relation,) = cause.relations
+        assert {part.name[0] for part in relation.parts} == {stress.parts[0].part.name[0]}
+
+
+def test_very_many_are_counted_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = causes_of_deck("frameworks/collinear_bars_space")
+    monkeypatch.setattr("flexact.advice.causes.gradients.MOST_ENTRIES", 1)
+    causes = causes_of_deck("frameworks/collinear_bars_space")
+    assert special(causes) == special(expected)
+    assert all(one.lift is None and one.is_first_order is None for one in causes.motions)
+
+
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
 
 

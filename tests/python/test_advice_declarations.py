@@ -63,7 +63,7 @@ def test_of_every_deck_the_count_is_right_and_the_sets_work(name: str) -> None:
 def test_of_random_models_the_count_is_right(seed: int) -> None:
     random = np.random.default_rng(10 + seed)
     with_several = 0
-    for k in range(40):
+    for k in range(16):
         if k % 2:
             made = mechanism(random, planar=bool(k % 4 == 1))
         else:
@@ -80,7 +80,7 @@ def test_of_random_models_the_count_is_right(seed: int) -> None:
         assert declarations.count == truth
         assert bool(declarations.sets) == (truth != 0)
         with_several += declarations.size > 1
-    assert with_several > 2
+    assert with_several > 1
 
 
 def test_bodies_come_before_joints_and_displacements_before_rotations() -> None:
@@ -122,7 +122,7 @@ def test_a_model_made_in_python_gets_calls_and_a_deck_statements() -> None:
     assert "FIX 5 2" in words
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", NAMES[::3])
 def test_words_do_not_depend_on_units(name: str) -> None:
     def words_of(analysis: Analysis) -> list[str]:
         found = declarations_of(analysis)

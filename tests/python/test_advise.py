@@ -56,7 +56,7 @@ def test_steps_are_a_sequence_in_the_order_of_their_numbers() -> None:
     assert steps[0] in steps and steps[-1] is steps[len(steps) - 1]
     assert [step.number for step in steps[1:3]] == [2, 3]
     order = [
-        *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
+        *(Purpose.MEND, Purpose.UNDECLARE, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
         *(Purpose.ADD_WIRE, Purpose.ADD_SHEET),
     ]
     places = [order.index(step.purpose) for step in steps]
@@ -130,6 +130,27 @@ def test_internal_motions_have_no_bodies() -> None:
         (True, 0): 1,
         (False, 1): 5,
     }
+
+
+def test_what_is_driven_against_a_constraint_is_taken_back() -> None:
+    """A four-bar linkage has one freedom, so that two driven cranks fight; either may go."""
+    text = (INPUT / "linkages" / "four_bar_planar.dat").read_text(encoding="utf-8")
+    made = analyse(flexact.read_text(text.replace("END", "DYNX 13 1\nDYNX 33 1\nEND", 1))).advice()
+    assert made.analysis.verdict is flexact.Verdict.OVER
+    driven = [step for step in made if step.purpose is Purpose.UNDECLARE]
+    assert [step.number for step in driven] == [1, 2]
+    assert {step.change.coordinates[0][0] for step in driven} == {13, 33}
+    assert all(analyse(step.apply()).verdict is flexact.Verdict.EXACT for step in driven)
+
+
+def test_a_trap_of_declarations_is_left_in_two_steps() -> None:
+    """Bendings that were declared at clamps are taken back, and the folds declared instead."""
+    made = advice("flexures/five_folded_sheets_trap")
+    first = made[0]
+    assert first.purpose is Purpose.UNDECLARE
+    assert len(first.change.deformations) == made.analysis.over_constrained == 5
+    assert (first.after.under_constrained, first.after.over_constrained) == (5, 0)
+    assert made.exact_by[0] == 1 and len(made.exact_by) == 2
 
 
 def test_an_exact_mechanism_has_nothing_to_mend() -> None:
@@ -275,21 +296,39 @@ def test_steps_are_taken_together(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert advice("paper/six_folded_sheets").exact_by == ()
 
 
-@pytest.mark.parametrize("chosen", [[], ["--apply", "2"]])
-def test_a_page_shows_before_and_after(
-    chosen: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_page_shows_before_and_after(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "page.html"
     path = str(INPUT / "flexures" / "parallel_guide.dat")
-    code, out, _ = run(capsys, path, *chosen, "-o", str(target))
-    step = advice("flexures/parallel_guide")[int(chosen[1]) - 1 if chosen else 0]
-    assert code == 0 and f"step {step.number} shown in" in out
+    code, out, _ = run(capsys, path, "-o", str(target))
+    assert code == 0 and "step 1 shown in" in out
     page = target.read_text(encoding="utf-8")
     assert "before and after" in page and "exactly constrained" in page.lower()
     assert "Constraint of" in page
-    exact = write(tmp_path / "exact.dat", DECKS["exact"])
-    code, _, err = run(capsys, str(exact), "-o", str(tmp_path / "none.html"))
-    assert code == 1 and "nothing to mend" in err and not (tmp_path / "none.html").exists()
+
+
+def test_a_page_of_an_exact_mechanism_shows_it_as_it_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, target = write(tmp_path / "exact.dat", DECKS["exact"]), tmp_path / "page.html"
+    code, out, _ = run(capsys, str(path), "-o", str(target))
+    assert code == 0 and "nothing to mend" in out
+    assert "before and after" not in target.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg"])
+def test_a_picture_shows_freedom_and_constraint(
+    suffix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    target = tmp_path / f"spaces{suffix}"
+    path = str(INPUT / "flexures" / "cross_hinge_undeclared.dat")
+    code, out, _ = run(capsys, path, "--body", "body", "-o", str(target))
+    assert code == 0 and "drawn in" in out
+    assert target.stat().st_size > 5000
+    # A framework has no bodies.
+    bars = write(tmp_path / "bars.dat", DECKS["exact"])
+    code, _, err = run(capsys, str(bars), "-o", str(tmp_path / "bars.png"))
+    assert code == 1 and "freedom space" in err and not (tmp_path / "bars.png").exists()
 
 
 @pytest.mark.parametrize(
@@ -301,6 +340,8 @@ def test_a_page_shows_before_and_after(
         (["--apply", "1,99", "-o", "new.dat"], "there is no step 99"),
         (["--apply", "1", "-o", "{deck}"], "would overwrite"),
         (["-o", "new.dat"], "--apply"),
+        (["-o", "new.gif"], "picture"),
+        (["--apply", "1", "-o", "new.png"], "picture"),
         (["--apply", "0", "-o", "new.dat"], "number of a step"),
         (["--apply", "-1", "-o", "new.dat"], "number of a step"),
         (["--apply", "one", "-o", "new.dat"], "number of a step"),
@@ -320,12 +361,12 @@ def test_mistakes_are_told_in_words(
     write(tmp_path / "missing.dat", "")
     places = {"deck": str(deck), "folder": str(tmp_path)}
     given = [word.format(**places) for word in words]
-    given = [str(tmp_path / word) if word == "new.dat" else word for word in given]
+    given = [str(tmp_path / word) if word.startswith("new.") else word for word in given]
     code, out, err = run(capsys, str(deck), *given)
     assert (code, out) == (1, "")
     assert said in err and "Traceback" not in err
     assert deck.read_text() == guide_deck()
-    assert not (tmp_path / "new.dat").exists()
+    assert not list(tmp_path.glob("new.*"))
 
 
 def guide_deck() -> str:

@@ -263,3 +263,15 @@ def test_words_of_several_motions() -> None:
     assert len(lines) == 3
     assert "1 dimension" in lines[0]
     assert all("motion 1" in line and "motion 2" in line for line in lines[1:])
+
+
+def test_divided_sheets_say_the_same_once_they_count_as_one() -> None:
+    whole = flexact.analyse(deck("flexures/parallel_guide_undeclared"))
+    divided = flexact.analyse(deck("flexures/parallel_guide_four_beams_undeclared"))
+    assert divided.with_internal_declared is not None
+    for each in (whole, divided.with_internal_declared):
+        check(extents_of(each), FINITE, FOLLOWED, 1)
+    # The motions inside take one dimension from what is free: the in-plane moment is felt.
+    found = extents_of(divided)
+    assert found.finite_dimension == divided.under_constrained - 1
+    assert {each.kind for each in found.motions} == {FINITE}

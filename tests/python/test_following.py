@@ -7,7 +7,7 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.result.following import Ending, Held, Wishes, follow, follow_both_ways, least_error
-from flexact.result.following.held import _left_jacobian
+from flexact.result.following.rotations import left_jacobian
 
 DECKS = ROOT / "input_decks"
 
@@ -36,10 +36,10 @@ def test_the_derivative_of_a_rotation_vector_is_that_of_its_matrix() -> None:
     """T(v) dv is the small rotation between exp(v) and exp(v + dv): T(v) v = v for any v."""
     for size in (1e-9, 1e-5, 1e-3, 1.0, 3.0):
         v = size * np.array([[0.6, 0.0, 0.8]])
-        assert _left_jacobian(v)[0] @ v[0] == pytest.approx(v[0], rel=1e-15)
+        assert left_jacobian(v)[0] @ v[0] == pytest.approx(v[0], rel=1e-15)
         # About an axis across v it is sin|v|/|v|.
         across = np.array([0.0, 1.0, 0.0])
-        assert across @ _left_jacobian(v)[0] @ across == pytest.approx(np.sinc(size / np.pi))
+        assert across @ left_jacobian(v)[0] @ across == pytest.approx(np.sinc(size / np.pi))
 
 
 def test_a_difference_leads_from_one_configuration_to_another() -> None:

@@ -59,6 +59,15 @@ def release_set(result: Result) -> list[int]:
     return _independent_rows(result.stress_space, lambda row: row_key(result, row), able)
 
 
+def driven_set(result: Result) -> list[int]:
+    """Rows of independent deformations that remove self-stresses, as many as they can.
+
+    To release all of them in place of their declarations does so.
+    """
+    able = is_of_class(result, Class.INDEPENDENT)
+    return _independent_rows(result.stress_space, lambda row: row_key(result, row), able)
+
+
 def driven_deformations(result: Result) -> Deformations:
     """Independent deformations in a self-stress: driven against a constraint.
 

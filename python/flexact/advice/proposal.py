@@ -17,6 +17,7 @@ from .change import Change
 class Purpose(str, Enum):
     """What a proposal is to do."""
 
+    UNDECLARE = "take back what is driven against a constraint"
     RELEASE = "release what is stopped twice"
     DECLARE = "declare what moves"
     HOLD = "hold what moves"

@@ -14,6 +14,7 @@ from ..advice.proposal import Proposal, Purpose, tried
 from ..advice.releases.declarations import Declarations, declarations_of
 from ..advice.releases.releases import Releases, releases_of
 from ..advice.spaces.spaces import Spaces, spaces_of
+from ..advice.undeclaring import undeclarations_of
 from ..base.frozen import Frozen
 from ..core.progress import Progress
 from ..result.extents.decide import extents_of
@@ -27,7 +28,7 @@ from .steps import Step, together
 
 #: Kinds of steps in the order in which they are shown.
 _ORDER = (
-    *(Purpose.MEND, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
+    *(Purpose.MEND, Purpose.UNDECLARE, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
     *(Purpose.ADD_WIRE, Purpose.ADD_SHEET),
 )
 #: What takes time, in the order in which it is found, and what is said meanwhile.
@@ -99,6 +100,7 @@ class Advice(Frozen, Sequence[Step]):
 
     def _proposals(self) -> Iterator[Proposal]:
         yield from self.causes.mends
+        yield from undeclarations_of(self.analysis)
         yield from (*self.releases.sets, *self.releases.supports)
         yield from (*self.declarations.sets, *self.declarations.holds)
         if self.spaces is not None:
@@ -118,7 +120,8 @@ class Advice(Frozen, Sequence[Step]):
         where they do not do it.
         """
         firsts = {step.purpose: step.number for step in reversed(self.steps)}
-        able = [firsts[kind] for kind in (Purpose.RELEASE, Purpose.DECLARE) if kind in firsts]
+        release = Purpose.UNDECLARE if Purpose.UNDECLARE in firsts else Purpose.RELEASE
+        able = [firsts[kind] for kind in (release, Purpose.DECLARE) if kind in firsts]
         exact = (step for step in self.steps if step.after.verdict is Verdict.EXACT)
         if self.analysis.verdict is not Verdict.BOTH or len(able) < 2 or any(exact):
             return ()

@@ -32,6 +32,7 @@ _SHORT = 100
 #: What steps are for.
 _AIMS = {
     Purpose.MEND: "To let what is stopped twice stop what is free",
+    Purpose.UNDECLARE: "To drive nothing against a constraint",
     Purpose.RELEASE: "To stop nothing twice",
     Purpose.DECLARE: "To leave nothing free that is not declared",
     Purpose.HOLD: "To leave nothing free that is not declared",

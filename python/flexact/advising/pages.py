@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of a mechanism before and after a change, with the advice below."""
+"""The page of a mechanism before and after a change, and the picture of what a body can do."""
 
 from __future__ import annotations
 
 from ..advice.change import Change
-from ..page import before_and_after
+from ..advice.spaces.spaces import Spaces, spaces_of
+from ..diagnostics.errors import ModelError, model_error
+from ..page import before_and_after, page
 from ..picture import has_packages, picture_bytes
 from ..result.outcome import Asked
 from ..result.result import Result, result_of
@@ -28,8 +30,43 @@ def page_of(advice: Advice, change: Change, words: Pieces) -> bytes:
     )
     told = (each.line for section in sections_of(advice) for each in section)
     stills = _still(before), _still(after)
-    page = before_and_after(before, after, words, told, stills)
-    return page.encode("utf-8", "backslashreplace")
+    spaces = advice.spaces, _spaces_after(advice, after)
+    made = before_and_after(before, after, words, told, stills, spaces=spaces)
+    return made.encode("utf-8", "backslashreplace")
+
+
+def page_as_it_is(advice: Advice) -> bytes:
+    """The page of a mechanism alone, with freedom and constraint to be switched on."""
+    made = page(advice.analysis, _still(advice.analysis), advice.spaces)
+    return made.encode("utf-8", "backslashreplace")
+
+
+def picture_of(advice: Advice, suffix: str) -> bytes:
+    """A picture of the freedom and the constraint of the body.
+
+    Args:
+        advice: The advice on the mechanism.
+        suffix: `.png` or `.svg`.
+
+    Raises:
+        ModelError: there is no body that could move.
+        PictureError: a package is missing.
+    """
+    spaces = advice.spaces
+    if spaces is None:
+        raise model_error("no-body", "nothing in this mechanism has a freedom space to be drawn")
+    return picture_bytes(advice.analysis, suffix, spaces=spaces)
+
+
+def _spaces_after(advice: Advice, after: Result) -> Spaces | None:
+    """Freedom and constraint of the same body in the changed mechanism."""
+    if advice.spaces is None:
+        return None
+    try:
+        return spaces_of(after, advice.spaces.subject.name, wires=False)
+    except ModelError:
+        # It has another name now, or none.
+        return None
 
 
 def _still(result: Result) -> bytes | None:

@@ -18,11 +18,13 @@ from ..text.advising.causes import mend_in_words
 from ..text.advising.releases import declaration_in_words, release_in_words
 from ..text.advising.sentences import sentence
 from ..text.advising.spaces import wire_in_words
+from ..text.advising.undeclaring import undeclaration_in_words
 from ..text.naming import counts_in_words
 from ..text.sentences import Pieces, plain
 
 _WORDS: dict[Purpose, Callable[[Result, Proposal], Pieces]] = {
     Purpose.MEND: mend_in_words,
+    Purpose.UNDECLARE: undeclaration_in_words,
     Purpose.RELEASE: release_in_words,
     Purpose.DECLARE: declaration_in_words,
     Purpose.HOLD: declaration_in_words,

@@ -45,6 +45,13 @@ class Basis(NamedTuple):
         made[self.place, self.of_entries()] = self.value
         return made
 
+    def only(self, vectors: IntArray) -> Basis:
+        """Some of the vectors."""
+        counts = np.diff(self.start)[vectors]
+        start = np.concatenate(([0], np.cumsum(counts)))
+        entries = np.repeat(self.start[vectors] - start[:-1], counts) + np.arange(start[-1])
+        return Basis(self.size, start.astype(np.int32), self.place[entries], self.value[entries])
+
     def of_entries(self) -> IntArray:
         """(entries,) the vector that each entry belongs to."""
         return np.repeat(np.arange(self.vectors, dtype=np.int32), np.diff(self.start))

@@ -8,59 +8,19 @@ freedom in red, constraint in blue; of a family of infinitely many lines so many
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import Enum
-from typing import Protocol
 
 import numpy as np
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from .rotations import frames_along, unit
+from .space_families import MADE_BY, FamilyLike, disc
 
-#: Half the length of a line, and of an arrow from the middle: parts of the drawing's size.
-_REACH, _ARROW = 0.42, 0.26
-#: Where arrows begin, away from the middle.
-_START = 0.05
-#: Lines through a point in a plane, and corners of a disc.
-_FAN, _ROUND = 8, 40
-#: Lines side by side.
-_BESIDE = np.linspace(-0.75, 0.75, 5)
-#: Of a helix: radius, at most so many turns, and points of each.
-_HELIX, _TURNS, _POINTS = 0.045, 8.0, 24
-
-
-class FamilyLike(Protocol):
-    """A family of lines, directions or screws; see `flexact.advice.spaces.families`."""
-
-    @property
-    def kind(self) -> Enum:
-        """What it is, by the name of the member."""
-
-    @property
-    def point(self) -> FloatArray:
-        """(3,) [m]."""
-
-    @property
-    def direction(self) -> FloatArray:
-        """(3,) unit vector, or zero."""
-
-    @property
-    def normal(self) -> FloatArray:
-        """(3,) unit vector, or zero."""
-
-    @property
-    def pitch(self) -> float:
-        """[m/rad]."""
-
-    @property
-    def points(self) -> FloatArray:
-        """(n, 3) of lines [m]."""
-
-    @property
-    def directions(self) -> FloatArray:
-        """(n, 3) unit vectors along them."""
+#: Radius of a ring about a pole, and of one that is a couple, in the plane.
+_POLE, _COUPLE = 0.02, 0.1
+#: Up to so many lines can be thick.
+_FEW = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +40,9 @@ class SpaceShape(Frozen):
     arrows: tuple[FloatArray, ...] = ()
 
     @property
-    def is_empty(self) -> bool:
-        """Whether there is nothing to draw."""
-        return not (self.lines or self.faces or self.arrows)
+    def is_bold(self) -> bool:
+        """Whether its lines are so few that they can be thick."""
+        return len(self.lines) <= _FEW
 
     def __add__(self, other: SpaceShape) -> SpaceShape:
         """Both together."""
@@ -95,7 +55,12 @@ class SpaceShape(Frozen):
 
 
 def shape_of_space(
-    families: Iterable[FamilyLike], middle: FloatArray, size: float, *, is_freedom: bool
+    families: Iterable[FamilyLike],
+    middle: FloatArray,
+    size: float,
+    *,
+    is_freedom: bool,
+    planar: bool = False,
 ) -> SpaceShape:
     """What is drawn of a space.
 
@@ -104,210 +69,34 @@ def shape_of_space(
         middle: (3,) of the body [m].
         size: Of the drawing [m].
         is_freedom: Whether it is that of motions.
+        planar: Whether the drawing is; what is along z is a ring there.
     """
     made = SpaceShape(is_freedom)
     for family in families:
-        lines, faces, arrows = _MADE_BY[family.kind.name](family, middle, size)
+        lines, faces, arrows = MADE_BY[family.kind.name](family, middle, size)
         made += SpaceShape(is_freedom, tuple(lines), tuple(faces), tuple(arrows))
-    return made
+    return _in_plane(made, size) if planar else made
 
 
-_Parts = tuple[list[FloatArray], list[FloatArray], list[FloatArray]]
-
-
-def _segments(points: FloatArray, directions: FloatArray, half: float) -> list[FloatArray]:
-    """A line (2, 3) to both sides of each point, (3,) or (n, 3)."""
-    points, directions = np.broadcast_arrays(np.atleast_2d(points), np.atleast_2d(directions))
-    return list(np.stack((points - half * directions, points + half * directions), axis=1))
-
-
-def _fan(normal: FloatArray, count: int = _FAN) -> FloatArray:
-    """(count, 3) directions in a plane, over half a turn."""
-    frame = frames_along(normal[None])[0]
-    angle = np.pi * np.arange(count) / count
-    made: FloatArray = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
-    return made
-
-
-def _disc(point: FloatArray, normal: FloatArray, radius: float) -> FloatArray:
-    ring = _fan(normal, _ROUND // 2)
-    made: FloatArray = point + radius * np.concatenate((ring, -ring))
-    return made
-
-
-def _square(point: FloatArray, one: FloatArray, other: FloatArray, half: float) -> FloatArray:
-    corners = np.array(((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)))
-    made: FloatArray = point + half * (corners[:, :1] * one + corners[:, 1:] * other)
-    return made
-
-
-def _sides(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Two unit vectors across a direction and each other."""
-    frame = frames_along(direction[None])[0]
-    return frame[:, 1], frame[:, 2]
-
-
-def _nearest(family: FamilyLike, middle: FloatArray) -> FloatArray:
-    """(n, 3) the point of each line of a family that is nearest to the middle."""
-    arm = middle - family.points
-    along = np.sum(arm * family.directions, axis=1)[:, None]
-    made: FloatArray = family.points + along * family.directions
-    return made
-
-
-def _line(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return _segments(family.point, family.direction, _REACH * size), [], []
-
-
-def _pencil(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    half = _REACH * size
-    lines = _segments(family.point, _fan(family.normal), half)
-    return lines, [_disc(family.point, family.normal, half)], []
-
-
-def _parallels_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    half = _REACH * size
-    across = unit(np.cross(family.normal, family.direction))
-    points = family.point + half * _BESIDE[:, None] * across
-    face = _square(family.point, family.direction, across, half)
-    return _segments(points, family.direction, half), [face], []
-
-
-def _bundle(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    every = np.array([each for each in np.ndindex(3, 3, 3) if each > (1, 1, 1)]) - 1.0
-    return _segments(family.point, unit(every), _REACH * size), [], []
-
-
-def _parallels(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    one, other = _sides(family.direction)
-    half, beside = _REACH * size, 0.6 * _REACH * size
-    places = [middle + beside * (i * one + j * other) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-    lines = _segments(np.array(places), family.direction, half)
-    faces = [
-        _square(middle + end * half * family.direction, one, other, 1.3 * beside) for end in (-1, 1)
+def _in_plane(shape: SpaceShape, size: float) -> SpaceShape:
+    """Rings about the poles of rotations, wider ones for couples, in place of what is along z."""
+    rings = [
+        disc(parts.mean(axis=0), np.array((0.0, 0.0, 1.0)), radius * size)
+        for every, radius in ((shape.lines, _POLE), (shape.arrows[::2], _COUPLE))
+        for parts in every
+        if _is_upright(parts)
     ]
-    return lines, faces, []
-
-
-def _plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return *_flat(family.point, family.normal, _REACH * size), []
-
-
-def _flat(
-    point: FloatArray, normal: FloatArray, half: float
-) -> tuple[list[FloatArray], list[FloatArray]]:
-    """Lines of all directions in a plane, and a square of it."""
-    one, other = _sides(normal)
-    lines = _segments(point + half * _BESIDE[:, None] * other, one, half)
-    lines += _segments(point + half * _BESIDE[:, None] * one, other, half)
-    diagonals = np.array((one + other, one - other))
-    return lines + _segments(point, diagonals, half), [_square(point, one, other, half)]
-
-
-def _some(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return _segments(_nearest(family, middle), family.directions, _REACH * size), [], []
-
-
-def _meeting_two(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    lines, _, _ = _some(family, middle, size)
-    first, second = (
-        np.linspace(0.12, 0.88, 4)[:, None] * (line[1] - line[0]) + line[0] for line in lines
+    closed = [np.concatenate((ring, ring[:1])) for ring in rings]
+    lines, arrows = (
+        tuple(parts for parts in every if not _is_upright(parts))
+        for every in (shape.lines, shape.arrows)
     )
-    lines += [np.stack((one, other)) for one in first for other in second]
-    return lines, [], []
+    return SpaceShape(shape.is_freedom, (*lines, *closed), shape.faces, arrows)
 
 
-def _meeting_across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    lines, _, _ = _some(family, middle, size)
-    half = 0.6 * _REACH * size
-    places = np.linspace(0.15, 0.85, 3)[:, None] * (lines[0][1] - lines[0][0]) + lines[0][0]
-    faces = [_disc(place, family.direction, half) for place in places]
-    for place in places:
-        lines += _segments(place, _fan(family.direction, 4), half)
-    return lines, faces, []
-
-
-def _meeting(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    lines, _, _ = _line(family, middle, size)
-    one, other = _sides(family.direction)
-    slant = np.array([one, other, one + family.direction, other - family.direction])
-    for share in (-0.6, 0.0, 0.6):
-        place = family.point + share * _REACH * size * family.direction
-        lines += _segments(place, unit(slant), 0.6 * _REACH * size)
-    return lines, [], []
-
-
-def _across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    lines, faces = [], []
-    for share in (-0.55, 0.0, 0.55):
-        place = middle + share * _REACH * size * family.direction
-        more = _flat(place, family.direction, 0.8 * _REACH * size)
-        lines += more[0]
-        faces += more[1]
-    return lines, faces, []
-
-
-def _every(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    faces = [_disc(middle, axis, _REACH * size) for axis in np.eye(3)]
-    lines = [_segments(middle, _fan(axis), _REACH * size) for axis in np.eye(3)]
-    return [each for some in lines for each in some], faces, []
-
-
-def _screw(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    half = _REACH * size
-    turns = min(half / abs(family.pitch) / np.pi, _TURNS) if family.pitch else _TURNS
-    share = np.linspace(-1.0, 1.0, max(int(turns * _POINTS), 2))[:, None]
-    angle = np.sign(family.pitch or 1.0) * np.pi * turns * share
-    one, other = _sides(family.direction)
-    # Both axes across are right-handed about the direction, and so is a screw of positive pitch.
-    around = _HELIX * size * (np.cos(angle) * one + np.sin(angle) * other)
-    helix: FloatArray = family.point + half * share * family.direction + around
-    return [*_segments(family.point, family.direction, half), helix], [], []
-
-
-def _arrows(directions: FloatArray, middle: FloatArray, size: float) -> list[FloatArray]:
-    ends = ((_START, _ARROW), (-_START, -_ARROW))
-    return [
-        np.stack([middle + part * size * each for part in pair])
-        for each in np.atleast_2d(directions)
-        for pair in ends
-    ]
-
-
-def _direction(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return [], [], _arrows(family.direction, middle, size)
-
-
-def _directions_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    disc = _disc(middle, family.normal, _ARROW * size)
-    return [], [disc], _arrows(_fan(family.normal, 4), middle, size)
-
-
-def _every_direction(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
-    return [], [], _arrows(np.eye(3), middle, size)
-
-
-#: By the name of the kind.
-_MADE_BY: dict[str, Callable[[FamilyLike, FloatArray, float], _Parts]] = {
-    "LINE": _line,
-    "PENCIL": _pencil,
-    "PARALLELS_IN_PLANE": _parallels_in_plane,
-    "BUNDLE": _bundle,
-    "PARALLELS": _parallels,
-    "PLANE": _plane,
-    "REGULUS": _some,
-    "MEETING_TWO": _meeting_two,
-    "MEETING_ACROSS": _meeting_across,
-    "CONGRUENCE": _some,
-    "MEETING": _meeting,
-    "ACROSS": _across,
-    "COMPLEX": _screw,
-    "EVERY": _every,
-    "DIRECTION": _direction,
-    "DIRECTIONS_IN_PLANE": _directions_in_plane,
-    "EVERY_DIRECTION": _every_direction,
-    "SCREW": _screw,
-}
+def _is_upright(parts: FloatArray) -> bool:
+    """Whether a line is along z."""
+    return bool(np.ptp(parts[:, :2], axis=0).max() < 1.0e-6 * np.ptp(parts[:, 2]))
 
 
 def dashes(ends: FloatArray, size: float) -> FloatArray:

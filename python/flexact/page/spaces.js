@@ -4,7 +4,8 @@
 
 const Spaces = (() => {
   const { BufferAttribute, CylinderGeometry, DoubleSide, Mesh, Vector3 } = THREE;
-  const LINE = 0.0035, WIRE = 0.008, ARROW = 0.008; // thicknesses
+  const LINE = 0.0035, BOLD = 0.007, WIRE = 0.008, ARROW = 0.008; // thicknesses
+  const OVER = 7; // arrows and wires are seen through what is before them
   const SECOND = 0.84; // where the second head of a couple is, along its arrow
   const OPACITY = 0.17;
   const start = new Vector3(), way = new Vector3();
@@ -22,9 +23,10 @@ const Spaces = (() => {
       const group = new THREE.Group();
       const colour = colours[space.freedom ? "freedom space" : "constraint space"];
       this.addFaces(group, space, colour);
-      this.addSticks(group, PageData.array(space.lines), LINE, colour);
+      const thick = space.bold ? BOLD : LINE;
+      this.addSticks(group, PageData.array(space.lines), thick, colour, 0);
       this.addArrows(group, PageData.array(space.arrows), space.freedom ? [1] : [1, SECOND], colour);
-      this.addSticks(group, PageData.array(space.wires), WIRE, colours["new wire"]);
+      this.addSticks(group, PageData.array(space.wires), WIRE, colours["new wire"], OVER);
       return group;
     }
 
@@ -39,12 +41,12 @@ const Spaces = (() => {
     }
 
     /** Straight pieces between pairs of points. */
-    addSticks(group, ends, thick, colour) {
+    addSticks(group, ends, thick, colour, order) {
       const rod = new CylinderGeometry(0.5, 0.5, 1, 8).translate(0, 0.5, 0);
       const sticks = new Symbols.Copies(rod, ends.length / 6, colour);
       eachPair(ends, (i, length) => sticks.set(i, start, way, thick, length));
       sticks.done();
-      this.keep(group, [sticks], colour);
+      this.keep(group, [sticks], colour, order);
     }
 
     /** Arrows with heads at some parts of their lengths. */
@@ -54,11 +56,14 @@ const Spaces = (() => {
       parts.forEach((part, k) => eachPair(ends, (i, length) =>
         arrows.set(k * count + i, start, way, part * length)));
       arrows.done(count * parts.length);
-      this.keep(group, [arrows.shafts, arrows.heads], colour);
+      this.keep(group, [arrows.shafts, arrows.heads], colour, OVER);
     }
 
-    keep(group, copies, colour) {
+    keep(group, copies, colour, order) {
       for (const { mesh } of copies) {
+        mesh.renderOrder = order;
+        // What is drawn late lies over the rest only where it counts as translucent.
+        Object.assign(mesh.material, { transparent: order > 0, depthTest: order === 0 });
         group.add(mesh);
         this.painted.push([mesh.material, colour]);
       }

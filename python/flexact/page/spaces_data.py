@@ -12,7 +12,7 @@ from ..base.plain_text import harmless
 from ..core.arrays import FloatArray
 from ..drawing import SpaceShape, dashes, shape_of_space
 from ..result.result import Result
-from ..text.advising.spaces import spaces_lines
+from ..text.advising.spaces import body_words, dashed_in_words, spaces_lines
 from ..text.sentences import plain
 from .drawing_data import Frame
 from .packing import floats, integers
@@ -28,13 +28,15 @@ def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[d
         ("Freedom", "Constraint"), (spaces.freedom, spaces.constraint), lines, strict=False
     ):
         is_freedom = not space.of_wrenches
-        shape = shape_of_space(space.families, space.about, frame.size, is_freedom=is_freedom)
+        shape = shape_of_space(
+            space.families, space.about, frame.size, is_freedom=is_freedom, planar=frame.planar
+        )
         wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
         words = harmless(plain(line.head) + "; ".join(map(plain, line.items)))
-        words += "; dashed: a wire to add" * (len(wires) > 0)
+        words += dashed_in_words(len(wires))
         made.append(
             {
-                "label": f"{label} space",
+                "label": harmless(f"{label} space of {body_words(spaces)}"),
                 "title": f"{words}.",
                 "freedom": is_freedom,
                 **_drawn(shape, frame),
@@ -55,6 +57,7 @@ def _drawn(shape: SpaceShape, frame: Frame) -> dict[str, Any]:
         behind += len(face)
     return {
         "lines": floats(_placed(pieces, frame)),
+        "bold": shape.is_bold,
         "arrows": floats(_placed([each[None] for each in shape.arrows], frame)),
         "corners": floats(_placed(corners, frame)),
         "triangles": integers(np.concatenate([np.zeros((0, 3), int), *triangles])),

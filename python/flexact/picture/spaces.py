@@ -13,13 +13,13 @@ from ..core.arrays import FloatArray
 from ..drawing import Drawing, SpaceShape, dashes, shape_of_space
 from ..drawing.colours import CONSTRAINT_SPACE, FREEDOM_SPACE, NEW_WIRE
 from ..result.result import Result
-from ..text.advising.spaces import spaces_lines
+from ..text.advising.spaces import body_words, dashed_in_words, spaces_lines
 from ..text.sentences import plain
 from .arrows import add_straight
 from .canvas import OVER, Canvas
 
 #: Of lines [pt]; and of faces, whose edges are as wide as this.
-_WIDTH, _EDGE, _DASH = 1.5, 0.7, 2.6
+_BOLD, _WIDTH, _EDGE, _DASH = 2.6, 1.5, 0.7, 2.6
 _OPACITY = 0.16
 #: Where the second head of a couple is, along its arrow.
 _SECOND = 0.84
@@ -49,11 +49,13 @@ def spaces_shown(
         ("Freedom", "Constraint"), (spaces.freedom, spaces.constraint), lines, strict=False
     ):
         is_freedom = not space.of_wrenches
-        shape = shape_of_space(space.families, space.about, drawing.size, is_freedom=is_freedom)
+        shape = shape_of_space(
+            space.families, space.about, drawing.size, is_freedom=is_freedom, planar=drawing.planar
+        )
         wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
         words = plain(line.head) + "; ".join(map(plain, line.items))
-        words += "; dashed: a wire to add" * (len(wires) > 0)
-        yield f"{which} space of {spaces.subject.name}", SpaceShown(shape, words, wires)
+        words += dashed_in_words(len(wires))
+        yield f"{which} space of {body_words(spaces)}", SpaceShown(shape, words, wires)
 
 
 def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
@@ -64,7 +66,7 @@ def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
         canvas.polygons(face[None], colour, opacity=_OPACITY)
         canvas.lines(np.concatenate((face, face[:1]))[None], colour, _EDGE)
     for line in shape.lines:
-        canvas.lines(line[None], colour, _WIDTH)
+        canvas.lines(line[None], colour, _BOLD if shape.is_bold else _WIDTH)
     if shape.arrows:
         ends = np.array(shape.arrows)
         # A couple has two heads.

@@ -94,7 +94,7 @@ def _can_be_held(rows: int, vectors: int) -> bool:
     return rows * vectors <= _MOST_ENTRIES and float(rows) * vectors**2 <= _MOST_WORK
 
 
-def _groups(basis: Basis) -> IntArray:
+def groups_of(basis: Basis) -> IntArray:
     """(k,) the first vector of the group that each vector belongs to."""
     order = np.argsort(basis.place, kind="stable")
     vector, place = basis.of_entries()[order], basis.place[order]
@@ -146,7 +146,9 @@ class _Grouped:
 
     def __init__(self, basis: Basis) -> None:
         vector = basis.of_entries()
-        _, group, self.vectors = np.unique(_groups(basis), return_inverse=True, return_counts=True)
+        _, group, self.vectors = np.unique(
+            groups_of(basis), return_inverse=True, return_counts=True
+        )
         # Where each vector stands in its group, and each of its places among the group's.
         order, rank = np.argsort(group, kind="stable"), np.empty(basis.vectors, np.int64)
         rank[order] = np.arange(basis.vectors) - _starts(self.vectors).repeat(self.vectors)

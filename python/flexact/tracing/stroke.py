@@ -3,47 +3,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..drawing.inner_nodes import poses_with_inner_nodes
 from ..drawing.path import pose_in
 from ..drawing.selection import Selection
 from ..model.configuration import Configuration
 from ..result.following import Followed, Held, Station
-from ..result.following.chart import Near
-from ..result.following.passing import passing
-from ..result.following.station import Between
 from ..result.result import Result
 from .drive import Drive, drive_of
+from .found import Found, WayBetween, merged
 from .names import ROTATION, Names
 from .values import DeadPoint, Step, rank_of
 
 #: Velocities, with that of the fastest node one: below this a node rests, and above that it moves.
-_RESTS, _MOVES = 1.0e-7, 1.0e-9
+_RESTS, _MOVES = 1.0e-6, 1.0e-6
 #: Places nearer than this part of a step are one.
 _ONE_PLACE = 1.0e-5
 #: At a dead point singular values up to here are zero.
 _ZERO_AT_DEAD = 1.0e-7
 #: How many of the smallest singular values are kept.
 _KEPT = 6
-
-
-@dataclass(frozen=True, eq=False)
-class _Found(Frozen):
-    """A place between two stations, and what is special there."""
-
-    arc: float
-    where: Configuration
-    nodes: tuple[int, ...] = ()
-    is_drive: bool = False
-    directions: int = 0
 
 
 class Stroke:
@@ -61,12 +46,17 @@ class Stroke:
         stations = way.stations
         branches = {id(station): station for station in way.branches}
         made = [self._of_station(stations[0], self.result.rank)]
-        for one, other in pairwise(stations):
+        for k, (one, other) in enumerate(pairwise(stations)):
             inside = [b for b in way.branches if one.arc < b.arc <= other.arc]
             found = self._between(one, other, inside)
             made += [self._of_found(each) for each in found]
             if id(other) not in branches:
-                made.append(self._of_station(other))
+                step = self._of_station(other)
+                if k + 2 < len(stations):
+                    names, is_drive = self._turning_at((one, 1.0), other, (stations[k + 2], 1.0))
+                    if names or is_drive:
+                        step = replace(step, dead=DeadPoint(names, is_drive))
+                made.append(step)
         if len(stations) > 1 and id(stations[-1]) in branches:
             made[-1] = self._at_last_branch(made[-1], stations[-2], stations[-1])
         return made
@@ -90,24 +80,34 @@ class Stroke:
         names: tuple[str, ...] = ()
         is_drive = False
         if len(beside) == 2:
-            before, behind = -self._speeds(beside[0]), self._speeds(beside[1])
-            resting = np.linalg.norm(self._speeds(start), axis=1) <= _RESTS
-            moves = _least_norm(before, behind) > _MOVES
-            turns = resting & moves & (np.sum(before * behind, axis=1) < 0.0)
+            names, is_drive = self._turning_at((beside[0], -1.0), start, (beside[1], 1.0))
             # What moves to second order only turns a little on both sides: that is none.
-            names = self.names.turning(np.flatnonzero(turns).tolist(), resting, turns)
             names = tuple(name for name in names if not name.startswith(ROTATION))
-            is_drive = self._drive_turns(beside)
         if names or directions or is_drive:
             dead = DeadPoint(names, is_drive, directions)
             made[place] = replace(made[place], dead=dead)
         return tuple(made)
 
-    def _drive_turns(self, beside: Sequence[Station]) -> bool:
+    def _turning_at(
+        self, before: tuple[Station, float], here: Station, behind: tuple[Station, float]
+    ) -> tuple[tuple[str, ...], bool]:
+        """What turns back at a station itself, and whether the drive does.
+
+        The stations beside it stand with 1, or -1 where their tangents point the other way.
+        """
+        came, goes = (sense * self._speeds(station) for station, sense in (before, behind))
+        resting = np.linalg.norm(self._speeds(here), axis=1) <= _RESTS
+        moves = _least_norm(came, goes) > _MOVES
+        turns = resting & moves & (np.sum(came * goes, axis=1) < 0.0)
+        names = self.names.turning(np.flatnonzero(turns).tolist(), resting, turns)
         if self.drive is None:
-            return False
-        before, behind = (self.drive.rate(each.within, each.tangent) for each in beside)
-        return before * behind > 0.0
+            return names, False
+        rates = [
+            sense * self.drive.rate(station.within, station.tangent)
+            for station, sense in (before, (here, 1.0), behind)
+        ]
+        least = _RESTS * max(abs(rate) for rate in rates)
+        return names, rates[0] * rates[2] < 0.0 and abs(rates[1]) <= least
 
     def _speeds(self, station: Station) -> FloatArray:
         """(nodes, 3) velocities along the path, that of the fastest node one."""
@@ -116,9 +116,11 @@ class Stroke:
     def _of_station(self, station: Station, rank: int | None = None) -> Step:
         if rank is None and self.judged is self.held:
             rank = station.rank
-        return self._step(station.within, station.arc, station.residual, self.zero, rank)
+        # Where the path is a multiple zero of D(x) it is known to half as many digits.
+        zero = self.zero if station.directions == 1 else max(self.zero, _ZERO_AT_DEAD)
+        return self._step(station.within, station.arc, station.residual, zero, rank)
 
-    def _of_found(self, found: _Found) -> Step:
+    def _of_found(self, found: Found) -> Step:
         resting = np.zeros(self.held.arrays.node_kind.size, bool)
         resting[list(found.nodes)] = True
         names = self.names.turning(found.nodes, resting, resting)
@@ -151,15 +153,15 @@ class Stroke:
             np.nan if self.drive is None else self.drive.value(where, pose),
         )
 
-    def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[_Found]:
-        found = [_Found(b.arc, b.within, directions=b.directions) for b in branches]
+    def _between(self, one: Station, other: Station, branches: Sequence[Station]) -> list[Found]:
+        found = [Found(b.arc, b.within, directions=b.directions) for b in branches]
         turning = self._turning(one, other)
         drive = self.drive
         turns = drive is not None and (
             drive.rate(one.within, one.tangent) * drive.rate(other.within, other.tangent) < 0.0
         )
         if turning or turns:
-            way = _Way(self.held, one, other)
+            way = WayBetween(self.held, one, other)
             if drive is not None and turns:
                 place = way.passing(lambda near, along: drive.rate(near, along))
                 found += [replace(each, is_drive=True) for each in place]
@@ -168,7 +170,7 @@ class Stroke:
                 place, at_rest = self._rest(way, node, self._difference(one, other, node))
                 turning = [each for each in turning[1:] if each not in at_rest]
                 found += [replace(each, nodes=tuple(at_rest)) for each in place if at_rest]
-        return _merged(found, _ONE_PLACE * (other.arc - one.arc))
+        return merged(found, _ONE_PLACE * (other.arc - one.arc))
 
     def _turning(self, one: Station, other: Station) -> list[int]:
         before, behind = self._speeds(one), self._speeds(other)
@@ -178,7 +180,9 @@ class Stroke:
     def _difference(self, one: Station, other: Station, node: int) -> FloatArray:
         return np.asarray(self._speeds(one)[node] - self._speeds(other)[node])
 
-    def _rest(self, way: _Way, node: int, difference: FloatArray) -> tuple[list[_Found], list[int]]:
+    def _rest(
+        self, way: WayBetween, node: int, difference: FloatArray
+    ) -> tuple[list[Found], list[int]]:
         """Where a node may come to rest on the way, and the nodes that do so with it."""
 
         def speed(_: Configuration, along: FloatArray) -> float:
@@ -196,42 +200,3 @@ class Stroke:
 
 def _least_norm(one: FloatArray, other: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)))
-
-
-class _Way:
-    """The path between two stations, decomposed when it is needed."""
-
-    def __init__(self, held: Held, one: Station, other: Station) -> None:
-        self.held, self.one, self.other = held, one, other
-        self.tangent: FloatArray | None = None
-
-    @cached_property
-    def _between(self) -> Between:
-        return Between(self.held, self.one, self.other)
-
-    def passing(self, function: Callable[[Configuration, FloatArray], float]) -> list[_Found]:
-        """Where a function of place and direction passes zero; none where it is not found."""
-
-        def of_near(near: Near) -> float:
-            return function(near.place.configuration, self._between.direction(near))
-
-        found = passing(self._between, of_near)
-        self.tangent = None if found is None else found.tangent
-        return [] if found is None else [_Found(found.arc, found.where)]
-
-
-def _merged(found: Sequence[_Found], apart: float) -> list[_Found]:
-    """What was found, in order; what is at one place is one."""
-    made: list[_Found] = []
-    for each in sorted(found, key=lambda one: one.arc):
-        if made and each.arc - made[-1].arc <= apart:
-            last = made[-1]
-            made[-1] = replace(
-                last,
-                nodes=tuple(sorted({*last.nodes, *each.nodes})),
-                is_drive=last.is_drive or each.is_drive,
-                directions=max(last.directions, each.directions),
-            )
-        else:
-            made.append(each)
-    return made

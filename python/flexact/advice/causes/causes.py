@@ -92,10 +92,12 @@ class _Special:
         """All of it."""
         lifts = Lifts(self.gradients)
         motions, stresses = self.shares.motions, self.shares.stresses
+        pairs = self.lifted.couplings(self.shares.own_stresses, motions)
 
         def of_motion(k: int, kind: CauseKind) -> Cause:
             share = motions[:, k]
-            return Cause(kind, lift=lifts.of_motion(share), relations=self._of_motion(share))
+            relations = self._of_motion(pairs[:, k])
+            return Cause(kind, lift=lifts.of_motion(share), relations=relations)
 
         def of_stress(k: int, kind: CauseKind) -> Cause:
             share = stresses[:, k]
@@ -180,11 +182,14 @@ class _Special:
         parts = np.abs(np.linalg.lstsq(self.shares.own_stresses, share, rcond=None)[0])
         return self._relations[max(self._relations, key=lambda k: (round(float(parts[k]), 9), -k))]
 
-    def _of_motion(self, share: FloatArray) -> tuple[Relation, ...]:
-        """Of all special self-stresses that misalignments lift together with a motion."""
-        special, own = self._relations, self.shares.own_stresses
-        pairs = {k: self.gradients.coupling(own[:, k], share) for k in special}
-        largest = max(pairs.values(), default=0.0)
+    def _of_motion(self, pairs: FloatArray) -> tuple[Relation, ...]:
+        """Of all special self-stresses that misalignments lift together with a motion.
+
+        Args:
+            pairs: (told,) how much they do, of each self-stress of the undivided mechanism.
+        """
+        special = self._relations
+        largest = max((float(pairs[k]) for k in special), default=0.0)
         able = [k for k in special if pairs[k] > _COUPLED * largest] or list(special)
         return merged(one for k in able for one in special[k])[:_MOST_RELATIONS]
 

@@ -67,13 +67,6 @@ class Gradients(Frozen):
             made[:, :2] = 0.0
         return np.asarray(made)
 
-    def coupling(self, stress: FloatArray, motion: FloatArray) -> float:
-        """How much all changes make of a self-stress and a motion, (s,) and (k,)."""
-        length = self.result.characteristic_length
-        by_offset = np.einsum("eisk,s,k->ei", self.by_offset, stress, motion)
-        by_vector = np.einsum("eisk,s,k->ei", self.by_vector, stress, motion)
-        return float(np.hypot(length * np.linalg.norm(by_offset), np.linalg.norm(by_vector)))
-
     def left_over(self, motions: int, stresses: int) -> tuple[FloatArray, FloatArray] | None:
         """What one small random misalignment leaves, so many: (k, motions), (s, stresses).
 

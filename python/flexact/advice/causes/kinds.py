@@ -120,6 +120,15 @@ class Lifted(Frozen):
                 stresses = _within(stresses, left[1], of_stresses)
         self.motions, self.stresses = motions, stresses
 
+    def couplings(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
+        """(a, b) how much all changes make of self-stresses (s, a) and motions (k, b)."""
+        made: FloatArray = np.linalg.norm(self._blocks(stresses, motions), axis=2)
+        return made
+
+    def _blocks(self, stresses: FloatArray, motions: FloatArray) -> FloatArray:
+        made: FloatArray = np.moveaxis(stresses.T @ self._lifts @ motions, 0, 2)
+        return made
+
     def groups(self, stresses: FloatArray, motions: FloatArray) -> Groups | None:
         """What misalignments lift together, to first order, and how many of each are special.
 
@@ -130,7 +139,7 @@ class Lifted(Frozen):
         Returns:
             None where not all that is special is lifted to first order.
         """
-        blocks = np.einsum("sa,csk,kb->abc", stresses, self._lifts, motions, optimize=True)
+        blocks = self._blocks(stresses, motions)
         sizes = np.linalg.norm(blocks, axis=2)
         pairs = np.argwhere(sizes > _NOTHING * max(float(sizes.max(initial=0.0)), 1e-12))
         count = stresses.shape[1]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from itertools import combinations
 from math import pi
 from typing import NamedTuple
@@ -146,12 +147,18 @@ class TurnSearch:
         places = [self.limbs.place(position) for _, position in ends]
         return np.asarray(np.mean(places, axis=0))
 
+    @cached_property
+    def _moved(self) -> list[FloatArray]:
+        """The directions of special motions."""
+        motions = self.special[:_MOST_LIMBS]
+        return [one.screw.direction for motion in motions for one in motion.bodies[:1]]
+
     def _directions(self, limb: Limb, end: int) -> list[FloatArray]:
         """Of the relations and of the motions, then of limbs, and across two of them."""
         if self.whole.given.planar:
             return [np.array([0.0, 0.0, 1.0])]
         found = [one.couple for one in self.relations] + [one.direction for one in self.relations]
-        found += [one.screw.direction for motion in self.special for one in motion.bodies[:1]]
+        found += self._moved
         made: list[FloatArray] = []
         for axis in found:
             _add(made, axis)

@@ -9,11 +9,10 @@ from itertools import chain, combinations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
 from ..leverage import spanning
-from .reach import Reach
+from .reach import Places, Reach
 
 #: Up to so many sets are looked at; of more those near a good one.
 _MOST_SETS, _FEWEST_SETS, _MOST_OPERATIONS = 20_000, 40, 2.0e7
@@ -38,8 +37,6 @@ class Candidate(NamedTuple):
     """By what it is sorted among others."""
 
 
-#: Rows, by their places.
-Places = NDArray[np.integer]
 #: Sizes by which sets are sorted before their condition, (sets, any), of (sets, k) rows.
 Ranking = Callable[[Places, FloatArray], FloatArray]
 
@@ -78,7 +75,7 @@ def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candi
     ]
 
 
-def _order(reach: Reach) -> NDArray[np.integer]:
+def _order(reach: Reach) -> Places:
     """(n,) the place of each row among all by names and geometry."""
     keys = [reach.key(int(i)) for i in reach.index]
     place = np.empty(len(keys), np.int64)
@@ -93,9 +90,7 @@ def _conditions(rows: FloatArray, sets: Places) -> FloatArray:
     return made
 
 
-def _sets(
-    reach: Reach, place: NDArray[np.integer], count: int, wishes: FloatArray
-) -> Iterator[Sequence[int]]:
+def _sets(reach: Reach, place: Places, count: int, wishes: FloatArray) -> Iterator[Sequence[int]]:
     norms = np.linalg.norm(reach.rows, axis=1)
     able = np.flatnonzero(norms > norms.max(initial=0.0) / _WORST)
     if able.size < count:

@@ -24,8 +24,7 @@ from ...core.elements import Dual, Role, dual_table, role_table
 from ...model.parts.parts import PartKind
 from ...result.result import Result
 from ...result.weights import row_duals
-from .candidates import Places
-from .reach import Reach
+from .reach import Places, Reach
 
 #: Stresses below this part of the largest of a self-stress are none.
 _NOTHING = 1.0e-7

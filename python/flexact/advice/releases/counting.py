@@ -15,6 +15,8 @@ from .bases import Rows, TooManyError, count_bases
 from .reach import Reach
 from .stands import changed
 
+#: Larger counts are not given: readers of JSON may take them for other numbers.
+_LARGEST = 2**53
 #: Rows times vectors squared beyond which a count is not begun.
 _MOST_WORK = 2.0e9
 #: How many blocks are tried that the numbers leave in doubt, and rows of D(c) in all of them.
@@ -57,9 +59,10 @@ def counted(stands: Result, reach: Reach, left: Left) -> int | None:
         return known[chosen]
 
     try:
-        return count_bases(reach.rows, error_of(stands), judge)
+        count = count_bases(reach.rows, error_of(stands), judge)
     except TooManyError:
         return None
+    return count if count <= _LARGEST else None
 
 
 def removes_all(before: Result, after: Result, left: Left) -> bool:

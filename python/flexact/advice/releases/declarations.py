@@ -13,10 +13,10 @@ from ...core.elements import NodeKind
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import Candidate, Places, candidates
+from .candidates import Candidate, candidates
 from .counting import counted
 from .kinds import LINK, tier_of_node
-from .reach import Reach
+from .reach import Places, Reach
 from .stands import as_it_stands, complete
 from .steps import by_steps
 from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed

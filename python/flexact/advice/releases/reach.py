@@ -29,8 +29,8 @@ MOST_ENTRIES = 4_000_000
 #: Below this part of the largest a row does not reach into the space.
 _NOTHING = 1.0e-7
 
-#: A deformation or a coordinate of the model as given, with the class that it gets.
-One = tuple[int, int, Class] | tuple[int, str, Class]
+#: Rows or vectors, by their places.
+Places = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ class Reach(Frozen):
     """
 
     rows: FloatArray
-    index: NDArray[np.integer]
+    index: Places
     key: Callable[[int], Any]
     change: Callable[[int], Change]
 
@@ -54,7 +54,7 @@ class Reach(Frozen):
         """Number of the vectors."""
         return int(self.rows.shape[1])
 
-    def only(self, chosen: NDArray[np.integer]) -> Reach:
+    def only(self, chosen: Places) -> Reach:
         """Some of the rows."""
         return replace(self, rows=self.rows[chosen], index=self.index[chosen])
 
@@ -64,19 +64,20 @@ def fits(basis: Basis) -> bool:
     return support_of(basis).size * basis.vectors <= MOST_ENTRIES
 
 
-def of_rows(result: Result) -> Reach:
-    """The fixed deformations among the rows of D(c), over the self-stresses."""
+def of_rows(result: Result, vectors: Places | None = None) -> Reach:
+    """The fixed deformations among the rows of D(c), over the self-stresses or some of them."""
     able = is_of_class(result, Class.FIXED)
-    rows, index = _rows(result.stress_space, able)
+    rows, index = _rows(_some(result.stress_space, vectors), able)
     return Reach(
         *(rows, index, lambda row: row_key(result, row)),
         lambda row: _released(result, *(result.raw.row_label[:, row] - 1).tolist()),
     )
 
 
-def of_columns(result: Result) -> Reach:
-    """The columns of D(c), over the motions."""
-    rows, index = _rows(result.motion_space, np.ones(result.columns, bool))
+def of_columns(result: Result, vectors: Places | None = None) -> Reach:
+    """The columns of D(c), over the motions or some of them."""
+    space = _some(result.motion_space, vectors)
+    rows, index = _rows(space, np.ones(result.columns, bool))
     return Reach(
         *(rows, index, lambda column: column_key(result, column)),
         lambda column: _declared(result, *(result.raw.column_label[:, column] - 1).tolist()),
@@ -121,7 +122,11 @@ def of_released(result: Result) -> Reach:
     )
 
 
-def _rows(basis: Basis, able: NDArray[np.bool_]) -> tuple[FloatArray, NDArray[np.integer]]:
+def _some(basis: Basis, vectors: Places | None) -> Basis:
+    return basis if vectors is None else basis.only(vectors.astype(np.int32))
+
+
+def _rows(basis: Basis, able: NDArray[np.bool_]) -> tuple[FloatArray, Places]:
     """Those rows of a basis that are not zero."""
     support = support_of(basis)
     support = support[able[support]]
@@ -132,7 +137,7 @@ def _rows(basis: Basis, able: NDArray[np.bool_]) -> tuple[FloatArray, NDArray[np
     return made, support
 
 
-def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, NDArray[np.integer]]:
+def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, Places]:
     """Rows of a matrix times a basis that are not zero, up to what rounding leaves of them."""
     index = np.unique(matrix.row_of)
     row = index_of(index, matrix.rows)[matrix.row_of]

@@ -12,11 +12,11 @@ from ...core.arrays import FloatArray
 from ...result.result import Result
 from ..proposal import Proposal, Purpose
 from . import reach as reaches
-from .candidates import Places, candidates
+from .candidates import candidates
 from .cost import cost_of
 from .counting import counted
 from .kinds import LINK, tier_of_element
-from .reach import Reach
+from .reach import Places, Reach
 from .stands import as_it_stands, complete
 from .steps import by_steps
 from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed

@@ -17,15 +17,16 @@ from .candidates import Candidate
 from .counting import Left, joined, removes_all
 from .kinds import Kind, kind_of
 from .reach import Reach
+from .spectrum import spectrum_of
 
 #: How many proposals there are at most.
 MOST_SETS = 12
 #: How many sets are looked at, in their order.
 _MOST_GROUPED = 5_000
-#: How many others one has at most.
-_MOST_ALTERNATIVES = 11
+#: How many others of a group are tried.
+_MOST_ALTERNATIVES = 35
 #: How many analyses are made of a small mechanism, and of any; and operations in all.
-_MOST_TRIES, _FEWEST_TRIES, _MOST_OPERATIONS = 60, 4, 6.0e10
+_MOST_TRIES, _FEWEST_TRIES, _MOST_OPERATIONS = 100, 4, 6.0e10
 #: Singular values that differ by less than this part, or by this, are equal.
 _EQUAL, _TINY = 1.0e-6, 1.0e-9
 
@@ -135,7 +136,7 @@ def _tried(result: Result, purpose: Purpose, candidate: Candidate, change: Chang
         return None
     whole = made.with_internal_declared or made
     is_certain = removes_all(result, made, left)
-    return _Try(candidate, change, after(made), whole.scaled_singular_values, is_certain)
+    return _Try(candidate, change, after(made), spectrum_of(whole), is_certain)
 
 
 class _Ones:

@@ -17,7 +17,8 @@ from .aims import Aim
 from .freedom import Freed
 from .screw_space import ScrewSpace
 from .subjects import Subject
-from .wanted import Wanted, Written, wanted_of
+from .wanted import Wanted, wanted_of
+from .written import Written
 
 #: A body whose part in a motion is less stands still.
 _STILL = 1.0e-6

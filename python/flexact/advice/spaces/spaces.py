@@ -25,8 +25,9 @@ from .intent import declared_of, not_wanted
 from .screw_space import ScrewSpace
 from .sheets import sheets_for
 from .subjects import Subject, rank_of, subject_named, subjects_of
-from .wanted import Wanted, read, wanted_of
+from .wanted import Wanted, wanted_of
 from .wires import wires_for
+from .written import read
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +85,7 @@ def spaces_of(
             moves in most independent ways, then the largest; joints with an orientation serve
             where no body is declared or there is none, that at which most parts meet first.
         wanted: What it is meant to do, such as "stage: translation z"
-            (`flexact.advice.spaces.wanted`).
+            (`flexact.advice.spaces.written`).
         wires: Whether wires and sheets are tried; each takes an analysis.
 
     Returns:

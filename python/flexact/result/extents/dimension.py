@@ -13,13 +13,16 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ..following.follow import TRUE
+from .least import least_along
+from .orders import fit_of, measured
 from .reduced import Here, Reduced, across
 
 #: How far off, from the reference, farther, and from the positions that were found.
 _OFF, _FAR, _NEAR = 0.03, 0.1, 5.0e-4
-#: Of that a position has come back to the reference where no more than the first part is left,
-#: and has not where the second is; between them it is open.
-_BACK, _AWAY = 0.1, 0.15
+#: A position has not come back to the reference where this part of that is left.
+_AWAY = 0.15
+#: Where all paths begin with one motion, how far off, too.
+_NEARER = (0.01, 0.003)
 #: How far other motions may have gone beside those that are given, as a part of them.
 _BESIDE = 0.3
 #: Strains up to here are rounding.
@@ -66,34 +69,43 @@ def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -
         also: (N,) unit vectors of motions to begin with, besides random ones.
     """
     many, width = cone.shape
+    if width == 1:
+        return _along(reduced, cone[:, 0])
     random = np.random.default_rng(width)
     starts = [sign * each for each in also for sign in (1.0, -1.0)]
     starts += [cone @ each for each in random.standard_normal((2 * width + 4, width))]
-    dimension, is_open, looked_at, unclear, lost = 0, False, 0, 0, 0
+    dimension = looked_at = unclear = 0
     lines: list[FloatArray] = []
     for start in starts:
         found = reduced.least(_OFF * start / np.linalg.norm(start), np.eye(many), _OFF)
         far = np.inf if found is None else _norm(found.shares) / _OFF
-        if far <= _BACK:
-            continue
-        if found is None or found.strain > _ROUNDING:
-            lost += 1
-            continue
-        if far <= _AWAY:
-            is_open = True
+        if found is None or found.strain > _ROUNDING or far <= _AWAY:
             continue
         if looked_at == _MOST_LOOKED_AT:
             break
         looked_at += 1
         here = _dimension_at(reduced, found, random)
+        # No more can be about it than paths begin with.
+        here = None if here is not None and here > width else here
         unclear += here is None
         dimension = max(dimension, here or 0)
         if here == 1:
             lines.append(_refined(reduced, found.shares))
         if dimension == width:
             return Near(width, tuple(lines))
-    is_open |= 2 * unclear > looked_at or 2 * lost > len(starts)
-    return Near(None if is_open else dimension, tuple(lines))
+    # Where some are found, others that are not say nothing; where none is, that proves nothing.
+    is_clear = dimension > 0 and 2 * unclear <= looked_at
+    return Near(dimension if is_clear else None, tuple(lines))
+
+
+def _along(reduced: Reduced, unit: FloatArray) -> Near:
+    """Where all paths begin with one motion: whether there is one, to one side at least."""
+    for sign in (1.0, -1.0):
+        every = [least_along(reduced, unit, sign * share) for share in _NEARER]
+        if all(found is not None and found.strain <= _ROUNDING for found in every):
+            return Near(1, (unit,))
+    fits = [fit_of(measured(reduced, unit, sign, 0.0)) for sign in (1.0, -1.0)]
+    return Near(None if None in fits else 0, ())
 
 
 def _refined(reduced: Reduced, gone: FloatArray) -> FloatArray:

@@ -2,7 +2,8 @@
 """Configurations in which the held deformations stay zero: where a motion leads."""
 
 from .ending import Ending, Stop
-from .follow import Followed, Wishes, follow, follow_both_ways
+from .follow import follow, follow_both_ways
+from .followed import Followed, Wishes
 from .held import MOST_COORDINATES, Held, Place, is_followed
 from .least import Least, least_error
 from .station import Station

@@ -8,16 +8,16 @@ D(x) = 0 across it. A step that fails is halved; they grow again.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ..velocities import Velocities
 from .branches import branch_about, branch_between, sign_between
 from .chart import Chart, Near
 from .ending import Ending, Stop
+from .followed import Followed, Wishes
 from .held import Held
 from .least import least_near
 from .passing import passing
@@ -44,54 +44,6 @@ _CURVED = 0.35
 _CLOSED = 1.0e-8
 #: A closed path has so many stations at least.
 _FEWEST = 6
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """How a path is to be followed.
-
-    Lengths are in sizes of the model, of the node that moves farthest; rotations in radians.
-
-    Attributes:
-        length: How far each way.
-        first: The first step.
-        largest: The largest step.
-        least: The least step; where one of it fails the path ends.
-        steps: How many steps each way at most.
-        through: Whether to go straight on where other paths branch off.
-    """
-
-    length: float = 0.1
-    first: float = 0.01
-    largest: float = 0.02
-    least: float = 1.0e-5
-    steps: int = 2_000
-    through: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Followed(Frozen):
-    """A path from the reference one way.
-
-    Attributes:
-        stations: The first is the reference.
-        stop: Why it was not followed farther.
-        branches: Where other paths branch off, also the one where it stops.
-    """
-
-    stations: tuple[Station, ...]
-    stop: Stop
-    branches: tuple[Station, ...] = ()
-
-    @property
-    def length(self) -> float:
-        """How far it was followed [size]."""
-        return self.stations[-1].arc
-
-    @property
-    def residual(self) -> float:
-        """The largest held deformation on it [size]."""
-        return max(each.residual for each in self.stations)
 
 
 def follow_both_ways(
@@ -235,6 +187,8 @@ class _Walk:
         near = least_near(chart, ahead)
         if near.place.residual > TRUE:
             return None
+        if len(self.stations) > 1:
+            return near
         # A path that is tangent to the motion leaves it by the square of the step, another one
         # by the step itself.
         half = least_near(chart, 0.5 * ahead)
@@ -260,7 +214,12 @@ class _Walk:
             rank = here.rank
         chart = Chart(self.held, where, rank)
         # What came last, as it is carried along by what was done.
-        along = chart.null @ (chart.null.T @ here.tangent)
+        last_way = here.tangent
+        if here.directions > 1 and chart.null.shape[1] > 1:
+            # The null space does not say how the path is curved within it; the way so far does.
+            gone = self.held.difference(here.within, where)
+            last_way = 2.0 * gone / np.linalg.norm(gone) - here.tangent
+        along = chart.null @ (chart.null.T @ last_way)
         straight = float(np.linalg.norm(along))
         if straight < _STRAIGHT:
             if chart.null.shape[1]:

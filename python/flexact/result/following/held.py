@@ -12,18 +12,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from ...base.frozen import Frozen
 from ...core import calls
-from ...core.arrays import FloatArray, ModelArrays, packed
+from ...core.arrays import FloatArray, packed
 from ...core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ...core.raw import RawAssembly
 from ...model.configuration import Configuration
 from ...model.data import ModelData
 from ..velocities import Velocities
+from .rotations import left_jacobian, rotation_between
+from .sizes import scaled_arrays, sizes_of
 
 #: More coordinates than these are not followed: each step solves a dense system.
 MOST_COORDINATES = 1_000
@@ -67,25 +68,14 @@ class Place(Frozen):
         return float(np.abs(self.error).max(initial=0.0))
 
 
-class _Sizes(NamedTuple):
-    """What the model is measured by."""
-
-    size: float
-    """Diagonal of the box round all positions [m]; 1 where they are one point."""
-    unit: float
-    """The power of two next to it [m]: nothing is rounded when it is divided by."""
-    middle: FloatArray
-    """(3,) what is taken off all positions [m]."""
-
-
 class Held:
     """The held deformations of a model."""
 
     def __init__(self, data: ModelData) -> None:
         """Take the classes of a sound model as they are."""
         self.data = data
-        self.sizes = _sizes_of(data.arrays)
-        self.arrays = _within(data.arrays, self.sizes)
+        self.sizes = sizes_of(data.arrays)
+        self.arrays = scaled_arrays(data.arrays, self.sizes)
         self._packed = packed(self.arrays)
         classes = self.arrays.deformation_class
         held = (classes == Class.FIXED) | (classes == Class.INDEPENDENT)
@@ -162,7 +152,7 @@ class Held:
         angle = (other.value - one.value)[plane, 0]
         delta[plane, 2] = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))
         turned = self._turning
-        delta[turned] = _rotation_between(one.value[turned], other.value[turned])
+        delta[turned] = rotation_between(one.value[turned], other.value[turned])
         return np.asarray(delta.ravel()[self.columns] / self._column_factor)
 
     def at(self, here: Configuration, change: FloatArray | None = None) -> Place:
@@ -214,7 +204,7 @@ class Held:
         first = self._column_place[3 * self._turning]
         columns = first[:, None] + np.arange(3)
         blocks = wide[:, columns]
-        wide[:, columns] = np.einsum("mkx,kxy->mky", blocks, _left_jacobian(delta[self._turning]))
+        wide[:, columns] = np.einsum("mkx,kxy->mky", blocks, left_jacobian(delta[self._turning]))
 
     def rate(self, here: Configuration, row: int, change: FloatArray) -> float:
         """The rate of a deformation, held or not, by its row, element * 6 + deformation."""
@@ -276,51 +266,3 @@ class Held:
         bent = np.abs(self._raw(here).deformation) > _NO_BENDING * self._lengths
         over = (bends & bent).any(axis=0)
         return (int(np.argmax(over)), "bending") if over.any() else None
-
-
-def _rotation_between(one: FloatArray, other: FloatArray) -> FloatArray:
-    """(k, 3) rotation vectors that turn Euler parameters (k, 4) into others."""
-    a, u = one[:, :1], one[:, 1:]
-    b, v = other[:, :1], other[:, 1:]
-    scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
-    vector = v * a - b * u - np.cross(v, u)
-    sine = np.linalg.norm(vector, axis=1, keepdims=True)
-    flip = np.where(scalar < 0.0, -1.0, 1.0)
-    angle = 2.0 * np.arctan2(sine, np.abs(scalar))
-    size = np.where(sine > 0.0, sine, 1.0)
-    factor = np.where(sine > 1.0e-9, angle / size, 2.0 / np.where(scalar == 0.0, 1.0, abs(scalar)))
-    return np.asarray(flip * factor * vector)
-
-
-def _left_jacobian(vector: FloatArray) -> FloatArray:
-    """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
-    angle = np.linalg.norm(vector, axis=1)[:, None, None]
-    cross = np.zeros((len(vector), 3, 3))
-    x, y, z = vector.T
-    cross[:, 0, 1], cross[:, 0, 2], cross[:, 1, 2] = -z, y, -x
-    cross -= np.swapaxes(cross, 1, 2)
-    small = angle < 1.0e-4
-    safe = np.where(small, 1.0, angle)
-    first = np.where(small, 0.5 - angle**2 / 24, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
-    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
-    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
-
-
-def _sizes_of(arrays: ModelArrays) -> _Sizes:
-    placed = arrays.node_kind <= NodeKind.POSITION
-    there = arrays.node_value[:3, placed]
-    if not there.size:
-        return _Sizes(1.0, 1.0, np.zeros(3))
-    low, high = there.min(axis=1), there.max(axis=1)
-    size = float(np.linalg.norm(high - low)) or 1.0
-    unit = 2.0 ** round(math.log2(size))
-    middle = low / 2 + high / 2
-    # Near the origin the numbers are best left as they were typed.
-    return _Sizes(size, unit, np.where(np.abs(middle) > size, middle, 0.0))
-
-
-def _within(arrays: ModelArrays, sizes: _Sizes) -> ModelArrays:
-    placed = arrays.node_kind <= NodeKind.POSITION
-    value = arrays.node_value.copy(order="F")
-    value[:3, placed] = (value[:3, placed] - sizes.middle[:, None]) / sizes.unit
-    return arrays._replace(node_value=value)

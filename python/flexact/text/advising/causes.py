@@ -128,11 +128,14 @@ def _of_several(cause: Cause, word: str) -> Pieces:
     some = "one is" if cause.special == 1 else f"{in_words(cause.special)} are"
     others = "the other is" if rest == 1 else f"the other {in_words(rest)} are"
     words = f"{word}{'es' if word.endswith('s') else 's'}"
-    which = listed([str(k + 1) for k in cause.together])
-    these = f"{words} {which}" if many <= _MOST else f"{many} {words}"
+    numbers = listed([str(k + 1) for k in cause.together])
+    these = f"{words} {numbers}" if many <= _MOST else f"{many} {words}"
+    which = "depends on the misalignment"
+    if cause.is_first_order is None:
+        which = "was not looked at"
     return (
-        f"of {these} {some} special and {others} generic, and which depends on the "
-        "misalignment. What is special lives on this geometry",
+        f"of {these} {some} special and {others} generic, and which {which}. What is special "
+        "lives on this geometry",
     )
 
 

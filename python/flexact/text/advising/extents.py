@@ -13,7 +13,7 @@ from ..units import length_in_words
 
 #: Shares of motions are told with so many digits, and strains from here on.
 _DIGITS = 3
-_LEAST = 1.0e-16
+_LEAST = 1.0e-15
 _PLAIN = {
     Reason.RIGID: "it goes on: certified, all that hangs together moves as one body",
     Reason.DEFINITE: "it only begins: certified, any displacement t strains what is held as t^2",
@@ -72,7 +72,7 @@ def _dimension(extents: Extents) -> Pieces:
     if all(each.kind is Kind.INFINITESIMAL for each in extents.motions):
         s = "" if dimension == 1 else "s"
         return (
-            f"None of these motions goes on alone, but together they do, in {dimension} "
+            f"None of these motions goes on as it is, but together they do, in {dimension} "
             f"dimension{s}.",
         )
     s = "" if dimension == 1 else "s"
@@ -82,7 +82,7 @@ def _dimension(extents: Extents) -> Pieces:
 def _shares(branch: Branch) -> str:
     """Such as "motion 1 less 0.5 of motion 2"."""
     words = ""
-    for index, share in branch.shares:
+    for index, share in sorted(branch.shares, key=lambda each: -each[1]):
         size = abs(float(f"{share:.{_DIGITS}g}"))
         if size < 1.0e-3:
             continue

@@ -6,7 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from ...base.plain_text import harmless
 from ...core.elements import Class, Role, planar_table
+from ...model.names import part_name
 from ...model.parts.condensing import as_given
 from ...model.parts.forms import Form
 from ...model.parts.parts import Part, PartKind
@@ -14,7 +16,7 @@ from ...result.outcome import Outcome
 from ...result.result import Result
 from ..deformation import bending_of, deformation_words, role_of
 from ..naming import named_element
-from ..places import place_words
+from ..places import place_words, with_article
 from ..sentences import Named, Pieces
 
 #: Number of an element and a deformation of it, from 1, of the model as given.
@@ -133,11 +135,14 @@ def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase
     """A deformation of a rigid member, which is one of several of its body or the body itself."""
     index = outcome.data.element_index[element]
     role, word = _role(outcome, element, number), _word(outcome, element, number)
+    own = harmless(part_name(outcome.data.element_names[index])).strip()
     between = ""
     if index in outcome.parts.links:
         nodes = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
         ends = dict.fromkeys(place_words(outcome.parts, node) for node in nodes if node >= 0)
         between = f" between {' and '.join(ends)}" if len(ends) == 2 else ""
+    elif own:
+        name = name._replace(words=with_article(own))
     if role == Role.TORSION:
         return Phrase("make ", name, " soft in torsion", between)
     if role == Role.ELONGATION:

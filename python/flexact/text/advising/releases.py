@@ -114,7 +114,7 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
         number = int(outcome.given.arrays.element_number[part.elements[0]])
         within = named_element(outcome, number)
         items.append((f"{in_words(count)} coordinate{'s' * (count > 1)} inside ", within))
-    return _listed(items)
+    return _listed(items[:_MOST_NAMED], len(items) - _MOST_NAMED)
 
 
 def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:

@@ -9,7 +9,7 @@ from ..motions import joined
 from ..naming import in_words
 from ..self_stresses import conflict_in_words, stress_in_parts
 from ..sentences import Pieces
-from .sentences import begun, ended
+from .sentences import begun, ended, sentence
 
 #: How many deformations of a large model are told.
 _MOST_TOLD = 4
@@ -24,5 +24,7 @@ def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
         told = stress_in_parts(stress, _MOST_TOLD)[:_MOST_TOLD]
         return ended(("Most stressed are ", *joined(told)))
     parts = stress_in_parts(stress, len(stress.parts))
+    if len(parts) == 1:
+        return sentence(("stressed in itself is ", *parts[0]))
     many = in_words(len(parts)).capitalize()
     return ended((f"{many} parts are stressed against each other: ", *joined(parts)))

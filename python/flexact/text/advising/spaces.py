@@ -51,7 +51,7 @@ def spaces_lines(result: Result, spaces: Spaces | None) -> tuple[Line, ...]:
 
 
 def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
-    geometry, body = Geometry(result), _body(spaces)
+    geometry, body = Geometry(result), body_words(spaces)
     start = f"{body[:1].upper()}{body[1:]}"
     free, held = spaces.freedom.dimension, spaces.constraint.dimension
     if free:
@@ -217,7 +217,13 @@ def _wanted(geometry: Geometry, wanted: Wanted) -> str:
     return f"a screw about {line}, pitch {wanted.pitch:.4g} m/rad"
 
 
-def _body(spaces: Spaces) -> str:
+def dashed_in_words(wires: int) -> str:
+    """What so many dashed wires of a drawing are; behind words on the space that is drawn."""
+    return f"; dashed: {'a wire' if wires == 1 else 'wires'} to add" if wires else ""
+
+
+def body_words(spaces: Spaces) -> str:
+    """What the body is called within a sentence, such as "the stage"."""
     body = spaces.body
     return part_words(body) if isinstance(body, Part) else with_article(str(body))
 
