@@ -113,15 +113,6 @@ class _Counter:
 
     def _reduced(self, minor: Minor) -> tuple[int, Minor, bool]:
         """With pieces in parallel and in series put together, if there are any."""
-        for is_row, merge in ((False, in_parallel), (True, in_series)):
-            pieces = minor.basis if is_row else minor.others
-            gone = set()
-            for i, j in list(minor.alike(is_row, self.judge)):
-                if i not in gone and j not in gone:
-                    pieces[i] = merge(pieces[i], pieces[j])
-                    gone.add(j)
-            if gone:
-                return 1, _merged(minor, gone, is_row), True
         single = np.argwhere(np.count_nonzero(minor.factor, axis=0) == 1).ravel()
         if single.size and minor.factor.size:
             gone = set()
@@ -138,6 +129,15 @@ class _Counter:
                 minor.others[j] = in_series(minor.others[j], minor.basis[i])
                 gone.add(i)
             return 1, _merged(minor, gone, True), True
+        for is_row, merge in ((False, in_parallel), (True, in_series)):
+            pieces = minor.basis if is_row else minor.others
+            gone = set()
+            for i, j in list(minor.alike(is_row, self.judge)):
+                if i not in gone and j not in gone:
+                    pieces[i] = merge(pieces[i], pieces[j])
+                    gone.add(j)
+            if gone:
+                return 1, _merged(minor, gone, is_row), True
         return 1, minor, False
 
 
