@@ -66,6 +66,10 @@ def _rate(felt: Felt, stresses: FloatArray, motion: FloatArray) -> tuple[FloatAr
     for step in _STEPS.tolist():
         ahead, behind = (_pressed(felt, stresses, sign * step * motion) for sign in (1.0, -1.0))
         now = [(ahead - behind) / (2.0 * step)]
+        if not np.all(np.isfinite(now[0])):
+            # An element has left its range.
+            before = []
+            continue
         for k, other in enumerate(before):
             factor = 16.0 ** (k + 1)
             now.append((factor * now[-1] - other) / (factor - 1.0))
@@ -75,6 +79,8 @@ def _rate(felt: Felt, stresses: FloatArray, motion: FloatArray) -> tuple[FloatAr
         if best is None:
             best = now[0]
         before = now
+    if best is None:
+        return np.zeros((stresses.shape[1], felt.many)), np.inf
     return np.asarray(best), error
 
 
