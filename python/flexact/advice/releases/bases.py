@@ -6,113 +6,32 @@ what is in parallel or in series is put together, what does not hang together is
 and the rest is divided into the bases that hold a row and those that do not (deletion and
 contraction; Oxley, Matroid Theory, 2011, ch. 3 and 5). Each leaf of that tree is a basis at
 least, so that the work is bounded by the count.
-
-An entry is taken for zero where rounding explains it, and for another number where it is far
-above that; in between somebody else is asked.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
 from ...model.parts.bodies import groups_of
+from .echelon import echelon_of
+from .minors import (
+    CLEAR,
+    FAIR,
+    LARGE,
+    ZERO,
+    Judge,
+    Minor,
+    Piece,
+    TooManyError,
+    in_parallel,
+    in_series,
+    is_regular,
+)
 
-#: Rows, by their numbers.
-Rows = frozenset[int]
-#: Whether the block of a set of k rows is regular, of which the numbers here do not tell; None
-#: where that is not known either.
-Judge = Callable[[Rows], bool | None]
-
-#: Up to this multiple of its error, and below this part of what it is the difference of, an
-#: entry is zero.
-_ZERO, _TINY = 10.0, 1.0e-9
-#: From this multiple of its error, and this part of what it is the difference of, it is not; of
-#: what nobody knows from a smaller part on.
-_CLEAR, _LARGE, _FAIR = 1.0e3, 1.0e-6, 1.0e-8
-#: Rows that differ by more than this part are no multiples of each other.
-_NEAR = 0.1
 #: Bases found on the way beyond which little more is done: so many divisions of a matroid that
 #: hangs together, and so many factors of what is divided. Of fewer all are counted.
 _FOUND, _MOST_DIVISIONS, _MOST_FACTORS = 20_000, 600, 300_000
-#: Entries of an echelon form beyond which the rows are better exchanged.
-_EXCHANGED = 1.01
-#: How many exchanges there are at most for each factor.
-_MOST_EXCHANGES = 10
-
-
-class TooManyError(Exception):
-    """There are more bases than can be counted."""
-
-
-class Piece(NamedTuple):
-    """Rows that count as one: how often it is in a basis or not, and rows of one such choice."""
-
-    inside: int
-    outside: int
-    taken: Rows
-    left: Rows
-
-
-@dataclass(frozen=True)
-class Echelon:
-    """Rows of a matrix in terms of some of them.
-
-    Attributes:
-        basis: (k,) numbers of the rows of the basis.
-        others: (n - k,) numbers of the others.
-        factor: (k, n - k) of each other row the multiples of the rows of the basis that it is.
-        smallest: Smallest singular value of the block of the basis.
-    """
-
-    basis: NDArray[np.integer]
-    others: NDArray[np.integer]
-    factor: FloatArray
-    smallest: float
-
-
-def echelon_of(matrix: FloatArray, least: float = 0.0) -> Echelon | None:
-    """The rows of a matrix (n, k) in terms of k of them, whose block is well-conditioned.
-
-    No factor is larger than 1.01: no exchange of one row makes the block much larger. None where
-    the smallest singular value of the best block is not above `least`.
-    """
-    rows, count = matrix.shape
-    if rows < count:
-        return None
-    rest, chosen = matrix.copy(), []
-    for _ in range(count):
-        row, column = divmod(int(np.argmax(np.abs(rest))), count)
-        if not abs(rest[row, column]) > least:
-            return None
-        chosen.append(row)
-        rest -= np.outer(rest[:, column], rest[row] / rest[row, column])
-        rest[row], rest[:, column] = 0.0, 0.0
-    basis = np.array(chosen, np.int64)
-    others = np.setdiff1d(np.arange(rows), basis)
-    if not _smallest(matrix[basis]) > least:
-        return None
-    factor = _in_terms_of(matrix[basis], matrix[others])
-    for _ in range(_MOST_EXCHANGES * factor.size):
-        i, j = divmod(int(np.argmax(np.abs(factor))), others.size)
-        if abs(factor[i, j]) <= _EXCHANGED:
-            break
-        basis[i], others[j] = others[j], basis[i]
-        factor = _in_terms_of(matrix[basis], matrix[others])
-    return Echelon(basis, others, factor, _smallest(matrix[basis]))
-
-
-def _in_terms_of(basis: FloatArray, others: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.solve(basis.T, others.T), np.float64)
-
-
-def _smallest(block: FloatArray) -> float:
-    return float(np.linalg.svd(block, compute_uv=False)[-1]) if block.size else 1.0
 
 
 def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
@@ -126,12 +45,12 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
     Raises:
         TooManyError: there are more than can be counted.
     """
-    form = echelon_of(matrix, _ZERO * error)
+    form = echelon_of(matrix, ZERO * error)
     if form is None:
         return 0
     whole = frozenset(form.basis.tolist())
-    is_clear = form.smallest >= max(_CLEAR * error, _LARGE)
-    if not is_clear and not _is_regular(judge, whole, form.smallest >= _FAIR):
+    is_clear = form.smallest >= max(CLEAR * error, LARGE)
+    if not is_clear and not is_regular(judge, whole, form.smallest >= FAIR):
         return 0
     error /= form.smallest
     basis, others = (
@@ -139,100 +58,8 @@ def count_bases(matrix: FloatArray, error: float, judge: Judge) -> int:
         for rows in (form.basis, form.others)
     )
     errors = np.full(form.factor.shape, error)
-    start = _Minor(form.factor, errors, basis, others, frozenset())
+    start = Minor(form.factor, errors, basis, others, frozenset())
     return _Counter(judge).count(start.cleared(judge))
-
-
-def _is_regular(judge: Judge, rows: Rows, is_fair: bool) -> bool:
-    """Whether a block is regular that may be; where nobody knows only if it seems so."""
-    known = judge(rows)
-    if known is None and not is_fair:
-        raise TooManyError
-    return is_fair if known is None else known
-
-
-@dataclass
-class _Minor:
-    """A matroid on pieces: those of a basis, and the others in terms of them.
-
-    Attributes:
-        factor: (k, n) as of an `Echelon`, exactly zero where it is decided so.
-        error: (k, n) by how much each may be off.
-        basis: The k pieces of the basis.
-        others: The n other pieces.
-        chosen: Rows that are in the set besides.
-    """
-
-    factor: FloatArray
-    error: FloatArray
-    basis: list[Piece]
-    others: list[Piece]
-    chosen: Rows
-
-    def exchanged(self, out: tuple[int, ...], into: tuple[int, ...]) -> Rows:
-        """The rows of the basis with some of its pieces exchanged."""
-        rows = set(self.chosen)
-        for k, piece in enumerate(self.basis):
-            rows |= piece.left if k in out else piece.taken
-        for k, piece in enumerate(self.others):
-            rows |= piece.taken if k in into else piece.left
-        return frozenset(rows)
-
-    def cleared(self, judge: Judge) -> _Minor:
-        """With zeros where entries are none."""
-        self._decide(np.ones(self.factor.shape), self.factor != 0.0, judge)
-        return self
-
-    def _decide(self, size: FloatArray, looked_at: NDArray[np.bool_], judge: Judge) -> None:
-        """Put zeros where entries are zero; they are differences of numbers of a size."""
-        value = np.abs(self.factor)
-        limit = np.minimum(_ZERO * self.error, _TINY * size)
-        is_zero = looked_at & (value <= limit)
-        is_clear = value >= np.maximum(_CLEAR * self.error, _LARGE * size)
-        for i, j in np.argwhere(looked_at & ~is_zero & ~is_clear).tolist():
-            is_fair = bool(value[i, j] >= max(_CLEAR * self.error[i, j], _FAIR * size[i, j]))
-            is_zero[i, j] = not _is_regular(judge, self.exchanged((i,), (j,)), is_fair)
-        self.factor[is_zero] = 0.0
-
-    def without(self, rows: NDArray[np.integer], columns: NDArray[np.integer]) -> _Minor:
-        """Without some pieces, of the basis and of the others, that are decided elsewhere."""
-        gone = set(rows.tolist()), set(columns.tolist())
-        basis = [piece for k, piece in enumerate(self.basis) if k not in gone[0]]
-        others = [piece for k, piece in enumerate(self.others) if k not in gone[1]]
-        left_rows = np.setdiff1d(np.arange(len(self.basis)), rows)
-        left_columns = np.setdiff1d(np.arange(len(self.others)), columns)
-        chosen = self.chosen.union(
-            *(self.basis[k].taken for k in gone[0]), *(self.others[k].left for k in gone[1])
-        )
-        some = np.ix_(left_rows, left_columns)
-        return _Minor(self.factor[some], self.error[some], basis, others, chosen)
-
-    def deleted(self, i: int, judge: Judge) -> _Minor:
-        """Without piece i of the basis, in none of the sets: another takes its place."""
-        j = int(np.argmax(np.abs(self.factor[i])))
-        pivot, off = self.factor[i, j], self.error[i, j]
-        row, column = self.factor[i] / pivot, self.factor[:, j].copy()
-        column[i] = 0.0
-        row_error = (self.error[i] + np.abs(row) * off) / abs(pivot)
-        row_error[self.factor[i] == 0.0] = 0.0
-        column_error = np.where(column != 0.0, self.error[:, j], 0.0)
-        product = np.outer(column, row)
-        made = self.factor - product
-        error = self.error + np.outer(np.abs(column), row_error)
-        error += np.outer(column_error, np.abs(row))
-        made[i], error[i] = row, row_error
-        size = np.maximum(np.abs(self.factor), np.abs(product))
-        both = (self.factor != 0.0) & (product != 0.0)
-        both[i] = False
-        basis, others = list(self.basis), list(self.others)
-        basis[i], others[j] = others[j], basis[i]
-        minor = _Minor(made, np.where(made != 0.0, error, 0.0), basis, others, self.chosen)
-        minor.error = np.maximum(minor.error, _EPSILON * size)
-        minor._decide(size, both, judge)
-        return minor.without(np.array([], np.int64), np.array([j]))
-
-
-_EPSILON = float(np.finfo(np.float64).eps)
 
 
 class _Counter:
@@ -242,7 +69,7 @@ class _Counter:
         self.judge = judge
         self.divisions = self.factors = self.found = 0
 
-    def count(self, minor: _Minor) -> int:
+    def count(self, minor: Minor) -> int:
         """The weighted number of bases."""
         product = 1
         factor, parts = _components(minor)
@@ -254,13 +81,13 @@ class _Counter:
             product *= self._connected(part)
         return product
 
-    def _any(self, minor: _Minor) -> int:
+    def _any(self, minor: Minor) -> int:
         product, parts = _components(minor)
         for part in parts:
             product *= self._connected(part)
         return product
 
-    def _connected(self, minor: _Minor) -> int:
+    def _connected(self, minor: Minor) -> int:
         factor, minor, is_changed = self._reduced(minor)
         if is_changed:
             return factor * self._any(minor)
@@ -284,12 +111,12 @@ class _Counter:
         without = piece.outside * self._any(minor.deleted(i, self.judge)) if piece.outside else 0
         return factor * (with_it + without)
 
-    def _reduced(self, minor: _Minor) -> tuple[int, _Minor, bool]:
+    def _reduced(self, minor: Minor) -> tuple[int, Minor, bool]:
         """With pieces in parallel and in series put together, if there are any."""
-        for is_row, merge in ((False, _in_parallel), (True, _in_series)):
+        for is_row, merge in ((False, in_parallel), (True, in_series)):
             pieces = minor.basis if is_row else minor.others
             gone = set()
-            for i, j in self._alike(minor, is_row):
+            for i, j in list(minor.alike(is_row, self.judge)):
                 if i not in gone and j not in gone:
                     pieces[i] = merge(pieces[i], pieces[j])
                     gone.add(j)
@@ -300,7 +127,7 @@ class _Counter:
             gone = set()
             for j in single.tolist():
                 i = int(np.argmax(np.abs(minor.factor[:, j])))
-                minor.basis[i] = _in_parallel(minor.basis[i], minor.others[j])
+                minor.basis[i] = in_parallel(minor.basis[i], minor.others[j])
                 gone.add(j)
             return 1, _merged(minor, gone, False), True
         single = np.argwhere(np.count_nonzero(minor.factor, axis=1) == 1).ravel()
@@ -308,87 +135,23 @@ class _Counter:
             gone = set()
             for i in single.tolist():
                 j = int(np.argmax(np.abs(minor.factor[i])))
-                minor.others[j] = _in_series(minor.others[j], minor.basis[i])
+                minor.others[j] = in_series(minor.others[j], minor.basis[i])
                 gone.add(i)
             return 1, _merged(minor, gone, True), True
         return 1, minor, False
 
-    def _alike(self, minor: _Minor, is_row: bool) -> Iterator[tuple[int, int]]:
-        """Pairs of rows or of columns of the factors that are multiples of each other."""
-        factor = minor.factor if is_row else minor.factor.T
-        error = minor.error if is_row else minor.error.T
-        by_support: dict[bytes, list[int]] = {}
-        for k in range(len(factor)):
-            by_support.setdefault((factor[k] != 0.0).tobytes(), []).append(k)
-        for same in by_support.values():
-            some = factor[same]
-            p = int(np.argmax(np.abs(some).min(axis=0)))
-            if len(same) < 2 or not np.all(some[:, p]):
-                continue
-            scaled = some / some[:, [p]]
-            for k in range(len(same) - 1):
-                size = np.maximum(np.abs(scaled[k]), np.abs(scaled[k + 1 :]))
-                near = np.all(np.abs(scaled[k] - scaled[k + 1 :]) <= _NEAR * size, axis=1)
-                for other in np.flatnonzero(near).tolist():
-                    a, b = same[k], same[k + 1 + other]
-                    if self._is_multiple(minor, factor, error, a, b, is_row):
-                        yield a, b
 
-    def _is_multiple(
-        self, minor: _Minor, factor: FloatArray, error: FloatArray, a: int, b: int, is_row: bool
-    ) -> bool:
-        p = int(np.argmax(np.abs(factor[a]) * np.abs(factor[b])))
-        if factor[b, p] == 0.0:
-            return False
-        ratio = factor[a, p] / factor[b, p]
-        rest = np.abs(factor[a] - ratio * factor[b])
-        size = np.maximum(np.abs(factor[a]), np.abs(ratio * factor[b]))
-        ratio_error = (error[a, p] + abs(ratio) * error[b, p]) / abs(factor[b, p])
-        off = error[a] + abs(ratio) * error[b] + np.abs(factor[b]) * ratio_error
-        off = np.maximum(off, _EPSILON * size)
-        rest[p] = 0.0
-        if np.any(rest >= np.maximum(_CLEAR * off, _LARGE * size) + (size == 0.0)):
-            return False
-        doubtful = rest > np.minimum(_ZERO * off, _TINY * size)
-        for q in np.flatnonzero(doubtful).tolist():
-            out, into = ((a, b), (p, q)) if is_row else ((p, q), (a, b))
-            is_fair = bool(rest[q] >= max(_CLEAR * off[q], _FAIR * size[q]))
-            if _is_regular(self.judge, minor.exchanged(out, into), is_fair):
-                return False
-        return True
-
-
-def _in_parallel(one: Piece, other: Piece) -> Piece:
-    """Two of which a basis holds one at most."""
-    return Piece(
-        one.inside * other.outside + one.outside * other.inside,
-        one.outside * other.outside,
-        one.taken | other.left,
-        one.left | other.left,
-    )
-
-
-def _in_series(one: Piece, other: Piece) -> Piece:
-    """Two of which a basis holds one at least."""
-    return Piece(
-        one.inside * other.inside,
-        one.inside * other.outside + one.outside * other.inside,
-        one.taken | other.taken,
-        one.taken | other.left,
-    )
-
-
-def _merged(minor: _Minor, gone: set[int], is_row: bool) -> _Minor:
+def _merged(minor: Minor, gone: set[int], is_row: bool) -> Minor:
     """Without pieces that were put into others."""
     pieces = minor.basis if is_row else minor.others
     kept = [k for k in range(len(pieces)) if k not in gone]
     left = [pieces[k] for k in kept]
     if is_row:
-        return _Minor(minor.factor[kept], minor.error[kept], left, minor.others, minor.chosen)
-    return _Minor(minor.factor[:, kept], minor.error[:, kept], minor.basis, left, minor.chosen)
+        return Minor(minor.factor[kept], minor.error[kept], left, minor.others, minor.chosen)
+    return Minor(minor.factor[:, kept], minor.error[:, kept], minor.basis, left, minor.chosen)
 
 
-def _components(minor: _Minor) -> tuple[int, list[_Minor]]:
+def _components(minor: Minor) -> tuple[int, list[Minor]]:
     """What lies in every basis or in none, as a factor, and the parts that hang together."""
     rows, columns = len(minor.basis), len(minor.others)
     pairs = np.argwhere(minor.factor != 0.0)

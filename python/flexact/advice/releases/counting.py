@@ -11,7 +11,8 @@ from ...base.errors import FlexactError
 from ...result.result import Result
 from ...result.verdict import Alternative
 from ..change import Change
-from .bases import Rows, TooManyError, count_bases
+from .bases import count_bases
+from .minors import Rows, TooManyError
 from .reach import Reach
 from .stands import changed
 

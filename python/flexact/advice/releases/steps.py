@@ -18,8 +18,8 @@ from ...result.result import Result
 from ...result.sparse_basis import groups_of
 from ..change import Change
 from ..proposal import Proposal, Purpose, after
-from .bases import echelon_of
 from .counting import joined
+from .echelon import echelon_of
 from .reach import Places, Reach
 from .stands import changed
 
