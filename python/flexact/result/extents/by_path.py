@@ -7,7 +7,8 @@ from functools import partial
 
 from ...core.arrays import FloatArray
 from ..following.ending import Ending
-from ..following.follow import Wishes, follow
+from ..following.follow import follow
+from ..following.followed import Wishes
 from .extent import EvidenceKind, Extent, Kind, Reason
 from .orders import fit_of, measured
 from .reduced import Reduced
