@@ -48,6 +48,8 @@ def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
     if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
         fit = max(fits, key=lambda each: each.spread)
         return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, fit=fit)
+    if reduced.is_spent:
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
     if felt.many > 1 and any(each.aside for each in found):
         return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ASIDE)
     stopped = min(back.gone, ahead.gone) > 0.0

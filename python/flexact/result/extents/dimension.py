@@ -94,7 +94,7 @@ def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -
         if dimension == width:
             return Near(width, tuple(lines))
     # Where some are found, others that are not say nothing; where none is, that proves nothing.
-    is_clear = dimension > 0 and 2 * unclear <= looked_at
+    is_clear = not reduced.is_spent and dimension > 0 and 2 * unclear <= looked_at
     return Near(dimension if is_clear else None, tuple(lines))
 
 

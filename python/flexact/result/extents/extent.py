@@ -61,7 +61,7 @@ class Reason(str, Enum):
     ASIDE = "aside"
     """The least strain is met along another motion."""
     TOO_LARGE = "too large"
-    """So many coordinates are not followed."""
+    """So many coordinates are not followed, or not any longer."""
     NOT_GIVEN = "not given"
     """Of so large a space not all vectors are known."""
 

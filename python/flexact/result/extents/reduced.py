@@ -23,7 +23,11 @@ _SETTLED, _ROUNDING, _SHRINKS = 1.0e-15, 1.0e-10, 0.7
 #: What is left of g where it is zero, and where that may be rounding, so that steps have to gain.
 _ZERO, _ROUNDED, _GAIN_IN_ROUNDING = 1.0e-18, 1.0e-15, 0.5
 #: The steps to the least of g: how many, their damping times its square, and what ends them.
-_MOST_DESCENTS, _DAMPING, _MOST_DAMPING, _GAIN = 100, 1.0, 1.0e12, 1.0e-9
+_MOST_DESCENTS, _DAMPING, _MOST_DAMPING, _GAIN = 60, 1.0, 1.0e12, 1.0e-9
+
+#: So many positions are looked at in a component of few coordinates; of more, where each costs
+#: more, fewer.
+_MOST_POSITIONS, _FEWEST_POSITIONS, _FEW_COORDINATES = 5_000, 500, 50
 
 
 class Here(NamedTuple):
@@ -49,6 +53,13 @@ class Reduced:
         self.felt, self.stresses = felt, stresses
         self._across = _complement(felt.motions)
         self._rest = _complement(stresses)
+        share = (_FEW_COORDINATES / max(felt.motions.shape[0], _FEW_COORDINATES)) ** 2
+        self._left = _FEWEST_POSITIONS + int(_MOST_POSITIONS * share)
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether as many positions were looked at as may be; no more are found then."""
+        return self._left <= 0
 
     def at(self, shares: FloatArray, guess: FloatArray | None = None) -> Here | None:
         """The position after some shares of the motions (N,); None where Newton finds none.
@@ -57,7 +68,9 @@ class Reduced:
             shares: Of the motions.
             guess: (n,) a change near which it is.
         """
-        felt, held = self.felt, self.felt.held
+        felt, held, self._left = self.felt, self.felt.held, self._left - 1
+        if self._left < 0:
+            return None
         ahead, last = felt.motions @ shares, np.inf
         across = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
         for _ in range(_MOST_STEPS):
