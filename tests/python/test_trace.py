@@ -161,8 +161,8 @@ def test_dead_points_of_a_four_bar() -> None:
     """The rocker turns back where crank and coupler are in line: twice a turn of the crank."""
     path = traced("linkages/four_bar_planar", length=40.0)
     assert path.along.stop.ending is Ending.CLOSED
-    # The crank turns by 2 pi, a radian counting as the size, 5 m.
-    assert path.along.length == pytest.approx(10.0 * math.pi, rel=1e-5)
+    # The crank turns by 2 pi, a radian counting as the size, which is AC.
+    assert path.along.length == pytest.approx(2.0 * math.pi * math.hypot(3.0, 3.0), rel=1e-5)
     index = path.result.given.node_index
     turning = [step for step in path.dead_points if step.dead and "rocker CD" in step.dead.turning]
     assert len(turning) == 4

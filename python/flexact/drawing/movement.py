@@ -86,13 +86,13 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
     farthest displacements is a tenth of the drawing's size, unless rotations are too large.
     """
     scale = reach = scale_of(drawing, motion)
-    sides, deviation = _swung(motion, reach)
+    sides, deviation = _swung(motion, reach, drawing.size)
     for _ in range(_MOST_FITS):
         factor = _factor(drawing, [side[-1] for side in sides])
         if abs(factor - 1.0) < _FITS:
             break
         reach *= factor
-        fitted, there = _swung(motion, reach)
+        fitted, there = _swung(motion, reach, drawing.size)
         if np.isinf(there) and np.isfinite(deviation):
             # The path ends before.
             break
@@ -101,13 +101,13 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
     return Movement(scale, deviation, np.linspace(-1.0, 1.0, len(poses)), poses)
 
 
-def _swung(motion: Moving, reach: float) -> tuple[list[tuple[Pose, ...]], float]:
+def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
     """The poses to both sides, up to the motion times `reach`; the deviation."""
     shares = reach * np.arange(1, _STEPS + 1) / _STEPS
     analysed = motion.analysed
     followed = has_path(analysed.data)
     if followed:
-        sides = [follow(analysed, sign * shares) for sign in (-1.0, 1.0)]
+        sides = [follow(analysed, sign * shares, size) for sign in (-1.0, 1.0)]
         found = [side for side in sides if side is not None and side.deviation <= _UNSEEN]
         if len(found) == len(sides):
             poses = [poses_with_inner_nodes(motion.condensed, side.poses) for side in found]

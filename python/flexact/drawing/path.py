@@ -50,17 +50,18 @@ def has_path(data: ModelData) -> bool:
     return is_followed(data, _MOST_COORDINATES)
 
 
-def follow(motion: Velocities, shares: FloatArray) -> Path | None:
+def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
     """The poses at shares of a motion that grow from the reference on.
 
     Args:
         motion: The motion; what its model holds stays zero, what it fixes stays.
         shares: (k,) by which the motion is multiplied, of one sign.
+        size: Of the drawing [m].
 
     Returns:
         The path, or None where there is none near.
     """
-    held = Held(motion.data)
+    held = Held(motion.data, size)
     direction = held.direction(motion)
     length = float(np.linalg.norm(direction))
     if not length > 0.0:

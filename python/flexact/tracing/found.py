@@ -23,6 +23,9 @@ class Found(Frozen):
     arc: float
     where: Configuration
     nodes: tuple[int, ...] = ()
+    """Those that turn back there."""
+    resting: tuple[int, ...] = ()
+    """Those that are at rest, also such as never move."""
     is_drive: bool = False
     directions: int = 0
 
@@ -59,6 +62,7 @@ def merged(found: Sequence[Found], apart: float) -> list[Found]:
             made[-1] = replace(
                 last,
                 nodes=tuple(sorted({*last.nodes, *each.nodes})),
+                resting=tuple(sorted({*last.resting, *each.resting})),
                 is_drive=last.is_drive or each.is_drive,
                 directions=max(last.directions, each.directions),
             )

@@ -122,7 +122,7 @@ class Stroke:
 
     def _of_found(self, found: Found) -> Step:
         resting = np.zeros(self.held.arrays.node_kind.size, bool)
-        resting[list(found.nodes)] = True
+        resting[list(found.resting)] = True
         names = self.names.turning(found.nodes, resting, resting)
         residual = self.held.at(found.where).residual
         step = self._step(found.where, found.arc, residual, max(self.zero, _ZERO_AT_DEAD))
@@ -195,7 +195,10 @@ class Stroke:
         rests = np.linalg.norm(speeds, axis=1) <= _RESTS
         one, other = self._speeds(way.one), self._speeds(way.other)
         turns = rests & (np.sum(one * other, axis=1) < 0.0)
-        return place, np.flatnonzero(turns).tolist() if turns[node] else []
+        if not turns[node]:
+            return [], []
+        resting = tuple(np.flatnonzero(rests).tolist())
+        return [replace(each, resting=resting) for each in place], np.flatnonzero(turns).tolist()
 
 
 def _least_norm(one: FloatArray, other: FloatArray) -> FloatArray:

@@ -97,7 +97,7 @@ class Traced(Frozen):
     Attributes:
         result: The analysis of the reference.
         shown: The motion that was followed.
-        size: Of the model [m]: the diagonal of the box round all positions; 1 without extent.
+        size: Of the model [m]: the largest distance between positions; 1 without extent.
         steps: Along the path, from the end against the motion to the end along it; dead points
             are among them.
         against: How far it was followed against the motion.

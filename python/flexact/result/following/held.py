@@ -71,10 +71,10 @@ class Place(Frozen):
 class Held:
     """The held deformations of a model."""
 
-    def __init__(self, data: ModelData) -> None:
-        """Take the classes of a sound model as they are."""
+    def __init__(self, data: ModelData, size: float | None = None) -> None:
+        """Take the classes of a sound model as they are; `size` [m] in place of its own."""
         self.data = data
-        self.sizes = sizes_of(data.arrays)
+        self.sizes = sizes_of(data.arrays, size)
         self.arrays = scaled_arrays(data.arrays, self.sizes)
         self._packed = packed(self.arrays)
         classes = self.arrays.deformation_class
@@ -102,7 +102,7 @@ class Held:
 
     @property
     def size(self) -> float:
-        """Diagonal of the box round all positions [m]; 1 where they are one point."""
+        """The largest distance between positions [m]; 1 where they are one point."""
         return self.sizes.size
 
     @property
