@@ -88,16 +88,16 @@ class _Counter:
         return product
 
     def _connected(self, minor: Minor) -> int:
-        factor, minor, is_changed = self._reduced(minor)
+        minor, is_changed = self._reduced(minor)
         if is_changed:
-            return factor * self._any(minor)
+            return self._any(minor)
         pieces = minor.basis + minor.others
         held = min(minor.factor.shape)
         if held <= 2:
             # All pairs are independent, of the rows or of what is left out.
             count = _uniform(pieces, len(minor.basis))
             self.found += count
-            return factor * count
+            return count
         self.divisions += 1
         self.factors += minor.factor.size
         # What hangs together has a basis for each exchange of one of it.
@@ -109,10 +109,26 @@ class _Counter:
         piece = minor.basis[i]
         with_it = piece.inside * self._any(minor.without(np.array([i]), np.array([], np.int64)))
         without = piece.outside * self._any(minor.deleted(i, self.judge)) if piece.outside else 0
-        return factor * (with_it + without)
+        return with_it + without
 
-    def _reduced(self, minor: Minor) -> tuple[int, Minor, bool]:
+    def _reduced(self, minor: Minor) -> tuple[Minor, bool]:
         """With pieces in parallel and in series put together, if there are any."""
+        single = np.argwhere(np.count_nonzero(minor.factor, axis=0) == 1).ravel()
+        if single.size and minor.factor.size:
+            gone = set()
+            for j in single.tolist():
+                i = int(np.argmax(np.abs(minor.factor[:, j])))
+                minor.basis[i] = in_parallel(minor.basis[i], minor.others[j])
+                gone.add(j)
+            return _merged(minor, gone, False), True
+        single = np.argwhere(np.count_nonzero(minor.factor, axis=1) == 1).ravel()
+        if single.size and minor.factor.size:
+            gone = set()
+            for i in single.tolist():
+                j = int(np.argmax(np.abs(minor.factor[i])))
+                minor.others[j] = in_series(minor.others[j], minor.basis[i])
+                gone.add(i)
+            return _merged(minor, gone, True), True
         for is_row, merge in ((False, in_parallel), (True, in_series)):
             pieces = minor.basis if is_row else minor.others
             gone = set()
@@ -121,24 +137,8 @@ class _Counter:
                     pieces[i] = merge(pieces[i], pieces[j])
                     gone.add(j)
             if gone:
-                return 1, _merged(minor, gone, is_row), True
-        single = np.argwhere(np.count_nonzero(minor.factor, axis=0) == 1).ravel()
-        if single.size and minor.factor.size:
-            gone = set()
-            for j in single.tolist():
-                i = int(np.argmax(np.abs(minor.factor[:, j])))
-                minor.basis[i] = in_parallel(minor.basis[i], minor.others[j])
-                gone.add(j)
-            return 1, _merged(minor, gone, False), True
-        single = np.argwhere(np.count_nonzero(minor.factor, axis=1) == 1).ravel()
-        if single.size and minor.factor.size:
-            gone = set()
-            for i in single.tolist():
-                j = int(np.argmax(np.abs(minor.factor[i])))
-                minor.others[j] = in_series(minor.others[j], minor.basis[i])
-                gone.add(i)
-            return 1, _merged(minor, gone, True), True
-        return 1, minor, False
+                return _merged(minor, gone, is_row), True
+        return minor, False
 
 
 def _merged(minor: Minor, gone: set[int], is_row: bool) -> Minor:

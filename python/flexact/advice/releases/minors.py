@@ -166,12 +166,16 @@ class Minor:
             if len(same) < 2 or not np.all(some[:, p]):
                 continue
             scaled = some / some[:, [p]]
+            gone: set[int] = set()
             for k in range(len(same) - 1):
+                if same[k] in gone:
+                    continue
                 size = np.maximum(np.abs(scaled[k]), np.abs(scaled[k + 1 :]))
                 near = np.all(np.abs(scaled[k] - scaled[k + 1 :]) <= _NEAR * size, axis=1)
                 for other in np.flatnonzero(near).tolist():
                     a, b = same[k], same[k + 1 + other]
-                    if self._is_multiple((a, b), is_row, judge):
+                    if b not in gone and self._is_multiple((a, b), is_row, judge):
+                        gone.add(b)
                         yield a, b
 
     def _is_multiple(self, pair: tuple[int, int], is_row: bool, judge: Judge) -> bool:
