@@ -62,7 +62,7 @@ def _rank(matrix: np.ndarray) -> int:
 def _counted(matrix: np.ndarray, able: np.ndarray) -> int | None:
     size = matrix.shape[0] - _rank(matrix)
     if not size:
-        return 0
+        return 1
     space = np.linalg.svd(matrix)[0][:, matrix.shape[0] - size :]
     able = np.flatnonzero(able & (np.linalg.norm(space, axis=1) > _ZERO))
     if math.comb(able.size, size) > _MOST:

@@ -55,6 +55,11 @@ class Proposal(Frozen):
     alternatives: tuple[Change, ...] = ()
 
 
+def nothing(result: Result, purpose: Purpose) -> Proposal:
+    """The empty set: what does it where there is nothing to be done."""
+    return Proposal(purpose, Change(), 1.0, after(result))
+
+
 def tried(result: Result, change: Change) -> After:
     """What an analysis of the mechanism says once it is changed so.
 

@@ -10,6 +10,7 @@ from typing import Any, overload
 
 from ..advice.causes.cause import Causes
 from ..advice.causes.causes import causes_of
+from ..advice.change import Change
 from ..advice.proposal import Proposal, Purpose, tried
 from ..advice.releases.declarations import Declarations, declarations_of
 from ..advice.releases.releases import Releases, releases_of
@@ -95,7 +96,8 @@ class Advice(Frozen, Sequence[Step]):
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """Ways to mend the mechanism, numbered as they are shown; each was tried."""
-        ordered = sorted(self._proposals(), key=lambda one: _ORDER.index(one.purpose))
+        every = (one for one in self._proposals() if one.change != Change())
+        ordered = sorted(every, key=lambda one: _ORDER.index(one.purpose))
         return tuple(Step(self.analysis, k, one) for k, one in enumerate(ordered, start=1))
 
     def _proposals(self) -> Iterator[Proposal]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..advice.causes.cause import Cause, CauseKind
 from ..advice.change import Change
-from ..advice.proposal import Proposal
+from ..advice.proposal import Proposal, Purpose
 from ..core.elements import Class
 from ..text.json_result import header
 from .json_spaces import dictionary_of_spaces
@@ -20,6 +20,12 @@ if TYPE_CHECKING:
     from .advice import Advice
 
 Entries = dict[str, Any]
+
+#: What is said of the empty set.
+_NOTHING = {
+    Purpose.RELEASE: "Nothing is stopped twice.",
+    Purpose.DECLARE: "Nothing is free that is not declared.",
+}
 
 
 def line_of(advice: Advice) -> Entries:
@@ -73,7 +79,9 @@ def dictionary_of(advice: Advice) -> Entries:
 
 
 def _said(one: Proposal, step_of: dict[int, Step]) -> Entries:
-    return {"condition": _finite(one.condition), "statement": step_of[id(one)].statement}
+    step = step_of.get(id(one))
+    statement = step.statement if step is not None else _NOTHING[one.purpose]
+    return {"condition": _finite(one.condition), "statement": statement}
 
 
 def _motion(each: AdvisedMotion) -> Entries:

@@ -85,7 +85,8 @@ def deformation_key(
     place = _place(outcome, np.mean(places, axis=0)) if places else ()
     kind = _BENDING if bends else role
     is_body = part.kind is PartKind.BODY
-    return is_body, natural(_name(part, numbered)), kind, of_sheet, direction, place
+    end = _end(outcome, nodes[0]) if bends else ()
+    return is_body, natural(_name(part, numbered)), kind, of_sheet, direction, end, place
 
 
 def column_key(outcome: Outcome, column: int, *, numbered: bool = True) -> Any:
@@ -106,6 +107,12 @@ def coordinate_key(outcome: Outcome, node: int, axis: int, *, numbered: bool = T
     names = (_name(part, numbered) for part in here)
     name = outcome.parts.name_of_point(position) or next(filter(None, names), "")
     return turns, natural(name), _place(outcome, value), axis
+
+
+def _end(outcome: Outcome, node: int) -> Any:
+    """What is at an end: ground before others, then by name, however the mechanism is turned."""
+    given = int(outcome.condensed.nodes[node])
+    return not outcome.parts.is_held(given), natural(outcome.parts.name_of_point(given))
 
 
 def _name(part: Part, numbered: bool) -> str:

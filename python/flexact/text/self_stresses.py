@@ -69,6 +69,15 @@ def conflict_in_words(stress: SelfStress) -> Pieces:
     return (f"{listed(names)} {both} hold ", *_held(outcome, on, over), f", {_against(over)}")
 
 
+def pressing_in_words(stress: SelfStress) -> tuple[str, ...]:
+    """Names of the parts that press on a body, where they are so many that they are counted."""
+    chosen = _clearest(stress) if stress.analysis.is_told_by_parts else None
+    if chosen is None:
+        return ()
+    names = tuple(part_words(load.part) for load in chosen.loads if load.part is not None)
+    return names if chosen.over is None or len(names) > _MOST_NAMES else ()
+
+
 def _clearest(stress: SelfStress) -> Conflict | None:
     """A body on which few parts fight over one thing, else one on which many press.
 

@@ -11,7 +11,7 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...result.result import Result
-from ..proposal import Proposal, Purpose
+from ..proposal import Proposal, Purpose, nothing
 from . import reach as reaches
 from .candidates import Candidate, candidates
 from .counting import counted
@@ -56,7 +56,8 @@ def declarations_of(result: Result) -> Declarations:
     sheet is one of its own. `condition` of a proposal is the inverse of the smallest singular
     value of its block in an orthonormal basis, with rotations compared by the characteristic
     length. Sets of a condition within ten times the best come first, of these such of bodies,
-    then of joints, then of what is inside of sheets; displacements before rotations.
+    then of joints, then of what is inside of sheets; displacements before rotations. Without a
+    motion there is one set, the empty one.
 
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
@@ -64,7 +65,7 @@ def declarations_of(result: Result) -> Declarations:
     stands = as_it_stands(result)
     size = stands.under_constrained
     if not size:
-        return Declarations(0, 0)
+        return Declarations(0, 1, (nothing(result, Purpose.DECLARE),))
     if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
         one = by_steps(stands, Purpose.DECLARE, reaches.of_columns, _tiers)
         sets = () if one is None else (one,)

@@ -10,7 +10,7 @@ import numpy as np
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...result.result import Result
-from ..proposal import Proposal, Purpose
+from ..proposal import Proposal, Purpose, nothing
 from . import reach as reaches
 from .candidates import candidates
 from .cost import cost_of
@@ -63,6 +63,8 @@ def releases_of(result: Result) -> Releases:
     flexures before bodies, ties by names and places. Links inside of bodies are listed where
     nothing else does it.
 
+    Without a self-stress there is one set, the empty one.
+
     Of large models, of which not all null vectors fit, nothing is counted, and one set at most is
     given (`flexact.advice.releases.steps`).
 
@@ -72,7 +74,7 @@ def releases_of(result: Result) -> Releases:
     stands = as_it_stands(result)
     size = stands.over_constrained
     if not size:
-        return Releases(0, 0)
+        return Releases(0, 1, (nothing(result, Purpose.RELEASE),))
     if stands.stress_space.vectors < size or not reaches.fits(stands.stress_space):
         one = by_steps(stands, Purpose.RELEASE, reaches.of_rows, _tiers)
         sets = () if one is None else (one,)
