@@ -17,7 +17,7 @@ from flexact.core.elements import NodeKind, keywords_of
 from flexact.drawing import drawing_of, resultants
 from flexact.mesh import to_meshio
 from flexact.model.data import ModelData
-from flexact.page.drawing_data import frame_of
+from flexact.page.drawing_data import frames_of
 from flexact.page.modes_data import stresses
 from flexact.picture import picture_bytes
 
@@ -177,7 +177,7 @@ def test_a_page_holds_the_same_at_every_place(name: str) -> None:
 def page_of(analysis: flexact.Analysis, as_in: ModelData) -> dict[str, Any]:
     """Values of self-stresses and the sides of their diagrams, ends as in a model."""
     drawing = drawing_of(analysis.given)
-    frame = frame_of(drawing)
+    (frame,) = frames_of(drawing)
     nodes = as_in.arrays.element_node[0, drawing.members.index] - 1
     swapped = drawing.members.nodes[:, 0] != nodes
     (told,) = stresses(analysis, frame)
