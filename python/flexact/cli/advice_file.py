@@ -144,8 +144,8 @@ class AdviceFile:
         return f"{deck}: {said}"
 
     def _taken(self, advice: Advice) -> _Taken:
-        """The steps that were asked for; of a page by default the first."""
-        asked = self.steps or (Chosen(1, 1),)
+        """The steps that were asked for; of a page by default the first, or what makes it exact."""
+        asked = self.steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
         for one in asked:
             if one.step > len(advice):
                 raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
