@@ -280,10 +280,58 @@ def test_choices_are_written_by_their_number(
     for choice in ("", ".1", ".2"):
         target = tmp_path / f"new{choice}.dat"
         code, out, _ = run(capsys, path, "--apply", f"{number}{choice}", "-o", str(target))
-        assert code == 0 and f"step {number} written to" in out
+        told = f"{number}.2" if choice == ".2" else f"{number}"
+        assert code == 0 and f"step {told} written to" in out
         assert analyse(target).verdict is flexact.Verdict.EXACT
     one, same, other = ((tmp_path / f"new{c}.dat").read_bytes() for c in ("", ".1", ".2"))
     assert one == same != other
+
+
+@pytest.mark.parametrize("words", [("advise", "--apply", "1"), ("trace",), ("declare",)])
+@pytest.mark.parametrize("target", ["", ".", ".."])
+def test_a_file_without_a_name_is_refused(
+    words: tuple[str, ...], target: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    verb, *more = words
+    deck = str(INPUT / "flexures" / "parallel_guide_undeclared.dat")
+    assert main([verb, deck, *more, "-o", target]) == 1
+    assert "it is a folder; name a file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("motion", "why"),
+    [
+        ("rotation x", "a body turns about z alone"),
+        ("rotation about y", "a body turns about z alone"),
+        ("screw z pitch 0.1", "there are no screws"),
+        ("translation z", "a planar model has no z"),
+    ],
+)
+def test_a_planar_body_is_wanted_in_its_plane(motion: str, why: str) -> None:
+    made = analyse(INPUT / "flexures" / "planar_parallel_guide.dat")
+    with pytest.raises(ModelError, match=why):
+        made.advice(wanted=[f"body: {motion}"])
+
+
+def test_what_is_wanted_and_stopped_is_said_where_nothing_else_is_wrong() -> None:
+    model = Model()
+    model.fix(*model.hexapod(0.1, 0.06, 0.1, name="hexapod", spread=20).ground)
+    words = "There is nothing to mend"
+    assert f"{words}." in analyse(model).advice().describe()
+    made = analyse(model).advice(wanted=["hexapod platform: translation z"])
+    assert f"{words}, but what is wanted is stopped." in made.describe()
+
+
+def test_points_of_one_body_are_told_apart() -> None:
+    """A stage on one wire has five motions; more than one of its points takes part."""
+    model = Model()
+    model.wire((0.13, 0, 0), (0.03, 0, 0), name="wire 1")
+    model.fix((0.13, 0, 0))
+    model.body([(0, 0, 0.05), (0.03, 0, 0)], name="stage")
+    words = [step.statement for step in analyse(model).advice() if "eclare" in step.statement]
+    assert words
+    for each in words:
+        assert "the end of wire 1 at the stage" in each and "the stage at (0, 0, 0.05) m" in each
 
 
 def test_steps_are_taken_together(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -162,7 +162,9 @@ def _both(advice: Advice) -> Iterator[Told]:
 
 def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
     if not advice.steps and advice.analysis.verdict is Verdict.EXACT:
-        yield (Told(sentence("There is nothing to mend.")),)
+        is_had = advice.spaces is None or all(each.is_free for each in advice.spaces.wanted)
+        but = "" if is_had else ", but what is wanted is stopped"
+        yield (Told(sentence(f"There is nothing to mend{but}.")),)
     kinds = groupby(advice.steps, lambda one: (_AIMS[one.purpose], one.outcome))
     for (aim, outcome), steps in kinds:
         told = tuple(steps)

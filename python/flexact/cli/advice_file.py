@@ -51,6 +51,10 @@ class Chosen(NamedTuple):
     step: int
     choice: int
 
+    def __str__(self) -> str:
+        """As it is asked for, such as "1" or "1.2"."""
+        return f"{self.step}.{self.choice}" if self.choice > 1 else str(self.step)
+
 
 def chosen_steps(text: str) -> tuple[Chosen, ...]:
     """Numbers of steps, and maybe of one of their choices behind a point, as an option's type."""
@@ -152,7 +156,7 @@ class AdviceFile:
         steps = [(advice[one.step - 1], one.choice) for one in asked]
         change = together(step.chosen(choice) for step, choice in steps)
         after = steps[0][0].after if len(steps) == 1 else tried(advice.analysis, change)
-        numbers = listed([str(one.step) for one in asked])
+        numbers = listed([str(one) for one in asked])
         pieces = tuple(piece for step, _ in steps for piece in (*step.pieces, " "))
         return _Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after, pieces)
 

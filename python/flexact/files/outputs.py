@@ -61,8 +61,11 @@ def plan_file(deck: DeckFile, target: Path) -> dict[str, tuple[Path, ...]]:
     """As `plan_files`, of one deck and the one file that was named.
 
     Raises:
-        OutputError: The deck would be overwritten, or the folder cannot take files.
+        OutputError: The deck would be overwritten, the target has no name of a file, or the folder
+            cannot take files.
     """
+    if target.name in ("", ".."):
+        raise OutputError(f"cannot write {target}: it is a folder; name a file")
     named = replace(deck, relative=Path(target.stem))
     return plan_files([named], target.parent, (target.suffix,))
 

@@ -66,6 +66,18 @@ def node_words(parts: Parts, node: int) -> str:
     return f"the {side} of {parts_words(parts.turning(node))}"
 
 
+def end_words(parts: Parts, position: int) -> str:
+    """A point on a body by its name, by the part that ends there, or by its place."""
+    body = parts.body_at.get(position)
+    if body is None or parts.name_of_point(position):
+        return node_words(parts, position)
+    owner = part_words(parts.of_body(body))
+    others = [part for part in parts.at(position) if part.kind is not PartKind.BODY]
+    if len(others) == 1:
+        return f"the end of {part_words(others[0])} at {owner}"
+    return f"{owner} at {point_words(parts, position)} m"
+
+
 def place_words(parts: Parts, position: int, within: Part | None = None) -> str:
     """A point by its name, or by what is there.
 

@@ -27,8 +27,7 @@ def require_suffix(path: Path) -> None:
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        told = f"the suffix of {path} is to be" if not suffix else f"{path} is no such file: it is"
-        raise OutputError(f"{told} .pvd, .csv or .png")
+        raise OutputError(f"the suffix of {path} is to be .pvd, .csv or .png")
     if suffix == SUFFIX:
         find_format("vtu")
     if suffix == ".png":

@@ -106,14 +106,17 @@ def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelErro
     others = [part for part in result.parts.all if part.name == name]
     if others:
         what = f"{in_short(name)} is no body but a {others[0].kind}"
-    elif any(result.parts.name_of_point(k) == name for k in range(len(result.given.node_names))):
+    elif name.strip() and any(
+        result.parts.name_of_point(k) == name for k in range(len(result.given.node_names))
+    ):
         what = f"the point {in_short(name)} has no orientation: nothing there can turn"
     else:
         what = f"there is no body called {in_short(name)}"
     names = list(dict.fromkeys(each.name for each in every if each.is_body))
     names += [each.name for each in every if not each.is_body and _is_named(each)]
     near = nearest(name, names) or sorted(names, key=natural)[:3]
-    hint = f"there are {', '.join(map(in_short, near))}" if near else "this mechanism has no body"
+    are = "is" if len(near) == 1 else "are"
+    hint = f"there {are} {', '.join(map(in_short, near))}" if near else "this mechanism has no body"
     return model_error("no-body", what, hint)
 
 

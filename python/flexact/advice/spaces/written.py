@@ -67,6 +67,8 @@ def read(text: str, *, planar: bool = False) -> Written:
         what = f"{in_short(word)} is no motion" if word else "there is no motion in it"
         raise unreadable(text, what, f"did you mean {near[0]}? " if near else "")
     kind = ScrewKind(word.lower())
+    if planar and kind is ScrewKind.SCREW:
+        raise unreadable(text, "in a planar model there are no screws")
     rest, pitch = _with_pitch(text, kind, rest.strip())
     direction, point = _parted(text, kind, rest, planar)
     axis = _direction(text, direction, planar=planar)
@@ -100,8 +102,9 @@ def _parted(text: str, kind: ScrewKind, rest: str, planar: bool) -> tuple[str, s
         if found is not None:
             return found["direction"], found["point"].strip()
     if planar:
-        point = rest.removeprefix("about ").strip()
-        return ("z", None) if point in ("", "z") else ("z", point)
+        point = rest.removeprefix("about ").removeprefix("along ").strip()
+        axis = point.lower().lstrip("+-")
+        return (point, None) if axis in ("x", "y") else ("z", None if axis in ("", "z") else point)
     return rest, None
 
 

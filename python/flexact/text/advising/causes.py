@@ -18,7 +18,7 @@ from ..naming import (
     named_element,
     named_node,
 )
-from ..places import listed, part_words, with_article
+from ..places import end_words, listed, part_words, with_article
 from ..self_stresses import conflict_in_words
 from ..sentences import Named, Piece, Pieces
 from ..units import angle_in_words, length_in_words
@@ -179,8 +179,7 @@ def _point(result: Result, node: int) -> Named:
     others = [part for part in parts.at(index) if part.kind is not PartKind.BODY]
     if body is None or len(others) != 1 or parts.name_of_point(index):
         return named_node(result, node)
-    words = f"the end of {part_words(others[0])} at {part_words(parts.of_body(body))}"
-    return Named("node", node, words)
+    return Named("node", node, end_words(parts, index))
 
 
 def _step(length: float) -> float:

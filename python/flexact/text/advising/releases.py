@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from ...advice.change import Change
 from ...advice.proposal import Proposal, Purpose
 from ...advice.ways import Coordinate, Deformation, coordinate_of
-from ...core.elements import AXES, coordinate_name
+from ...core.elements import AXES, NodeKind, coordinate_name
 from ...model.parts.parts import Part, PartKind
 from ...result.outcome import Outcome
 from ...result.result import Result
 from ..calls import HOLD, call_of
 from ..naming import coordinate_in_words, in_words, named_element
-from ..places import listed, place_words
+from ..places import end_words, listed, place_words
 from ..sentences import Named, Piece, Pieces, plain
 from .hardware import Phrase, held, outcome_as_given, released
 
@@ -95,6 +95,7 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
     ways: dict[str, dict[str, list[str]]] = {}
     inside: dict[Part, int] = {}
     part_of = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    shared = _of_several_points(outcome, change)
     for node, name, _ in change.coordinates:
         index = outcome.given.node_index[node]
         if len(change.coordinates) > 1 and index in part_of:
@@ -102,6 +103,8 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
             continue
         where = coordinate_in_words(outcome, node, name)[0]
         assert isinstance(where, Named)
+        if where.words in shared and node in shared[where.words]:
+            where = where._replace(words=end_words(outcome.parts, index))
         names.setdefault(where.words, where)
         turns = name.startswith("r")
         mine = ways.setdefault(where.words, {})
@@ -115,6 +118,18 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
         within = named_element(outcome, number)
         items.append((f"{in_words(count)} coordinate{'s' * (count > 1)} inside ", within))
     return _listed(items[:_MOST_NAMED], len(items) - _MOST_NAMED)
+
+
+def _of_several_points(outcome: Outcome, change: Change) -> dict[str, set[int]]:
+    """Positions by what they are called, of those where several are called the same."""
+    data = outcome.given.arrays
+    called: dict[str, set[int]] = {}
+    for node, name, _ in change.coordinates:
+        if data.node_kind[outcome.given.node_index[node]] <= NodeKind.POSITION:
+            where = coordinate_in_words(outcome, node, name)[0]
+            assert isinstance(where, Named)
+            called.setdefault(where.words, set()).add(node)
+    return {words: nodes for words, nodes in called.items() if len(nodes) > 1}
 
 
 def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:
