@@ -83,7 +83,7 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
         tuple(_both(advice)),
         *_steps(advice, most),
         tuple(_left_out(advice)),
-        tuple(map(Told, spaces_lines(advice.analysis, advice.spaces))),
+        tuple(map(Told, spaces_lines(advice.analysis, advice.spaces, added=False))),
     )
     return tuple(section for section in made if section)
 

@@ -33,13 +33,18 @@ from .screws import Geometry
 _HELD_BY_A_SHEET = 3
 
 
-def spaces_lines(result: Result, spaces: Spaces | None) -> tuple[Line, ...]:
+def spaces_lines(result: Result, spaces: Spaces | None, *, added: bool = True) -> tuple[Line, ...]:
     """What a body can do, what holds it, and what may be added to it.
 
     Without spaces it is said why, where there are bodies after all.
+
+    Args:
+        result: The result.
+        spaces: Freedom and constraint of the body.
+        added: Whether the wires and sheets to add are told; not where steps tell them.
     """
     if spaces is not None:
-        return tuple(_lines(result, spaces))
+        return (*_lines(result, spaces), *(_added(result, spaces) if added else ()))
     if not subjects_of(result):
         return ()
     return (
@@ -98,7 +103,12 @@ def _on_intent(result: Result, geometry: Geometry, spaces: Spaces, body: str) ->
             "Of the wires that were tried none stops only that and causes no self-stress."
         )
     yield from _taken_back(result, spaces)
-    what = " and nothing that is wanted" if had else ""
+
+
+def _added(result: Result, spaces: Spaces) -> Iterator[Line]:
+    """Wires and sheets that stop what is unwanted."""
+    geometry, count = Geometry(result), spaces.unwanted
+    what = " and nothing that is wanted" if any(each.is_free for each in spaces.wanted) else ""
     single = [each for each in spaces.proposals if len(each.change.wires) == 1]
     if single:
         which = "To stop it" if count == 1 else "To stop one of them"
