@@ -48,10 +48,10 @@ def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
     if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
         fit = max(fits, key=lambda each: each.spread)
         return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, fit=fit)
-    if reduced.is_spent:
-        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
     if felt.many > 1 and any(each.aside for each in found):
         return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ASIDE)
+    if reduced.is_spent:
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
     stopped = min(back.gone, ahead.gone) > 0.0
     reason = Reason.STOPPED if stopped else Reason.NO_ORDER
     return made(Kind.UNDECIDED, EvidenceKind.NONE, reason)

@@ -20,7 +20,7 @@ _PLAIN = {
     Reason.STRAINED: "it only begins: certified, a displacement t strains what is held as t^2",
     Reason.REGULAR: "it goes on: certified, the self-stresses leave it free to second order",
     Reason.AMONG_OTHERS: "it goes on: certified, the self-stresses leave it free to second order",
-    Reason.TOO_LARGE: "undecided whether it goes on: too large a mechanism to be followed",
+    Reason.TOO_LARGE: "undecided whether it goes on: to follow it takes too much work",
     Reason.NOT_GIVEN: "undecided whether it goes on: not all motions and self-stresses are known",
 }
 _STOPS = {
