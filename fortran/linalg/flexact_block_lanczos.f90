@@ -44,9 +44,9 @@ module flexact_block_lanczos
    end type process_t
 
    !> Vectors of a block: as many as eigenvalues may be equal without a second start.
-   integer, parameter :: width = 8
-   !> Vectors that are kept before a restart, beyond four times those wanted.
-   integer, parameter :: reserve = 10*width
+   integer, parameter :: usual_width = 8
+   !> Blocks that are kept before a restart, beyond four times the vectors wanted.
+   integer, parameter :: reserve = 10
    integer, parameter :: most_restarts = 100
    !> Part of a vector's length below which what is left of it is rounding.
    real(wp), parameter :: nothing = 1.0e-12_wp
@@ -59,18 +59,22 @@ contains
 
    !> Up to `wanted` eigenvalues of largest magnitude, which descends, with vectors (n, :) of
    !> norm 1 in the inner product: fewer where the operator has no more that are not zero.
-   subroutine largest_pairs(operator, n, wanted, values, vectors, error)
+   !> Block: how many vectors are sent through the operator at a time, usually 8.
+   subroutine largest_pairs(operator, n, wanted, values, vectors, error, block)
       class(self_adjoint_t), intent(in) :: operator
       integer, intent(in) :: n, wanted
       real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
       type(error_t), allocatable, intent(out) :: error
+      integer, intent(in), optional :: block
       type(process_t) :: process
       real(wp), allocatable :: theta(:), turn(:, :)
-      integer :: restarts, found
+      integer :: restarts, found, width
 
+      width = min(n, usual_width)
+      if (present(block)) width = min(n, block)
       allocate (values(0), vectors(n, 0))
       if (n == 0 .or. wanted < 1) return
-      call begin(operator, n, min(n, 4*wanted + reserve), process, error)
+      call begin(operator, n, width, min(n, 4*wanted + reserve*width), process, error)
       if (allocated(error)) return
       do restarts = 0, most_restarts
          do
@@ -92,15 +96,15 @@ contains
       vectors = product_with(process%space(:, :process%used), turn(:, :found))
    end subroutine largest_pairs
 
-   subroutine begin(operator, n, most, process, error)
+   subroutine begin(operator, n, width, most, process, error)
       class(self_adjoint_t), intent(in) :: operator
-      integer, intent(in) :: n, most
+      integer, intent(in) :: n, width, most
       type(process_t), intent(out) :: process
       type(error_t), allocatable, intent(out) :: error
       integer :: info
 
-      allocate (process%space(n, most), process%weighed(n, most), process%next(n, min(width, n)), &
-                process%next_weighed(n, min(width, n)), stat=info)
+      allocate (process%space(n, most), process%weighed(n, most), process%next(n, width), &
+                process%next_weighed(n, width), stat=info)
       if (info == 0) allocate (process%h(most, most), process%coupling(width, most), source=0.0_wp, stat=info)
       if (info /= 0) then
          call fail(error_memory, error)
@@ -113,7 +117,7 @@ contains
    subroutine begin_anew(operator, process)
       class(self_adjoint_t), intent(in) :: operator
       type(process_t), intent(inout) :: process
-      real(wp) :: unused(size(process%space, 2), size(process%next, 2)), rest(width, size(process%next, 2))
+      real(wp) :: unused(size(process%space, 2), size(process%next, 2)), rest(size(process%next, 2), size(process%next, 2))
 
       process%seed = process%seed + 1
       process%fresh = size(process%next, 2)
@@ -127,7 +131,7 @@ contains
    subroutine go_on(operator, process)
       class(self_adjoint_t), intent(in) :: operator
       type(process_t), intent(inout) :: process
-      real(wp) :: products(size(process%space, 2), size(process%next, 2)), rest(width, size(process%next, 2))
+      real(wp) :: products(size(process%space, 2), size(process%next, 2)), rest(size(process%next, 2), size(process%next, 2))
       integer :: first, last, block
 
       block = process%fresh
@@ -152,7 +156,8 @@ contains
       class(self_adjoint_t), intent(in) :: operator
       type(process_t), intent(inout) :: process
       real(wp), intent(out) :: products(:, :), rest(:, :)
-      real(wp) :: first(width, width), second(width, width), length(width), again(size(products, 1), size(products, 2))
+      real(wp) :: first(size(rest, 1), size(rest, 1)), second(size(rest, 1), size(rest, 1))
+      real(wp) :: length(size(rest, 1)), again(size(products, 1), size(products, 2))
       integer :: images, kept
 
       images = process%fresh
@@ -243,7 +248,7 @@ contains
       type(process_t), intent(in) :: process
       real(wp), intent(in) :: theta(:), turn(:, :)
       integer, intent(in) :: wanted
-      real(wp) :: residual(width, wanted)
+      real(wp) :: residual(size(process%coupling, 1), wanted)
 
       are_converged = size(theta) >= wanted
       if (.not. are_converged) return
@@ -258,7 +263,7 @@ contains
       integer, intent(in) :: wanted
       integer :: kept, i
 
-      kept = min(2*wanted + width, process%used - width)
+      kept = min(2*wanted + size(process%next, 2), process%used - size(process%next, 2))
       process%space(:, :kept) = product_with(process%space(:, :process%used), turn(:, :kept))
       process%weighed(:, :kept) = product_with(process%weighed(:, :process%used), turn(:, :kept))
       process%coupling(:, :kept) = matmul(process%coupling(:, :process%used), turn(:, :kept))
