@@ -120,7 +120,7 @@ contains
    pure integer function next_group(graph) result(next)
       type(quotient_t), intent(in) :: graph
 
-      next = minloc(graph%degree, 1, .not. graph%is_gone)
+      next = minloc(graph%degree, 1,.not. graph%is_gone)
    end function next_group
 
    pure subroutine eliminate(graph, pivot)
@@ -137,7 +137,7 @@ contains
          associate (near => graph%near(reach(i)), through => graph%through(reach(i)))
             ! What the new list joins needs no entry of its own.
             near%item = pack(near%item, graph%mark(near%item) /= graph%stamp)
-            through%item = [pack(through%item, .not. graph%is_swallowed(through%item)), pivot]
+            through%item = [pack(through%item,.not. graph%is_swallowed(through%item)), pivot]
          end associate
       end do
       do i = 1, found
