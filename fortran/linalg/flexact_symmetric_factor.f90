@@ -39,7 +39,7 @@ module flexact_symmetric_factor
    !> Larger pivots are not suspected.
    real(wp), parameter :: suspicious = 1.0e-4_wp
    !> Right-hand sides that are taken at a time.
-   integer, parameter :: lanes = 4
+   integer, parameter :: lanes = 8
 
 contains
 
@@ -212,7 +212,7 @@ contains
       type(symmetric_factor_t), intent(in) :: factor
       real(wp), intent(inout) :: x(:, :)
       real(wp) :: block(lanes, pattern%n)
-      integer :: first, last
+      integer :: first, last, i
 
       do first = 1, size(x, 2), lanes
          last = min(first + lanes - 1, size(x, 2))
@@ -220,9 +220,13 @@ contains
             call solve_one(pattern, factor, x(:, first))
          else
             block(last - first + 2:, :) = 0.0_wp
-            block(:last - first + 1, :) = transpose(x(:, first:last))
+            do i = first, last
+               block(i - first + 1, :) = x(:, i)
+            end do
             call solve_lanes(pattern, factor, block)
-            x(:, first:last) = transpose(block(:last - first + 1, :))
+            do i = first, last
+               x(:, i) = block(i - first + 1, :)
+            end do
          end if
       end do
    end subroutine solve_pinned
@@ -342,25 +346,43 @@ contains
       type(sparse_t), intent(in) :: matrix
       real(wp), intent(in), contiguous :: x(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
-      real(wp) :: total
-      integer :: i, j, k, entry
+      real(wp) :: from(lanes, matrix%columns), to(lanes, matrix%columns)
+      integer :: first, last, i
 
-      y = 0.0_wp
-      do k = 1, size(x, 2)
-         do j = 1, matrix%columns
-            total = 0.0_wp
-            do entry = matrix%start(j), matrix%start(j + 1) - 1
-               i = matrix%place(entry)
-               if (i < j) cycle
-               if (i == j) then
-                  total = total + matrix%value(entry)*x(j, k)
-               else
-                  y(i, k) = y(i, k) + matrix%value(entry)*x(j, k)
-                  total = total + matrix%value(entry)*x(i, k)
-               end if
-            end do
-            y(j, k) = y(j, k) + total
+      do first = 1, size(x, 2), lanes
+         last = min(first + lanes - 1, size(x, 2))
+         from(last - first + 2:, :) = 0.0_wp
+         do i = first, last
+            from(i - first + 1, :) = x(:, i)
+         end do
+         call multiply_lanes(matrix, from, to)
+         do i = first, last
+            y(:, i) = to(i - first + 1, :)
          end do
       end do
    end subroutine symmetric_times
+
+   pure subroutine multiply_lanes(matrix, x, y)
+      type(sparse_t), intent(in) :: matrix
+      real(wp), intent(in) :: x(lanes, matrix%columns)
+      real(wp), intent(out) :: y(lanes, matrix%columns)
+      real(wp) :: total(lanes), here(lanes)
+      integer :: i, j, entry
+
+      y = 0.0_wp
+      do j = 1, matrix%columns
+         here = x(:, j)
+         total = y(:, j)
+         do entry = matrix%start(j), matrix%start(j + 1) - 1
+            i = matrix%place(entry)
+            if (i > j) then
+               total = total + matrix%value(entry)*x(:, i)
+               y(:, i) = y(:, i) + matrix%value(entry)*here
+            else if (i == j) then
+               total = total + matrix%value(entry)*here
+            end if
+         end do
+         y(:, j) = total
+      end do
+   end subroutine multiply_lanes
 end module flexact_symmetric_factor
