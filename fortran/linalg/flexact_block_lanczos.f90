@@ -50,8 +50,8 @@ module flexact_block_lanczos
    integer, parameter :: most_restarts = 100
    !> Part of a vector's length below which what is left of it is rounding.
    real(wp), parameter :: nothing = 1.0e-12_wp
-   !> Residual of a converged pair to its eigenvalue, and to the largest one.
-   real(wp), parameter :: converged = 1.0e-10_wp, noise = 1.0e-14_wp
+   !> Residual of a converged pair to its eigenvalue, which errs by its square, and to the largest one.
+   real(wp), parameter :: converged = 1.0e-8_wp, noise = 1.0e-14_wp
    !> Eigenvalues below this part of the largest are zero.
    real(wp), parameter :: zero = 1.0e-13_wp
 
