@@ -200,21 +200,20 @@ contains
       type(process_t), intent(inout) :: process
       real(wp), intent(in) :: least, inside(:)
       real(wp), intent(out) :: triangle(:, :)
-      real(wp) :: product, square, whole
-      integer :: i, j, k, round
+      real(wp) :: products(size(triangle, 1)), square, whole
+      integer :: i, k, n, round
 
       triangle = 0.0_wp
       k = 0
+      n = size(process%next, 1)
       associate (v => process%next, w => process%next_weighed)
          do i = 1, process%fresh
             whole = max(dot_product(v(:, i), w(:, i)), 0.0_wp) + inside(i)**2
-            do round = 1, 2
-               do j = 1, k
-                  product = dot_product(w(:, j), v(:, i))
-                  triangle(j, i) = triangle(j, i) + product
-                  v(:, i) = v(:, i) - product*v(:, j)
-                  w(:, i) = w(:, i) - product*w(:, j)
-               end do
+            do round = 1, merge(2, 0, k > 0)
+               call dgemm('T', 'N', k, 1, n, 1.0_wp, w, n, v(:, i), n, 0.0_wp, products, k)
+               call dgemm('N', 'N', n, 1, k, -1.0_wp, v, n, products, k, 1.0_wp, v(:, i), n)
+               call dgemm('N', 'N', n, 1, k, -1.0_wp, w, n, products, k, 1.0_wp, w(:, i), n)
+               triangle(:k, i) = triangle(:k, i) + products(:k)
             end do
             square = dot_product(v(:, i), w(:, i))
             if (.not. square > least**2*whole) cycle
