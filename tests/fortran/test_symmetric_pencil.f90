@@ -128,13 +128,13 @@ contains
 
    subroutine a_free_ring()
       integer, parameter :: n = 80
-      real(wp) :: values(n - 1), push
+      real(wp) :: values(n - 1), all(7), push
 
       values = [(4*sin((i/2)*pi/n)**2, i=2, n)]
       call check_lowest(gram(path(n, .true.)), identity(n), values, 9, 1.0e-12_wp, 'a free ring', 1)
       push = (values(2) + values(3))/2
-      call check_lowest(free_and_pushed(n, push), identity(2*n), [[0.0_wp, values(:2)] - push, values(:2), values(3:4) - push], 6, 1.0e-12_wp, &
-                        'a free ring beside an unstable one', 1)
+      all = [[0.0_wp, values(:2)] - push, values(:2), values(3:4) - push]
+      call check_lowest(free_and_pushed(n, push), identity(2*n), all, 6, 1.0e-12_wp, 'a ring beside an unstable one', 1)
    end subroutine a_free_ring
 
    function free_and_pushed(n, push) result(k)
