@@ -133,7 +133,6 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
    integer(c_int), intent(inout) :: place(2, entries)
    real(c_double), intent(inout) :: value(entries)
    integer(c_int), intent(out) :: used
-   type(model_t) :: model
 
    call give_jacobian(nodes, places, elements, vectors, configuration, c_t, deformation, place, value, used)
 end subroutine assemble

@@ -52,12 +52,14 @@ contains
       type(attempt_t), intent(inout) :: attempt
       type(state_t) :: before
       real(wp) :: size_now, size_before, first, total
+      integer :: i
 
       before = attempt%state
       attempt%status = step_diverges
       size_before = huge(1.0_wp)
       first = -1.0_wp
-      do attempt%iterations = 1, most_iterations
+      do i = 1, most_iterations
+         attempt%iterations = i
          call iterate(elastic, goal, attempt, size_now)
          if (.not. size_now < 1.0e3_wp) exit
          if (first < 0) first = size_now

@@ -57,6 +57,7 @@ contains
       real(wp), allocatable :: left(:), c(:), m(:)
       integer :: i
 
+      allocate (response%displacement(size(shift)))
       associate (v => response%displacement)
          v = shift
          where (.not. elastic%is_held) v = 0.0_wp
