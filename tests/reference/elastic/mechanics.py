@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Assembly at a state: deformations with two derivatives, stiffness, mass and gravity, all dense."""
+"""Assembly at a state: deformations, their two derivatives, stiffness, mass and gravity, dense."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from structure import Structure
 ZERO = 1e-9
 
 
-class NoAnswer(Exception):
+class NoAnswerError(Exception):
     """What was asked has no answer, or was not found."""
 
 
@@ -198,7 +198,7 @@ class Solver:
             if found is None:
                 step /= 2
                 if step < 1e-4:
-                    raise NoAnswer(f"no equilibrium beyond {t:.6g} of the way")
+                    raise NoAnswerError(f"no equilibrium beyond {t:.6g} of the way")
                 continue
             now, t = found, t_next
             step *= 1.5
@@ -336,7 +336,7 @@ class Solver:
         particular = shift + inverse @ wanted
         left = rows @ particular - np.concatenate([misfit[self.rigid], np.zeros(len(parameters))])
         if np.any(np.abs(left) > 1e-9 * (np.abs(shift).max(initial=0) + np.abs(misfit).max())):
-            raise NoAnswer("rigid deformations cannot follow")
+            raise NoAnswerError("rigid deformations cannot follow")
         tangent = k + h
         pull = force + d.T @ self.s @ misfit
         matrix = z.T @ tangent @ z
@@ -371,12 +371,12 @@ def squared_frequencies(tangent: Real, mass: Real) -> tuple[Real, Real]:
     """omega^2 ascending with modes as columns; massless directions are condensed.
 
     Raises:
-        NoAnswer: a massless direction has no stiffness.
+        NoAnswerError: a massless direction has no stiffness.
     """
     diagonal = np.sqrt(np.maximum(np.diag(mass), 0))
     floor = 1e-12 * diagonal.max(initial=0)
     if diagonal.max(initial=0) == 0:
-        raise NoAnswer("no mass")
+        raise NoAnswerError("no mass")
     scale = np.where(diagonal > floor, 1 / np.where(diagonal > floor, diagonal, 1.0), 1.0)
     weights, vectors = np.linalg.eigh(mass * np.outer(scale, scale))
     heavy = weights > 1e-11 * weights[-1]
@@ -388,7 +388,7 @@ def squared_frequencies(tangent: Real, mass: Real) -> tuple[Real, Real]:
         size = _diagonal(k_nn)
         scaled = k_nn * np.outer(size, size)
         if np.linalg.cond(scaled) > 1e13:
-            raise NoAnswer("a massless direction without stiffness")
+            raise NoAnswerError("a massless direction without stiffness")
         follow = -size[:, None] * np.linalg.solve(scaled, size[:, None] * k_rn.T)
     reduced = k_rr + k_rn @ follow
     values, modes = np.linalg.eigh((reduced + reduced.T) / 2)
@@ -399,13 +399,13 @@ def critical_values(stiffness: Real, geometric: Real) -> Real:
     """All finite m with det(K + m G) = 0, ascending; K is positive definite.
 
     Raises:
-        NoAnswer: K is singular or indefinite.
+        NoAnswerError: K is singular or indefinite.
     """
     scale = _diagonal(stiffness)
     try:
         lower = np.linalg.cholesky(stiffness * np.outer(scale, scale))
     except np.linalg.LinAlgError:
-        raise NoAnswer("a motion without stiffness") from None
+        raise NoAnswerError("a motion without stiffness") from None
     inner = np.linalg.solve(lower, geometric * np.outer(scale, scale))
     inner = np.linalg.solve(lower, inner.T)
     inverse = np.linalg.eigvalsh((inner + inner.T) / 2)

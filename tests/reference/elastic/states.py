@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from jets import Real
 from mechanics import matrix_of, product, quaternion, vector_of
-from solve import Load, NoAnswer, Solution, Solver, critical_values, squared_frequencies
+from solve import Load, NoAnswerError, Solution, Solver, critical_values, squared_frequencies
 from structure import AXES, read, refine
 
 Release = Iterable[tuple[int, int] | tuple[tuple[int, int], float]]
@@ -182,7 +182,7 @@ class Oracle:
 
     def linear_state(self, start: Solution, shift: Real, misfit: Real) -> State:
         """The undeformed place with the stresses of a linear response."""
-        change, stress = self.solver.linear(
+        _, stress = self.solver.linear(
             start, self.held, np.zeros(self.mechanics.size), misfit, shift
         )
         s = np.linalg.pinv(self.solver.s, rcond=1e-13)
@@ -365,6 +365,14 @@ class State:
         x = self.transfer()
         return np.array(x.T @ self.oracle.solver.matrices(self.solution)[1] @ x)
 
+    @property
+    def under_constrained(self) -> int:
+        return self.counts()[0]
+
+    @property
+    def over_constrained(self) -> int:
+        return self.counts()[1]
+
     def counts(self) -> tuple[int, int]:
         """Under- and over-constrained, by the classes of the deck at this state."""
         oracle, m = self.oracle, self.oracle.mechanics
@@ -386,4 +394,4 @@ class State:
         return basis.shape[1] - rank, len(fixed) - rank
 
 
-__all__ = ["NoAnswer", "Oracle", "State"]
+__all__ = ["NoAnswerError", "Oracle", "State"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A deck as arrays: kinematics by the reader of the other oracle, stiffness and mass by this one."""
+"""A deck as arrays: kinematics by the other oracle's reader, stiffness and mass by this one."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from jets import Real  # noqa: E402
-from oracle_deck import kinematic_statements, number, read_deck  # noqa: E402
-from oracle_elements import frame as local_frame  # noqa: E402
+from jets import Real
+from oracle_deck import kinematic_statements, number, read_deck
+from oracle_elements import frame as local_frame
 
 AXES = {"x": 0, "y": 1, "z": 2, "rx": 0, "ry": 1, "rz": 2}
 LENGTHS = ("TRUSS", "PLTRUSS", "BEAM", "PLBEAM", "RBEAM", "PLRBEAM", "PINBODY", "BEARING")
@@ -205,7 +205,7 @@ def read(text: str) -> Structure:
 
 
 def refine(structure: Structure, beams: int) -> Structure:
-    """Every flexible BEAM and PLBEAM cut into equal pieces; the first keeps the element's number."""
+    """Every flexible BEAM and PLBEAM cut into equal pieces; the first keeps the number."""
     if beams == 1:
         return structure
     parts: dict[int, Part] = {}
