@@ -27,7 +27,8 @@ class Oracle:
         misfit: tuple[int, int, float] | None = None,
     ) -> None:
         self.text, self.policy, self.drive = text, held, drive
-        self.release, self.beams = list(release), beams
+        pairs = release.items() if isinstance(release, dict) else release
+        self.release, self.beams = list(pairs), beams
         deck = read(text)
         for entry in self.release:
             pair, stiffness = entry if isinstance(entry[0], tuple) else (entry, 0.0)
@@ -272,6 +273,9 @@ class State:
         full = self.oracle.solver.compliance(self.solution, self.oracle.held)
         at = [self.oracle.mechanics.column[label] for label in self.axes(node)]
         return np.array(full[np.ix_(at, at)])
+
+    def stiffness(self, node: int) -> Real:
+        return np.linalg.inv(self.compliance(node))
 
     def _reduced(self) -> tuple[Real, Real, Real]:
         z = self.oracle.solver.basis(self.solution, self.oracle.held)
