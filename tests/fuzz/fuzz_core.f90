@@ -167,7 +167,8 @@ contains
       real(c_double), intent(in) :: places(:, :), vectors(:, :)
       integer, parameter :: asked = 5
       real(c_double), allocatable :: of_nodes(:, :), of_elements(:, :), stiffness(:, :, :), c_t(:), given(:, :), answer(:, :)
-      real(c_double) :: gravity(3, 2), facts(6), found(5)
+      real(c_double) :: gravity(3, 2), facts(6), found(5), configuration(4, size(nodes, 2)), reaction(3, size(nodes, 2))
+      real(c_double) :: stress(6, size(elements, 2))
       integer :: nn, ne, n, task
 
       nn = size(nodes, 2)
@@ -186,8 +187,11 @@ contains
       gravity(:, 1) = 0
       gravity(:, 2) = [real(c_double) :: 0, 0, -9.81]
       call find_stiffness(nn, ne, nodes, places, elements, vectors, of_elements(:17, :), stiffness, c_t)
-      call follow_path(nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, gravity, of_nodes(7:10, :), &
-                       of_nodes(11:13, :), of_elements(18:23, :), facts)
+      call follow_path(nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, &
+                       reaction, stress, facts)
+      of_nodes(7:10, :) = configuration
+      of_nodes(11:13, :) = reaction
+      of_elements(18:23, :) = stress
       given = 1
       do task = 1, 4
          if (task == 4) given(1, :) = [0, -1]
