@@ -191,3 +191,88 @@ def test_deleted_elements_take_theirs_along() -> None:
     assert rows(properties.stiffness) == [[4]]
     assert rows(properties.mass) == [[3]]
     assert rows(properties.node_mass) == [[5], [6]]
+
+
+ALL = """\
+TRUSS 1 1 2
+BEAM 2 2 3 4 5
+RBEAM 3 4 5 6
+PINBODY 4 4 5 7
+HINGE 5 5 8 0 0 1
+BEARING 6 6 9 7 10 0 0 1
+RBEAM 7 6 9 11
+RBEAM 8 7 10 12
+X 2 1 0 0
+X 4 2 0 0
+X 6 3 0 0
+X 7 2 1 0
+X 11 4 0 0
+X 12 3 1 0
+FIX 1
+END
+HALT
+"""
+PLANAR = "PLTRUSS 1 1 2\nPLBEAM 2 2 3 4 5\nPLRBEAM 3 4 5 6\nPLTOR 4 5 7\nPLRBEAM 5 4 7 8\n"
+PLANAR += "X 2 1 0\nX 4 2 0\nX 6 3 0\nX 8 2 1\nFIX 1\nEND\nHALT\n"
+
+
+@pytest.mark.parametrize(
+    ("deck", "keyword", "counts"),
+    [
+        # ESTIFF: deformations with a stiffness of their own, and the shear of beams.
+        (ALL, "ESTIFF", {1: 1, 2: 6, 3: 0, 4: 0, 5: 3, 6: 6}),
+        (PLANAR, "ESTIFF", {1: 1, 2: 3, 3: 0, 4: 1}),
+        # EM: a mass of what has a line, with inertias of beams and links.
+        (ALL, "EM", {1: 1, 2: 5, 3: 5, 4: 5, 5: 0, 6: 0}),
+        (PLANAR, "EM", {1: 1, 2: 2, 3: 2, 4: 0}),
+        (ALL, "XM", {4: 1, 5: 6}),
+        (PLANAR, "XM", {4: 1, 5: 1}),
+    ],
+)
+def test_each_element_takes_the_numbers_that_mean_something(
+    deck: str, keyword: str, counts: dict[int, int]
+) -> None:
+    table = {"ESTIFF": "stiffness", "EM": "mass", "XM": "node_mass"}[keyword]
+    for number, count in counts.items():
+        for given_count in range(1, 9):
+            words = [f"{k}." for k in range(1, given_count + 1)]
+            model = flexact.read_text(f"{deck}{keyword} {number} {' '.join(words)}\nEND\n")
+            warned = [d for d in model.diagnostics if d.code in ("surplus-operand", "no-meaning")]
+            passed_over = (
+                deck == ALL and number == 2 and keyword != "XM" and given_count == count + 1
+            )
+            assert len(warned) == (given_count > count and not passed_over)
+            if count == 0:
+                assert [d.code for d in warned] == ["no-meaning"]
+                assert model.data.properties is None
+                continue
+            find = model.node_index if keyword == "XM" else model.element_index
+            row = rows(getattr(given_of(model), table))[find(number)]
+            assert row == [float(k) for k in range(1, min(given_count, count) + 1)]
+
+
+def test_zeros_are_never_surplus() -> None:
+    """Programs write as many numbers for every element, and zero is no stiffness."""
+    deck = f"{ALL}ESTIFF 1 5 0 0 0\nESTIFF 4 0 0 0\nEM 5 0.\nEM 2 1 0 0 0 0 0 0\nXM 4 1 0 0\nEND\n"
+    model = flexact.read_text(deck)
+    assert model.diagnostics == ()
+    assert rows(given_of(model).stiffness)[:4] == [[5], [], [], []]
+
+
+@pytest.mark.parametrize(
+    ("statement", "column"),
+    [
+        ("ESTIFF 2 1 -2 3", 12),
+        ("ESTIFF 5 -1", 10),
+        ("EM 2 -1e-3", 6),
+        ("EM 2 1 1 1 1 -1", None),
+        ("XM 5 1 -1 -1 1 -1 1", None),
+        ("XM 5 1 0 0 -1", 12),
+        ("XM 4 -1", 6),
+        ("ESTIFF 2 0 0 0 0", None),
+    ],
+)
+def test_less_than_zero_is_warned_of_where_it_stands(statement: str, column: int | None) -> None:
+    model = flexact.read_text(f"{ALL}{statement}\nEND\n")
+    found = [(d.code, d.line, d.column) for d in model.diagnostics]
+    assert found == ([] if column is None else [("negative-number", 18, column)])
