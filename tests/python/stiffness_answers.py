@@ -86,13 +86,24 @@ SHEET = f"{EA} {GJ} {EI} {EI_IN} 0 0"
 SHEET_MASS = "0.195 4.06290625e-05 4.0625e-09 4.0625e-05 0"
 
 
-def guide(beams: int, *, more: str = "", drive: str = "DYNX 9 1", sheets: float = 0.05) -> str:
+def guide(
+    beams: int,
+    *,
+    more: str = "",
+    drive: str = "DYNX 9 1",
+    stiffness: str = SHEET,
+    mass: str = SHEET_MASS,
+) -> str:
     """Two parallel sheets along z with their width along y, and a stage at mid height."""
-    left = row((0, 0, 0), (0, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0", stiffness=SHEET,
-               mass=SHEET_MASS, rlse="2 3 4", ends=(1, 5))  # fmt: skip
-    right = row((sheets, 0, 0), (sheets, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0",
-                stiffness=SHEET, mass=SHEET_MASS, rlse="2 3 4", ends=(3, 7), start=40)  # fmt: skip
-    body = f"X 9 {sheets / 2} 0 {LENGTH / 2}\nBEAM 90 9 10 5 6 0 1 0\nBEAM 91 9 10 7 8 0 1 0"
+    left = row(
+        (0, 0, 0), (0, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0", stiffness=stiffness,
+        mass=mass, rlse="2 3 4", ends=(1, 5),
+    )  # fmt: skip
+    right = row(
+        (0.05, 0, 0), (0.05, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0",
+        stiffness=stiffness, mass=mass, rlse="2 3 4", ends=(3, 7), start=40,
+    )  # fmt: skip
+    body = f"X 9 0.025 0 {LENGTH / 2}\nBEAM 90 9 10 5 6 0 1 0\nBEAM 91 9 10 7 8 0 1 0"
     fixed = f"FIX 1\nFIX 2\nFIX 3\nFIX 4\n{drive}"
     return deck(left, right, body, fixed, more=more)
 
