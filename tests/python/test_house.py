@@ -23,7 +23,7 @@ FLOORS = (
     ("diagnostics",),
     ("model",),
     ("deck", "result"),
-    ("advice", "convert", "drawing", "regress"),
+    ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
     ("advising", "saving", "tracing", "variants"),
@@ -33,7 +33,7 @@ FLOORS = (
 #: Folders of the core, in the order of dependence.
 LAYERS = (
     *("base", "linalg", "nullspace", "element", "model", "deck"),
-    *("assembly", "sensitivity", "exact", "analysis", "boundary"),
+    *("assembly", "sensitivity", "exact", "elastic", "analysis", "boundary"),
 )
 MOST_MODULES_AT_THE_TOP = 6
 MOST_ARGUMENTS = 15
