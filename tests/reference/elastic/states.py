@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from jets import Real
@@ -11,7 +11,15 @@ from mechanics import matrix_of, product, quaternion, vector_of
 from solve import Load, NoAnswerError, Solution, Solver, critical_values, squared_frequencies
 from structure import AXES, read, refine
 
-Release = Iterable[tuple[int, int] | tuple[tuple[int, int], float]]
+Pair = tuple[int, int]
+Release = Iterable[Pair] | Mapping[Pair, float]
+
+
+def _pairs(release: Release) -> list[tuple[Pair, float]]:
+    """Deformations with the stiffness in series, 0 for a perfect hinge."""
+    if isinstance(release, Mapping):
+        return list(release.items())
+    return [(pair, 0.0) for pair in release]
 
 
 class Oracle:
@@ -27,11 +35,9 @@ class Oracle:
         misfit: tuple[int, int, float] | None = None,
     ) -> None:
         self.text, self.policy, self.drive = text, held, drive
-        pairs = release.items() if isinstance(release, dict) else release
-        self.release, self.beams = list(pairs), beams
+        self.release, self.beams = _pairs(release), beams
         deck = read(text)
-        for entry in self.release:
-            pair, stiffness = entry if isinstance(entry[0], tuple) else (entry, 0.0)
+        for pair, stiffness in self.release:
             deck.parts[pair[0]].notches[pair[1] - 1] = stiffness
         if misfit:
             deck.parts[misfit[0]].misfit[misfit[1] - 1] = misfit[2]
@@ -103,7 +109,7 @@ class Oracle:
             self.text,
             self.policy,
             self.drive,
-            self.release,
+            dict(self.release),
             self.beams,
             (element, deformation, value),
         )
@@ -233,8 +239,8 @@ class Oracle:
 
     def kept(self, node: int, release: Release) -> Real:
         before = self.undeformed().compliance(node)
-        both = [*self.release, *release]
-        other = Oracle(self.text, self.policy, self.drive, both, self.beams)
+        both = [*self.release, *_pairs(release)]
+        other = Oracle(self.text, self.policy, self.drive, dict(both), self.beams)
         after = other.undeformed().compliance(node)
         free = np.diag(before) > 1e-14 * np.diag(before).max()
         before, after = before[np.ix_(free, free)], after[np.ix_(free, free)]
