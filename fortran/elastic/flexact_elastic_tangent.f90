@@ -76,7 +76,9 @@ contains
       end do
    end subroutine weigh_nodes
 
-   !> Second derivatives under the stress and the reactions of a state, and of gravity.
+   !> Second derivatives under the stress and the reactions of a state, and of gravity. The
+   !> force on a single Euler parameter is dual to it, while a drive holds it and where it stays
+   !> as a dead load.
    subroutine add_hessian(elastic, state, gravity, tangent)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
@@ -102,7 +104,7 @@ contains
          if (elastic%model%node_kind(node) /= node_orientation) cycle
          euler = unit_parameters(state%configuration(:, node))
          tangent%node_hessian(node) = sum(state%reaction(:, node)*euler(2:), &
-                                          elastic%is_component(axes*node - 2:axes*node))/2
+                                          .not. elastic%is_held(axes*node - 2:axes*node))/2
       end do
    end subroutine add_hessian
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elastic states: stiffness, frequencies, buckling, strokes and misalignment."""
+"""Elastic states, strokes and misalignment; uses `core`, `model`, `deck` and `result`."""
 
 from .elastic import Elastic, elastic
 from .errors import ElasticError, StrokeError, UnknownError
