@@ -67,7 +67,9 @@ class Draw:
                 self.dynamics.append(f"ESTIFF {self.label} {self.spread(0.1, 10)}")
                 self.kinematics.append(f"RLSE {self.label} 1")
             else:
-                axis = " ".join(map(str, np.round(self.random.normal(size=3), 2) + [0, 0, 1.03]))
+                axis = " ".join(
+                    map(str, np.round(self.random.normal(size=3), 2) + np.array([0, 0, 1.03]))
+                )
                 self.kinematics.append(f"HINGE {self.label} {far} {q + 1} {axis}")
                 numbers = " ".join(str(self.spread(0.1, 10)) for _ in range(3))
                 self.dynamics.append(f"ESTIFF {self.label} {numbers}")
@@ -169,18 +171,26 @@ def _loaded(draw: Draw, model: Callable[..., Any], **options: Any) -> Any:
     return _everything(draw, model(**options).equilibrium())
 
 
+def _loaded_rigid(draw: Draw, model: Callable[..., Any]) -> Any:
+    """Only where nothing is over-constrained: the path of such a one may divide."""
+    elastic = model(held="rigid")
+    if elastic.undeformed().over_constrained:
+        return []
+    return _everything(draw, elastic.equilibrium())
+
+
 #: What is asked of a random mechanism; each answer is an array.
 QUESTIONS: dict[str, Ask] = {
     "compliance": lambda d, m: m().undeformed().compliance(d.point),
     "compliance, locked": lambda d, m: m(drive="locked").undeformed().compliance(d.point),
-    "compliance, notch": lambda d, m: m(release={(d.flexible[0], 2): 0.7}).undeformed().compliance(
-        d.point
+    "compliance, notch": lambda d, m: (
+        m(release={(d.flexible[0], 2): 0.7}).undeformed().compliance(d.point)
     ),
     "frequencies": lambda d, m: m().undeformed().frequencies[:6],
     "frequencies, three beams": lambda d, m: m(beams=3).undeformed().frequencies[:6],
     "loaded": _loaded,
     "loaded, three beams": lambda d, m: _loaded(d, m, beams=3),
-    "loaded, rigid": lambda d, m: _loaded(d, m, held="rigid"),
+    "loaded, rigid": _loaded_rigid,
     "loaded, frequencies": lambda d, m: m().equilibrium().frequencies[:6],
     "loaded, compliance": lambda d, m: m().equilibrium().compliance(d.point),
     "loaded, multipliers": lambda d, m: m().equilibrium().multipliers,
@@ -189,9 +199,7 @@ QUESTIONS: dict[str, Ask] = {
     "along, three beams": lambda d, m: _along(d, m, beams=3),
     "misaligned": _misaligned,
     "misfit": lambda d, m: _everything(d, m().misfit(d.flexible[-1], 2, 1e-3)),
-    "misfit, three beams": lambda d, m: _everything(
-        d, m(beams=3).misfit(d.flexible[-1], 3, 1e-3)
-    ),
+    "misfit, three beams": lambda d, m: _everything(d, m(beams=3).misfit(d.flexible[-1], 3, 1e-3)),
     "critical": lambda d, m: m().critical_misalignment(d.clamps[-1], "x"),
     "shift": lambda d, m: m().misalignment_for(-0.02, d.clamps[-1], "x"),
     "kept": lambda d, m: m().kept(d.point, [(d.flexible[0], 2)]),

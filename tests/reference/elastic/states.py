@@ -83,7 +83,9 @@ class Oracle:
                 force[self.mechanics.column[label]] = value
         return force
 
-    def along(self, node: int, coordinate: str, values: Sequence[float]) -> tuple[State, ...]:
+    def along(
+        self, node: int, coordinate: str, values: Sequence[float], steps: int = 1
+    ) -> tuple[State, ...]:
         axis = AXES[coordinate]
         held = self.held | {(node, axis)}
         state, states = self.at_rest(held), []
@@ -99,7 +101,7 @@ class Oracle:
             else:
                 place[node, axis] = float(np.sin(value / 2))
             end = Load(load.force, load.gravity, load.misfit, place, turn)
-            state = self.solver.equilibrium(state, end)
+            state = self.solver.equilibrium(state, end, 1 / steps)
             states.append(State(self, state, (node, axis)))
         return tuple(states)
 
@@ -214,9 +216,14 @@ class Oracle:
         self, node: int, coordinate: str, about: Sequence[float] | None = None
     ) -> tuple[float, float]:
         _, k, g, _ = self._prestress(self.shift(node, coordinate, about))
+        return self._critical(k, g)
+
+    def _critical(self, k: Real, g: Real) -> tuple[float, float]:
+        """Of both signs; what is beyond a thousand lengths or radians is rounding."""
         values = critical_values(k, g)
-        values = values[np.abs(values) < 1e6 * np.min(np.abs(values), initial=np.inf)]
-        return _nearest(values)
+        far = 1e3 * max(1.0, self.mechanics.length)
+        near = 1e6 * np.min(np.abs(values), initial=np.inf)
+        return _nearest(values[np.abs(values) < min(far, near)])
 
     def misalignment_for(
         self, shift: float, node: int, coordinate: str, about: Sequence[float] | None = None
@@ -224,7 +231,7 @@ class Oracle:
         _, k, g, mass = self._prestress(self.shift(node, coordinate, about))
         aim = squared_frequencies(k, mass)[0][0] * (1 + shift) ** 2
         # the first frequency reaches the aim where K - aim M + d G is singular: bisect on d
-        low, high = _nearest(critical_values(k, g))
+        low, high = self._critical(k, g)
         bounds = []
         for limit in (low, high):
             a, b = 0.0, limit if np.isfinite(limit) else np.sign(limit) * 1.0
@@ -317,13 +324,16 @@ class State:
         return float(whole.deformations(self.solution.place)[0][whole.row[element, k - 1]])
 
     def stress(self, element: int, k: int) -> float:
+        """Forces and torques are means along the pieces of an element."""
         pieces = self.oracle.structure.ends[element]
         part = self.oracle.deck.parts[element]
         m, n = self.oracle.mechanics, len(pieces)
         at_q = k in ((3,) if part.keyword == "PLBEAM" else (4, 6))
-        label = pieces[-1] if at_q else pieces[0]
-        value = self.solution.stress[m.row[label, k - 1]]
-        return float(value / n if k > 1 else value)
+        at_end = k in ((2, 3) if part.keyword == "PLBEAM" else (3, 4, 5, 6))
+        values = [self.solution.stress[m.row[label, k - 1]] for label in pieces]
+        if at_end:
+            return float(values[-1 if at_q else 0] / n)
+        return float(np.mean(values) / (n if k > 1 else 1))
 
     @property
     def force(self) -> float:
