@@ -23,10 +23,10 @@ FLOORS = (
     ("diagnostics",),
     ("model",),
     ("deck", "result"),
-    ("advice", "convert", "drawing", "regress"),
+    ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("advising", "saving", "tracing", "variants"),
+    ("advising", "costing", "saving", "tracing", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )
