@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .advising import Advice, Step
     from .analysis import Analysis, analyse
     from .base.errors import FlexactError
+    from .costing.cost import Cost, cost
     from .deck.models import read, read_text
     from .diagnostics.diagnostic import Diagnostic, Place, Severity
     from .diagnostics.errors import DeckError, ModelError
@@ -63,6 +64,7 @@ _HOMES = {
     "advising": ("Advice", "Step"),
     "analysis": ("Analysis", "analyse"),
     "base.errors": ("FlexactError",),
+    "costing.cost": ("Cost", "cost"),
     "deck.models": ("read", "read_text"),
     "diagnostics.diagnostic": ("Diagnostic", "Place", "Severity"),
     "diagnostics.errors": ("DeckError", "ModelError"),
@@ -100,6 +102,7 @@ __all__ = [
     "Certainty",
     "ClassCounts",
     "Configuration",
+    "Cost",
     "Counts",
     "Crossing",
     "Crossings",
@@ -132,6 +135,7 @@ __all__ = [
     "Wire",
     "__version__",
     "analyse",
+    "cost",
     "deformations",
     "grid",
     "jacobian",
