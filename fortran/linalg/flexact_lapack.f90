@@ -5,7 +5,7 @@ module flexact_lapack
    implicit none
    private
    public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
-   public :: dsyrk, dpotrf
+   public :: dsyrk, dpotrf, dsyevd
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -118,5 +118,16 @@ module flexact_lapack
          real(wp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
+
+      !> Eigenvalues, ascending, and eigenvectors of a symmetric matrix by divide and conquer.
+      pure subroutine dsyevd(jobz, uplo, n, a, lda, w, work, lwork, iwork, liwork, info)
+         import :: wp
+         character, intent(in) :: jobz, uplo
+         integer, intent(in) :: n, lda, lwork, liwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(out) :: w(*)
+         integer, intent(inout) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dsyevd
    end interface
 end module flexact_lapack

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The only importer of the extension: what goes in is checked, what comes out is named.
+"""With `elastic` the only importer of the extension: what goes in is checked, what comes out named.
 
 Every call is a function of its arguments.
 """
@@ -107,7 +107,7 @@ def _require_room(needed: float) -> None:
         )
 
 
-def _require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
+def require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
     _require_room(_OF_MODEL * model.nodes.shape[1] + of_element * model.elements.shape[1])
 
 
@@ -154,7 +154,7 @@ def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnosti
     """
     if name.size and not 0 <= name.min() <= name.max() <= len(text):
         raise ValueError("a name stands outside the text")
-    _require_room_for(model)
+    require_room_for(model)
     return RawDiagnostics(
         *_core.check_model(np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32))
     )
@@ -171,7 +171,7 @@ def count_model(model: PackedModel) -> RawCount:
 
 def find_frames(model: PackedModel) -> RawFrames:
     """Reference frames and lengths of a sound model's elements."""
-    _require_room_for(model)
+    require_room_for(model)
     frame, length = _core.find_frames(*model)
     return RawFrames(np.moveaxis(frame, 2, 0), length)
 
@@ -194,7 +194,7 @@ def assemble(model: PackedModel, configuration: FloatArray, c_t: FloatArray) -> 
         raise ValueError(f"c_t has shape {c_t.shape}, not {(elements,)}")
     place = np.empty((2, _ENTRIES_OF_ELEMENT * elements), np.int32, order="F")
     value = np.empty(place.shape[1])
-    _require_room_for(model, _OF_JACOBIAN)
+    require_room_for(model, _OF_JACOBIAN)
     deformation, used = _core.assemble(
         *model,
         np.asfortranarray(configuration, np.float64),
@@ -237,7 +237,7 @@ def analyse_model(
     # Where the address space is limited, what is set aside counts as used.
     room = max(1, min(most * most, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
     place, value = np.empty(room, np.int32), np.empty(room)
-    _require_room_for(model)
+    require_room_for(model)
     asked = -1.0 if tolerance is None else tolerance
     facts = _core.analyse_model(
         *model,
@@ -315,7 +315,7 @@ def find_echelon(
     # Entries beside the pivots: rank times (size - rank).
     place = np.empty((4, size * size // 4 + 1), np.int32, order="F")
     pivot = np.empty(size, np.int32)
-    _require_room_for(model, _OF_JACOBIAN)
+    require_room_for(model, _OF_JACOBIAN)
     wishes = np.array((number, as_stored, is_transposed), np.int32)
     facts = _core.find_echelon(*model, wishes, pivot, place)
     high, low, as_typed, _, used = facts.tolist()
@@ -416,7 +416,7 @@ def analyse_variants(
     first = len(_VARIANT_FACTS)
     facts = np.empty((first + 3 * _MOST_PAIRS, many), order="F")
     memory = min(wishes.memory, sys.float_info.max)
-    _require_room_for(model)
+    require_room_for(model)
     _core.analyse_variants(
         *model,
         np.array(
