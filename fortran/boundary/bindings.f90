@@ -237,7 +237,7 @@ subroutine study_state(n, k, room, nn, ne, nodes, places, elements, vectors, of_
    integer(c_int), intent(in) :: n, k, room, nn, ne, nodes(5, nn), elements(12, ne)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_nodes(13, nn), of_elements(23, ne), wishes(5), given(n, k)
    real(c_double), intent(inout) :: answer(n, room)
-   real(c_double), intent(out) :: facts(4)
+   real(c_double), intent(out) :: facts(5)
 
    call run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given(:n - 1, :), answer(:n - 1, :), &
                  answer(n, :), facts)

@@ -88,7 +88,7 @@ contains
    !> displacements alone, and of matrices given(1, :) has the coordinates and answer(:q, :3q)
    !> three matrices. Behind answers stand motions without stiffness, as many as there is room
    !> for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
-   !> negative stiffnesses, 1 where coordinates determine all others.
+   !> negative stiffnesses, 1 where coordinates determine all others, 1 where the arithmetic fails.
    subroutine run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given, answer, values, facts)
       integer, intent(in) :: nodes(:, :), elements(:, :)
       real(wp), intent(in) :: places(:, :), vectors(:, :), of_nodes(:, :), of_elements(:, :), wishes(:), given(:, :)
@@ -124,7 +124,9 @@ contains
 
       n = size(elastic%scale)
       m = 6*elastic%model%elements
-      call make_operator(elastic, base%tangent, base%space, op)
+      call make_operator(elastic, base%tangent, base%space, .true., op)
+      facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. op%failed)
+      if (facts(5) > 0) return
       do i = 1, size(given, 2)
          call respond(elastic, base, op, given(:n, i), reshape(given(n + 1:n + m, i), [6, m/6]), given(n + m + 1:, i), response)
          answer(:, i) = [response%displacement, reshape(response%stress, [m]), reshape(response%reaction, [n])]
@@ -133,7 +135,7 @@ contains
       many = size(op%loose, 2)
       facts(:3) = [size(given, 2), many, op%negative]
       do i = 1, min(many, size(answer, 2) - size(given, 2))
-         answer(:n, size(given, 2) + i) = expanded(base%space, op%loose(:, i))
+         answer(:n, size(given, 2) + i) = expanded(base%space, elastic, op%loose(:, i))
       end do
    end subroutine run_linear
 
@@ -152,6 +154,8 @@ contains
       else
          call find_multipliers(elastic, base, most, modes)
       end if
+      facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. modes%failed)
+      if (facts(5) > 0) return
       k = size(modes%value)
       values(:k) = modes%value
       answer(:size(modes%mode, 1), :k) = modes%mode

@@ -10,7 +10,7 @@ module flexact_elastic_model
    use flexact_kinds, only: wp
    use flexact_model, only: model_t, class_none, class_fixed
    use flexact_pose, only: reference_t
-   use flexact_slots, only: axes, most_deformations, node_orientation, slots
+   use flexact_slots, only: axes, is_position, most_deformations, node_orientation, slots
    implicit none
    private
    public :: elastic_model_t, properties_t, make_elastic_model, gathered
@@ -38,6 +38,8 @@ module flexact_elastic_model
       !> (3 nodes) whether an entry moves freely, whether it is moved as a support is, and
       !> whether it is one component of an orientation that is held while others are free.
       logical, allocatable :: is_free(:), is_held(:), is_component(:)
+      !> (3 nodes) whether it is a rotation.
+      logical, allocatable :: is_turn(:)
       !> (3 nodes) length that makes a length of a rotation [m], 1 for displacements.
       real(wp), allocatable :: scale(:)
       !> A length of the elements [m].
@@ -133,14 +135,12 @@ contains
    subroutine set_scale(elastic)
       type(elastic_model_t), intent(inout) :: elastic
       real(wp) :: lengths(elastic%model%elements)
-      integer :: node
+      integer :: i
 
       lengths = elastic%reference%length
       if (any(lengths > 0)) elastic%length = norm2(lengths)/sqrt(real(count(lengths > 0), wp))
-      allocate (elastic%scale(axes*elastic%model%nodes), source=1.0_wp)
-      do node = 1, elastic%model%nodes
-         if (elastic%model%node_kind(node) > 2) elastic%scale(axes*(node - 1) + 1:axes*node) = elastic%length
-      end do
+      elastic%is_turn = [(.not. is_position(elastic%model%node_kind((i + 2)/axes)), i=1, axes*elastic%model%nodes)]
+      elastic%scale = merge(elastic%length, 1.0_wp, elastic%is_turn)
    end subroutine set_scale
 
    !> The part of a vector that an element sees.

@@ -83,8 +83,8 @@ contains
       type(waypoint_t), intent(in) :: goal
       type(attempt_t), intent(inout) :: attempt
       real(wp), intent(out) :: far
-      real(wp), allocatable :: step(:), stress(:, :), left(:), c(:)
-      real(wp) :: part
+      real(wp), allocatable :: step(:), stress(:, :), left(:), c(:), y(:, :)
+      real(wp) :: part, wrong, follow(size(elastic%scale))
       type(state_t) :: next
       integer :: i
 
@@ -95,13 +95,19 @@ contains
          step = increment_between(elastic, state%configuration, goal%target)
          where (.not. elastic%is_held) step = 0.0_wp
          c = errors_of(rows, tangent, state%configuration, goal%misfit, goal%target) + rows_times(rows, step)
-         call make_space(elastic, rows, 1.0e-9_wp, space)
-         call make_operator(elastic, tangent, space, attempt%op)
-         step = step - answer(space, c)
+         call make_space(elastic, rows, space)
+         call make_operator(elastic, tangent, space, .true., attempt%op)
+         far = huge(far)
+         if (space%failed .or. attempt%op%failed) return
+         call answer(space, elastic, c, follow, wrong)
+         step = step - follow
+         allocate (y(space%motions, 1))
          do i = 1, 2
             stress = stiffness_times(elastic, tangent%deformation - goal%misfit + strains(elastic, tangent, step))
             left = goal%force + tangent%weight - forces(elastic, tangent, stress) - hessian_times(elastic, tangent, step)
-            step = step + expanded(space, solved(attempt%op, reduced(space, left)))
+            y(:, 1) = reduced(space, elastic, left)
+            call solved(space, attempt%op, y)
+            step = step + expanded(space, elastic, y(:, 1))
          end do
          far = extent(elastic, step)
          if (.not. far < huge(far)) return
@@ -129,7 +135,7 @@ contains
       associate (tangent => attempt%tangent, space => attempt%space, rows => attempt%rows, state => attempt%state)
          call make_tangent(elastic, state%configuration, goal%gravity, tangent)
          call make_rows(elastic, state%configuration, tangent, rows)
-         call make_space(elastic, rows, 1.0e-9_wp, space)
+         call make_space(elastic, rows, space)
          c = errors_of(rows, tangent, state%configuration, goal%misfit, goal%target)
          state%stress = stiffness_times(elastic, tangent%deformation - goal%misfit)
          f = goal%force + tangent%weight - forces(elastic, tangent, state%stress)
@@ -197,7 +203,7 @@ contains
       integer :: node, axis
 
       do node = 1, elastic%model%nodes
-         if (elastic%model%node_kind(node) > 2) then
+         if (elastic%is_turn(axes*node)) then
             if (elastic%is_held(axes*node)) configuration(:, node) = target(:, node)
             cycle
          end if

@@ -2,7 +2,7 @@
 !> Mass, stiffness and geometric stiffness in independent coordinates.
 module flexact_elastic_reduced
    use flexact_elastic_model, only: elastic_model_t
-   use flexact_elastic_response, only: base_t, row_tolerance
+   use flexact_elastic_response, only: base_t
    use flexact_elastic_rows, only: rows_t
    use flexact_elastic_space, only: space_t, make_space, answer
    use flexact_elastic_state, only: state_t, unit_parameters
@@ -32,17 +32,18 @@ contains
       type(rows_t) :: rows
       type(space_t) :: space
       real(wp), allocatable :: c(:), x(:, :)
+      real(wp) :: wrong
       integer :: i, q
 
       q = size(independent)
       call add_rows(elastic, state, base, independent, rows)
-      call make_space(elastic, rows, row_tolerance, space)
+      call make_space(elastic, rows, space)
       matrices%is_determined = space%motions == 0
       allocate (x(size(elastic%scale), q), c(rows%count))
       do i = 1, q
          c = 0.0_wp
          c(base%rows%count + i) = 1.0_wp
-         x(:, i) = answer(space, c)
+         call answer(space, elastic, c, x(:, i), wrong)
       end do
       call add_mass(elastic, state%configuration, base%tangent)
       allocate (matrices%mass(q, q), matrices%stiffness(q, q), matrices%geometric(q, q))

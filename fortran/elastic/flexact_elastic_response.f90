@@ -2,7 +2,7 @@
 !> Increments at a state under small loads, misfits and moves of supports.
 module flexact_elastic_response
    use flexact_elastic_model, only: elastic_model_t
-   use flexact_elastic_operator, only: operator_t, make_operator, solved
+   use flexact_elastic_operator, only: operator_t, solved
    use flexact_elastic_rows, only: rows_t, make_rows, rows_times, values_at_rows, keep_multipliers
    use flexact_elastic_space, only: space_t, make_space, reduced, expanded, answer, multipliers_of
    use flexact_elastic_state, only: state_t
@@ -11,10 +11,8 @@ module flexact_elastic_response
    use flexact_slots, only: axes
    implicit none
    private
-   public :: base_t, response_t, make_base, respond, row_tolerance
+   public :: base_t, response_t, make_base, respond
 
-   !> Singular values of rigid rows up to this part of the largest count as zero.
-   real(wp), parameter :: row_tolerance = 1.0e-10_wp
    !> Times that a solution is refined with the element's own products.
    integer, parameter :: refinements = 3
 
@@ -43,7 +41,7 @@ contains
       call make_tangent(elastic, state%configuration, gravity, base%tangent)
       call add_hessian(elastic, state, gravity, base%tangent)
       call make_rows(elastic, state%configuration, base%tangent, base%rows)
-      call make_space(elastic, base%rows, row_tolerance, base%space)
+      call make_space(elastic, base%rows, base%space)
    end subroutine make_base
 
    !> force (3 nodes), misfit (6, elements); shift (3 nodes): displacements and spins of supports,
@@ -54,7 +52,8 @@ contains
       type(operator_t), intent(in) :: op
       real(wp), intent(in) :: force(:), misfit(:, :), shift(:)
       type(response_t), intent(out) :: response
-      real(wp), allocatable :: left(:), c(:), m(:)
+      real(wp), allocatable :: left(:), c(:), m(:), y(:, :)
+      real(wp) :: follow(size(shift))
       integer :: i
 
       allocate (response%displacement(size(shift)))
@@ -62,13 +61,16 @@ contains
          v = shift
          where (.not. elastic%is_held) v = 0.0_wp
          c = values_at_rows(base%rows, misfit, shift)
-         v = v + answer(base%space, c - rows_times(base%rows, v))
-         if (any(abs(c) > 0) .or. any(abs(v) > 0)) &
-            response%mismatch = norm2(rows_times(base%rows, v) - c)/max(norm2(c), norm2(v/elastic%scale), tiny(1.0_wp))
+         call answer(base%space, elastic, c - rows_times(base%rows, v), follow, response%mismatch)
+         v = v + follow
+         allocate (y(base%space%motions, 1))
          do i = 0, refinements
             response%stress = stiffness_times(elastic, strains(elastic, base%tangent, v) - misfit)
             left = force - forces(elastic, base%tangent, response%stress) - hessian_times(elastic, base%tangent, v)
-            if (i < refinements) v = v + expanded(base%space, solved(op, reduced(base%space, left)))
+            if (i == refinements) exit
+            y(:, 1) = reduced(base%space, elastic, left)
+            call solved(base%space, op, y)
+            v = v + expanded(base%space, elastic, y(:, 1))
          end do
          m = multipliers_of(base%space, elastic, left)
          allocate (response%reaction(axes, elastic%model%nodes), source=0.0_wp)
