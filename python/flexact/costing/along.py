@@ -11,7 +11,8 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..stiffness import Elastic, State, StrokeError
 from .designs import StrokeCurve
-from .measuring import Measures, drives_of, levels, numbers, over_levels
+from .bench import levels
+from .measuring import Measures, drives_of, numbers, over_levels
 from .values import Numbers
 
 

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray
 from ..stiffness import Estimate, State
+from .bench import levels
 from .keeping import Ratios, able, ratios, scales_of
 from .values import Number, Numbers, Point
 
@@ -74,18 +74,6 @@ def number(estimate: Estimate) -> Number:
     """The same of a single number."""
     value, off = float(estimate.value), float(estimate.uncertainty)
     return Number(value, off if np.isfinite(off) else 0.0)
-
-
-def levels(state: State) -> tuple[State, ...]:
-    """The state with each number of beams, the fewest first."""
-    found: list[State] = []
-
-    def keep(each: State) -> ArrayLike:
-        found.append(each)
-        return 0.0
-
-    state.estimate(keep)
-    return tuple(found)
 
 
 def over_levels(quantity: Callable[..., FloatArray], *states: State) -> Estimate:
