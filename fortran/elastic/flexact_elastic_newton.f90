@@ -6,6 +6,7 @@
 module flexact_elastic_newton
    use flexact_elastic_model, only: elastic_model_t, gathered
    use flexact_elastic_operator, only: operator_t, make_operator, solved
+   use flexact_elastic_residual, only: left_t, balance
    use flexact_elastic_rows, only: rows_t, make_rows, rows_times, errors_of, keep_multipliers
    use flexact_elastic_space, only: space_t, make_space, reduced, expanded, answer, multipliers_of
    use flexact_elastic_state, only: state_t, waypoint_t, moved, increment_between
@@ -27,14 +28,14 @@ module flexact_elastic_newton
    integer, parameter :: most_iterations = 30
    !> Corrections that are near rounding, and those that may have come to rest at it.
    real(wp), parameter :: tiny_correction = 1.0e-13_wp, small_correction = 1.0e-8_wp
-   !> What is left of the forces, relative to their sum, at most.
-   real(wp), parameter :: most_residual = 1.0e-7_wp, most_error = 1.0e-9_wp
+   !> What rigid parts may be off, of the length of elements and of their distance.
+   real(wp), parameter :: most_error = 1.0e-11_wp
 
    type :: attempt_t
       integer :: status = step_done, iterations = 0
-      !> What is left of the forces, relative; where most of it is: an entry of a vector, or minus
-      !> (6 (element - 1) + deformation) of a rigid deformation.
-      real(wp) :: residual = 0.0_wp
+      type(left_t) :: left
+      !> Where most is left: an entry of a vector, or minus (6 (element - 1) + deformation) of a
+      !> rigid deformation.
       integer :: place = 0
       type(state_t) :: state
       type(tangent_t) :: tangent
@@ -123,77 +124,35 @@ contains
       end associate
    end subroutine iterate
 
-   !> Stresses and reactions where iterations have ended, and what is left of the forces.
+   !> Stresses and reactions where iterations have ended, and whether all is in equilibrium.
    subroutine settle(elastic, goal, attempt)
       type(elastic_model_t), intent(in) :: elastic
       type(waypoint_t), intent(in) :: goal
       type(attempt_t), intent(inout) :: attempt
-      real(wp), allocatable :: c(:), f(:), m(:)
+      real(wp), allocatable :: c(:)
       real(wp) :: most
-      integer :: i, worst
+      integer :: r
 
       associate (tangent => attempt%tangent, space => attempt%space, rows => attempt%rows, state => attempt%state)
          call make_tangent(elastic, state%configuration, goal%gravity, tangent)
          call make_rows(elastic, state%configuration, tangent, rows)
          call make_space(elastic, rows, space)
-         c = errors_of(rows, tangent, state%configuration, goal%misfit, goal%target)
          state%stress = stiffness_times(elastic, tangent%deformation - goal%misfit)
-         f = goal%force + tangent%weight - forces(elastic, tangent, state%stress)
-         m = multipliers_of(space, elastic, f)
-         call keep_multipliers(rows, m, state%stress, state%reaction)
-         f = goal%force + tangent%weight - forces(elastic, tangent, state%stress) &
-             + component_forces(elastic, rows, m)
-         do i = 1, size(f)
-            if (elastic%is_held(i)) state%reaction(i - axes*((i - 1)/axes), (i + 2)/axes) = -f(i)
-         end do
-         where (.not. elastic%is_free) f = 0.0_wp
-         f = f/elastic%scale
-         most = largest_force(elastic, tangent, state%stress, goal%force + tangent%weight)
-         attempt%residual = 0.0_wp
-         attempt%place = maxloc(abs(f), 1)
-         if (most > 0) attempt%residual = maxval(abs(f))/most
-         if (attempt%residual > most_residual) attempt%status = step_diverges
-         if (attempt%residual > most_residual .and. size(attempt%op%loose, 2) > 0) attempt%status = step_unheld
-         if (rows%count == 0) return
-         worst = maxloc(abs(c), 1)
-         if (abs(c(worst)) <= most_error*elastic%length) return
+         call balance(elastic, tangent, rows, space, goal%force + tangent%weight, state, attempt%left)
+         attempt%place = attempt%left%place
+         if (.not. attempt%left%is_balanced) then
+            attempt%status = merge(step_unheld, step_diverges, size(attempt%op%loose, 2) > 0)
+            return
+         end if
+         c = errors_of(rows, tangent, state%configuration, goal%misfit, goal%target)
+         most = most_error*(elastic%length + maxval(abs(state%configuration)))
+         if (all(abs(c) <= most)) return
+         r = maxloc(abs(c), 1)
          attempt%status = step_inconsistent
-         attempt%place = rows%owner(2, worst)
-         if (rows%owner(1, worst) > 0) attempt%place = -(6*(rows%owner(1, worst) - 1) + rows%owner(2, worst))
+         attempt%place = rows%owner(2, r)
+         if (rows%owner(1, r) > 0) attempt%place = -(6*(rows%owner(1, r) - 1) + rows%owner(2, r))
       end associate
    end subroutine settle
-
-   !> Forces of multipliers of single components of orientations.
-   pure function component_forces(elastic, rows, m) result(f)
-      type(elastic_model_t), intent(in) :: elastic
-      type(rows_t), intent(in) :: rows
-      real(wp), intent(in) :: m(:)
-      real(wp) :: f(size(elastic%scale))
-      integer :: r
-
-      f = 0.0_wp
-      do r = 1, rows%count
-         if (rows%owner(1, r) == 0) f(rows%entry(:3, r)) = f(rows%entry(:3, r)) - m(r)*rows%value(:3, r)
-      end do
-   end function component_forces
-
-   !> The largest force of one deformation on one coordinate, or load.
-   pure real(wp) function largest_force(elastic, tangent, stress, load) result(most)
-      type(elastic_model_t), intent(in) :: elastic
-      type(tangent_t), intent(in) :: tangent
-      real(wp), intent(in) :: stress(:, :), load(:)
-      integer :: k, i, slot
-
-      most = maxval(abs(load/elastic%scale))
-      do k = 1, elastic%model%elements
-         do slot = 1, 12
-            if (elastic%entry(slot, k) == 0) cycle
-            do i = 1, 6
-               most = max(most, abs(stress(i, k)*tangent%derivative(i, slot, k))/elastic%scale(elastic%entry(slot, k)))
-            end do
-         end do
-      end do
-   end function largest_force
 
    !> Where an increment has come to its end, supports are exactly at their targets.
    pure subroutine put_supports(elastic, target, configuration)

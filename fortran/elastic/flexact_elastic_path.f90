@@ -42,7 +42,7 @@ contains
          path%iterations = path%iterations + attempt%iterations
          path%status = attempt%status
          path%place = attempt%place
-         path%residual = attempt%residual
+         path%residual = attempt%left%relative
          if (attempt%status == step_done) then
             path%reached = t
             if (attempt%iterations <= few_iterations) length = 2*length

@@ -11,7 +11,7 @@ module flexact_elastic_space
    use flexact_sparse, only: sparse_t, compress, times, times_transposed
    implicit none
    private
-   public :: space_t, make_space, reduced, expanded, answer, multipliers_of
+   public :: space_t, make_space, reduced, reduced_sizes, expanded, answer, multipliers_of
 
    !> Norms are those of lengths and forces: rotations are taken times a length, and moments over
    !> it. motions: columns of the basis Z.
@@ -98,6 +98,22 @@ contains
                             reshape(free_part(elastic, space%layout, f), [space%layout%columns, 1]), made)
       y = made(:, 1)
    end function reduced
+
+   !> |Z|' f.
+   pure function reduced_sizes(space, elastic, f) result(y)
+      type(space_t), intent(in) :: space
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: f(:)
+      real(wp) :: y(space%motions), columns(space%layout%columns)
+      integer :: j
+
+      columns = free_part(elastic, space%layout, f)
+      associate (z => space%projection%basis)
+         do j = 1, space%motions
+            y(j) = dot_product(abs(z%value(z%start(j):z%start(j + 1) - 1)), columns(z%place(z%start(j):z%start(j + 1) - 1)))
+         end do
+      end associate
+   end function reduced_sizes
 
    !> Z y.
    function expanded(space, elastic, y) result(v)

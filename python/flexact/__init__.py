@@ -49,6 +49,15 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .stiffness import (
+        Elastic,
+        ElasticError,
+        Estimate,
+        State,
+        StrokeError,
+        UnknownError,
+        elastic,
+    )
     from .tracing.trace import Trace
     from .tracing.tracer import trace
     from .variants.search.crossing import Crossing, Crossings
@@ -82,6 +91,10 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
+    "stiffness": (
+        *("Elastic", "ElasticError", "Estimate", "State", "StrokeError", "UnknownError"),
+        "elastic",
+    ),
     "tracing.tracer": ("trace",),
     "tracing.trace": ("Trace",),
     "variants.search.crossing": ("Crossing", "Crossings"),
@@ -108,7 +121,10 @@ __all__ = [
     "Crossings",
     "DeckError",
     "Diagnostic",
+    "Elastic",
+    "ElasticError",
     "Element",
+    "Estimate",
     "ExactBases",
     "FlexactError",
     "FoldedSheet",
@@ -127,16 +143,20 @@ __all__ = [
     "SelfStress",
     "Severity",
     "Sheet",
+    "State",
     "Step",
+    "StrokeError",
     "Table",
     "Tolerances",
     "Trace",
+    "UnknownError",
     "Verdict",
     "Wire",
     "__version__",
     "analyse",
     "cost",
     "deformations",
+    "elastic",
     "grid",
     "jacobian",
     "read",
