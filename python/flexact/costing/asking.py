@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is asked for, as people write it: "1:5+2:5=3.5", "1:z=25mm..35mm", "11:x=50um@13", "-5%"."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+from ..base.plain_text import in_short
+
+_UNITS: dict[str, tuple[float, str]] = {
+    **dict.fromkeys(("m",), (1.0, "m")),
+    "mm": (1e-3, "m"),
+    **dict.fromkeys(("um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"), (1e-6, "m")),
+    "nm": (1e-9, "m"),
+    "rad": (1.0, "rad"),
+    "mrad": (1e-3, "rad"),
+    **dict.fromkeys(
+        ("urad", "\N{MICRO SIGN}rad", "\N{GREEK SMALL LETTER MU}rad"), (1e-6, "rad")
+    ),
+    **dict.fromkeys(("deg", "\N{DEGREE SIGN}"), (math.pi / 180.0, "rad")),
+}
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
+_COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
+_RELEASE = re.compile(r"\s*(\d{1,9})\s*:\s*(\d{1,9})\s*(?:=(.*))?")
+_NAMES = ("x", "y", "z", "rx", "ry", "rz")
+#: Units of the stiffness of a notch, without blanks; all are SI, so that nothing is converted.
+_NOTCH_UNITS = ("", "Nm/rad", "N*m/rad", "N/m")
+#: That only the design as built is looked at.
+NONE = "none"
+
+
+class AskedError(ValueError):
+    """What was asked for is not understood; its text says what is wanted."""
+
+
+class PointText(NamedTuple):
+    """A point by its number, or by its name."""
+
+    text: str
+
+    @property
+    def target(self) -> int | str:
+        """As a number where it is one."""
+        text = self.text.strip()
+        return int(text) if re.fullmatch(r"\d{1,9}", text) else text
+
+
+class StrokeAsked(NamedTuple):
+    """A stroke: of which point, along what, from where to where."""
+
+    point: object
+    coordinate: str
+    start: float
+    stop: float
+    is_offset: bool = False
+    """Whether the values count from where the point is in the deck."""
+
+
+class MisalignmentAsked(NamedTuple):
+    """A misalignment: of which clamp, along what, by how much, and about which point."""
+
+    clamp: object
+    coordinate: str
+    value: float
+    about: object = None
+
+
+#: Deformations that are released, with the stiffness of each one's notch; 0: ideal.
+ReleaseAsked = dict[tuple[int, int], float]
+
+
+def quantity(text: str, unit: str) -> float:
+    """A length or an angle in m or rad, such as "50um", "0.1 mm", "1mrad" or "5e-5".
+
+    Raises:
+        AskedError: it is none, or of another unit.
+    """
+    found = _NUMBER.fullmatch(text)
+    factor, of = _UNITS.get(found[2], (0.0, "")) if found and found[2] else (1.0, unit)
+    if found is None or of != unit:
+        example = "50um, 0.1mm or 5e-5" if unit == "m" else "50urad, 1mrad, 2deg or 1e-3"
+        kind = "a length [m]" if unit == "m" else "an angle [rad]"
+        raise AskedError(f"{kind} is wanted, such as {example}, not {in_short(text.strip())}")
+    value = float(found[1]) * factor
+    if not math.isfinite(value):
+        raise AskedError(f"{in_short(text.strip())} is too large")
+    return value
+
+
+def shift_of(text: str | float) -> float:
+    """A shift of a frequency, such as "-5%" or -0.05.
+
+    Raises:
+        AskedError: it is none, 0, or a fall by all or more.
+    """
+    wanted = "a shift is wanted, such as -5% (or -0.05): more than -100%, at most 100%, not 0"
+    if isinstance(text, str):
+        found = _NUMBER.fullmatch(text)
+        if found is None or found[2] not in ("", "%"):
+            raise AskedError(f"{wanted}; {in_short(text.strip())} is none")
+        value = float(found[1]) / (100.0 if found[2] else 1.0)
+    else:
+        value = float(text)
+    if not (-1.0 < value <= 1.0) or value == 0.0:
+        raise AskedError(f"{wanted}; {in_short(text)} is none")
+    return value
+
+
+def release_of(text: str) -> ReleaseAsked:
+    """What is released together: "1:5", "1:5=3.5" with a notch, "1:5+2:5"; "none": nothing.
+
+    Raises:
+        AskedError: it is not written so.
+    """
+    if text.strip() == NONE:
+        return {}
+    made: ReleaseAsked = {}
+    for part in _parts(text):
+        found = _RELEASE.fullmatch(part)
+        if found is None:
+            raise AskedError(
+                "a release is written ELEMENT:DEFORMATION, such as 1:5; with the stiffness of its "
+                f"notch 1:5=3.5 [N m/rad]; several together 1:5+2:5; not {in_short(text)}"
+            )
+        made[int(found[1]), int(found[2])] = _notch(found[3])
+    return made
+
+
+def _parts(text: str) -> list[str]:
+    """Between plus signs, but not those of exponents, such as in 1e+3."""
+    return re.split(r"(?<![eE])\+", text)
+
+
+def _notch(text: str | None) -> float:
+    if text is None:
+        return 0.0
+    found = _NUMBER.fullmatch(re.sub(r"\s", "", text))
+    value = float(found[1]) if found and found[2] in _NOTCH_UNITS else -1.0
+    if not (math.isfinite(value) and value >= 0.0):
+        raise AskedError(
+            "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
+            f"not {in_short(text.strip())}"
+        )
+    return value
+
+
+def stroke_of(text: str) -> StrokeAsked:
+    """A stroke: "1:z=25mm..35mm", or counted from the deck's place "1:z+=-5mm..5mm".
+
+    Raises:
+        AskedError: it is not written so.
+    """
+    found = _COORDINATE.fullmatch(text)
+    start, dots, stop = found["value"].partition("..") if found else ("", "", "")
+    if found is None or not dots:
+        raise AskedError(
+            "a stroke is written POINT:COORDINATE=FROM..TO, such as 1:z=25mm..35mm, or counted "
+            f"from the place in the deck 1:z+=-5mm..5mm; not {in_short(text)}"
+        )
+    name, unit = _coordinate(found["name"])
+    first, last = quantity(start, unit), quantity(stop, unit)
+    if first == last:
+        raise AskedError(f"the stroke {in_short(text)} ends where it begins")
+    point = PointText(found["point"]).target
+    return StrokeAsked(point, name, first, last, bool(found["by"]))
+
+
+def misalignment_of(text: str) -> MisalignmentAsked:
+    """A misalignment: "11:x=50um", or turned about a point "11:rx=1mrad@13".
+
+    Raises:
+        AskedError: it is not written so.
+    """
+    found = _COORDINATE.fullmatch(text)
+    if found is None or found["by"]:
+        raise AskedError(
+            "a misalignment is written CLAMP:COORDINATE=VALUE, such as 11:x=50um, and turned "
+            f"about a point 11:rx=1mrad@13; not {in_short(text)}"
+        )
+    value, _, about = found["value"].partition("@")
+    name, unit = _coordinate(found["name"])
+    if about and unit == "m":
+        raise AskedError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
+    return MisalignmentAsked(
+        PointText(found["point"]).target,
+        name,
+        quantity(value, unit),
+        PointText(about).target if about else None,
+    )
+
+
+def _coordinate(name: str) -> tuple[str, str]:
+    if name not in _NAMES:
+        raise AskedError(f"a coordinate is one of {', '.join(_NAMES)}, not {in_short(name)}")
+    return name, "rad" if name.startswith("r") else "m"
