@@ -9,12 +9,21 @@ against the error they follow plausible laws. No test takes them for truths.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from math import inf
 
 import numpy as np
 from reference_decks import ROOT
 
-from flexact.costing.designs import CostValues, Design, MisalignmentCurve, Stroke, StrokeCurve
+import flexact
+from flexact.costing.designs import (
+    CostValues,
+    Design,
+    MisalignmentCurve,
+    Shape,
+    Stroke,
+    StrokeCurve,
+)
 from flexact.costing.values import (
     DIRECTIONS,
     FREQUENCY,
@@ -27,6 +36,7 @@ from flexact.costing.values import (
     Released,
     Tolerance,
 )
+from flexact.model.configuration import Configuration
 from flexact.deck.reading import read_file
 
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
@@ -106,6 +116,29 @@ def _design(label: str) -> Design:
             counts,
             counts,
         ),
+        shapes=_shapes(label == "as built"),
+    )
+
+
+@cache
+def _shapes(buckles: bool) -> tuple[Shape, ...]:
+    """Fields that look like shapes: the guided motion, and the cylinder turning about its axis."""
+    analysis = flexact.analyse(DECK)
+    guided = analysis.freedoms[0].motion
+    data = analysis.data
+    place = data.arrays.node_value.T
+    start = Configuration(data.arrays.node_kind, place)
+    turned = np.where(np.abs(guided.displacement).sum(1, keepdims=True) > 0, 1.0, 0.0)
+    placed = data.arrays.node_kind[:, None] <= 1
+    turning = np.where(placed, np.cross([0.0, 0.0, 1.0], place[:, :3]) * turned, 0.0)
+    fields = [
+        ("vibrating", "first frequency, 9.92 Hz", 9.92, guided.displacement + guided.rotation),
+        ("vibrating", "first parasitic frequency, 403 Hz", 403.0, turning),
+        ("buckled", "buckles at clamp 11 off by 0.133 mm along x", CRITICAL, turning),
+    ]
+    return tuple(
+        Shape(kind, words, value, data, start, field)
+        for kind, words, value, field in fields[: 3 if buckles else 2]
     )
 
 

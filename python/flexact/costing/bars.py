@@ -52,9 +52,9 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         )
         for clamp in clamps
     ]
-    name, what = ("shifts", "Displacement") if unit == "m" else ("turns", "Rotation")
+    name, what = ("shifts", "displacement") if unit == "m" else ("turns", "rotation")
     shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
-    title = f"{what} of a clamp for {shift} of the {cost.measure}"
+    title = f"Tolerance of a clamp for {what} ({shift})"
     note = f"{left_out} more clamps bear more" if left_out else ""
     return BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
 

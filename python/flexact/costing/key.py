@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..base.plain_text import harmless
 from .designs import CostValues, Design
 from .names import short_labels
 from .quantities import in_words, percent
@@ -64,6 +65,19 @@ def key_of(cost: CostValues) -> Key:
         )
     )
     return Key(tuple(shown), tuple(rows))
+
+
+def choices_of(cost: CostValues) -> tuple[str, ...]:
+    """What was asked for, in parts: of what, where, and how."""
+    beams = "8 and 16 beams a sheet" if cost.beams == "auto" else f"{cost.beams} beams a sheet"
+    told = (
+        cost.name,
+        f"at {cost.point.words}",
+        f"held deformations {cost.held}",
+        f"drive {cost.drive}",
+        beams,
+    )
+    return tuple(harmless(each) for each in told if each)
 
 
 def typeset(words: str) -> str:

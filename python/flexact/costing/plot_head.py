@@ -7,11 +7,10 @@ import textwrap
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from ..base.plain_text import harmless
 from ..drawing.charts.series import style_of
 from ..picture.charts import INK, SOFT, width_of, written
 from .designs import CostValues
-from .key import Key, KeyRow, typeset
+from .key import Key, KeyRow, choices_of, typeset
 from .words import first_line
 
 
@@ -53,7 +52,7 @@ def draw_head(figure: Any, cost: CostValues, key: Key) -> None:
         _text(figure, _LOOK, top, line, HEAD.headline, INK, fontweight="bold")
         top += HEAD.line
     top += 0.04
-    _text(figure, _LOOK, top, _choices(cost), HEAD.words, SOFT)
+    _text(figure, _LOOK, top, ", ".join(choices_of(cost)), HEAD.words, SOFT)
     top += HEAD.row + 0.1
     columns = _columns(figure, key)
     for place, head in zip(columns.cells, key.heads, strict=True):
@@ -125,19 +124,6 @@ def _draw_row(figure: Any, row: KeyRow, top: float, columns: _Columns) -> None:
         _text(figure, columns.words, top, words, HEAD.words, INK)
     for place, cell in zip(columns.cells, row.cells, strict=True):
         _text(figure, place, top, cell, HEAD.words, INK, fontweight=weight)
-
-
-def _choices(cost: CostValues) -> str:
-    """What was asked for, in a line."""
-    beams = "refined" if cost.beams == "auto" else f"{cost.beams} beams a sheet"
-    told = (
-        cost.name,
-        f"at {cost.point.words}",
-        f"held deformations {cost.held}",
-        f"drive {cost.drive}",
-        beams,
-    )
-    return ", ".join(harmless(each) for each in told if each)
 
 
 def _text(figure: Any, left: float, top: float, words: str, size: float, colour: str, **more: Any) -> None:

@@ -13,8 +13,9 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from .units import Unit, number, told, unit_for
 
-#: About how many ticks an axis has, and how many decades have ticks at 2 and 5 as well.
-_TICKS, _FEW_DECADES = 5, 1.7
+#: About how many ticks an axis has; up to how many decades there are ticks within them.
+_TICKS = 5
+_STEPS = ((1.2, (1.0, 2.0, 5.0)), (2.4, (1.0, 3.0)), (math.inf, (1.0,)))
 #: Room beyond the values: as a part of their range, and as a factor.
 _ROOM, _LOG_ROOM = 0.04, 1.8
 
@@ -105,7 +106,8 @@ def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0) -> Scale:
         low, high = middle / math.sqrt(10.0), middle * math.sqrt(10.0)
     high *= (high / low) ** beyond
     written = unit_for([math.sqrt(low * high)], unit)
-    steps = (1.0, 2.0, 5.0) if math.log10(high / low) < _FEW_DECADES else (1.0,)
+    wide = math.log10(high / low)
+    steps = next(steps for most, steps in _STEPS if wide < most)
     decades = range(
         math.floor(math.log10(low / written.size)), math.ceil(math.log10(high / written.size)) + 1
     )
