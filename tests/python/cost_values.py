@@ -36,11 +36,13 @@ from flexact.costing.values import (
     Released,
     Tolerance,
 )
-from flexact.model.configuration import Configuration
 from flexact.deck.reading import read_file
+from flexact.model.configuration import Configuration
 
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
-CLAMPS = tuple(Clamp(node, node + 1, f"clamp {node}", f"clamp {node}") for node in range(11, 71, 10))
+CLAMPS = tuple(
+    Clamp(node, node + 1, f"clamp {node}", f"clamp {node}") for node in range(11, 71, 10)
+)
 #: Of the clamp that matters most: where it buckles [m], and by which power the frequency falls.
 CRITICAL, POWER = 1.3268e-4, 2.76
 SHIFT = -0.05
@@ -72,8 +74,11 @@ def _tolerance(clamp: Clamp, direction: str, *, released: bool) -> Tolerance:
     size = {"x": 1.0, "y": 1.6, "z": 240.0, "rx": 30.0, "ry": inf, "rz": 9.0}[direction]
     size *= CRITICAL * (1.0 + 0.3 * CLAMPS.index(clamp))
     share = (1.0 - (1.0 + SHIFT) ** 2) ** (1.0 / POWER)
-    made = [Number(sign * part * size, 0.002 * part * size if size < inf else 0.0)
-            for part in (share, 1.0) for sign in (-1.0, 1.0)]
+    made = [
+        Number(sign * part * size, 0.002 * part * size if size < inf else 0.0)
+        for part in (share, 1.0)
+        for sign in (-1.0, 1.0)
+    ]
     return Tolerance(Misalignment(clamp, direction), *made)
 
 
@@ -174,8 +179,8 @@ def without_masses(cost: CostValues) -> CostValues:
     designs = []
     for each in cost.designs:
         stroke = each.stroke and replace(each.stroke, frequencies=None, parasitic=None)
-        curve = each.curve and replace(each.curve, measure=numbers(40.0 * each.curve.measure.value**2))
-        designs.append(
-            replace(each, frequencies=None, is_drive=(), stroke=stroke, curve=curve)
+        curve = each.curve and replace(
+            each.curve, measure=numbers(40.0 * each.curve.measure.value**2)
         )
+        designs.append(replace(each, frequencies=None, is_drive=(), stroke=stroke, curve=curve))
     return replace(cost, designs=tuple(designs), measure="drive stiffness")

@@ -25,11 +25,7 @@ def bars_of(cost: CostValues) -> tuple[BarChart, ...]:
 
 def _bars(cost: CostValues, unit: str) -> BarChart | None:
     found = [
-        {
-            each.misalignment: each
-            for each in design.tolerances
-            if each.misalignment.unit == unit
-        }
+        {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
         for design in cost.designs
     ]
     finite = [

@@ -205,4 +205,3 @@ def _up(curves: Sequence[Curve], unit: str) -> Scale:
     if unit != "Hz" and (every > 0.0).all() and every.max() > _WIDE * smallest:
         return log_scale(every, unit)
     return linear_scale([0.0, _ABOVE * float(every.max())], unit, from_zero=True)
-

@@ -60,9 +60,7 @@ def key_of(cost: CostValues) -> Key:
             _words(design),
             tuple(cells[series] for cells in shown.values()),
         )
-        for series, (label, design) in enumerate(
-            zip(short_labels(cost), cost.designs, strict=True)
-        )
+        for series, (label, design) in enumerate(zip(short_labels(cost), cost.designs, strict=True))
     )
     return Key(tuple(shown), tuple(rows))
 

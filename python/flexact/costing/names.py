@@ -10,7 +10,7 @@ _LONGEST = 11
 
 
 def short_labels(cost: CostValues) -> tuple[str, ...]:
-    """Of each design what stands at its curves and bars: its label, or A, B, C... if one is long."""
+    """What stands at the curves and bars of designs: their labels, or letters if one is long."""
     labels = [each.label for each in cost.designs]
     if max(map(len, labels)) <= _LONGEST:
         return tuple(labels)

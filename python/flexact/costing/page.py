@@ -42,9 +42,7 @@ def page_bytes(cost: CostValues) -> bytes:
 
 
 def _sides(cost: CostValues, key: Key) -> tuple[Side, ...]:
-    chosen = [
-        (series, design) for series, design in enumerate(cost.designs) if _shown(design)
-    ]
+    chosen = [(series, design) for series, design in enumerate(cost.designs) if _shown(design)]
     return tuple(_side(series, design, key) for series, design in chosen[:_DRAWN])
 
 
@@ -88,7 +86,5 @@ def _still(shape: Shape) -> bytes | None:
 
 def _notes(cost: CostValues) -> list[str]:
     """Remarks on the designs, and what the deck does not allow."""
-    remarks = [
-        f"{design.label}: {remark}" for design in cost.designs for remark in design.remarks
-    ]
+    remarks = [f"{design.label}: {remark}" for design in cost.designs for remark in design.remarks]
     return [harmless(each) for each in (*remarks, *cost.left_out)]

@@ -29,7 +29,7 @@ class Head(NamedTuple):
 HEAD = Head()
 #: Letters of a line of the headline, and lines of it.
 _LETTERS, _LINES = 96, 2
-#: Where looks and labels stand, where the table ends, and least and most room between columns [inch].
+#: Where looks and labels stand, where the table ends, least and most room between columns.
 _LOOK, _LABEL, _END, _GAP, _MOST_GAP = 0.3, 0.8, 11.8, 0.2, 0.4
 #: Words are not made shorter than so many letters.
 _FEWEST = 12
@@ -78,7 +78,11 @@ def _columns(figure: Any, key: Key) -> _Columns:
 
     first = _LABEL + width((row.label for row in key.rows), "bold") + _GAP
     wide = [
-        max(width([head]), width([key.rows[0].cells[k]], "bold"), width(r.cells[k] for r in key.rows))
+        max(
+            width([head]),
+            width([key.rows[0].cells[k]], "bold"),
+            width(r.cells[k] for r in key.rows),
+        )
         for k, head in enumerate(key.heads)
     ]
     needed = width(row.words for row in key.rows if row.words != row.label)
@@ -126,7 +130,9 @@ def _draw_row(figure: Any, row: KeyRow, top: float, columns: _Columns) -> None:
         _text(figure, place, top, cell, HEAD.words, INK, fontweight=weight)
 
 
-def _text(figure: Any, left: float, top: float, words: str, size: float, colour: str, **more: Any) -> None:
+def _text(
+    figure: Any, left: float, top: float, words: str, size: float, colour: str, **more: Any
+) -> None:
     figure.text(
         left / figure.get_figwidth(),
         1.0 - top / figure.get_figheight(),

@@ -129,9 +129,7 @@ def _path(points: FloatArray) -> str:
 def _mark(place: Places, mark: Mark) -> Iterator[str]:
     points = place.at(*np.array(mark.points).T)
     for x, y in points.tolist():
-        yield (
-            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_RADIUS:g}" class="s{mark.series} point"/>'
-        )
+        yield (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_RADIUS:g}" class="s{mark.series} point"/>')
     x, y = points.mean(axis=0).tolist()
     bottom, top = place.up
     below = y < bottom - 0.2 * (bottom - top)

@@ -122,9 +122,7 @@ def _drawn(sides: Sequence[Side]) -> str:
     if not sides:
         return ""
     frames = frames_of(*(drawing_of(each.shaped.data) for each in sides))
-    every = [
-        shapes_data(each.shaped, frame) for each, frame in zip(sides, frames, strict=True)
-    ]
+    every = [shapes_data(each.shaped, frame) for each, frame in zip(sides, frames, strict=True)]
     marks = [f"design-{k}-" for k in range(len(sides))]
     halves = (_side(*each) for each in zip(sides, every, marks, strict=True))
     return (

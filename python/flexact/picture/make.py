@@ -144,6 +144,12 @@ def _figure(
 
 
 def checked_size(size: object) -> tuple[int, int]:
+    """Width and height of a picture, if they can be.
+
+    Raises:
+        TypeError: They are no whole numbers.
+        ValueError: They are out of range.
+    """
     try:
         width, height = (index(side) for side in size)  # type: ignore[attr-defined]
     except (TypeError, ValueError):

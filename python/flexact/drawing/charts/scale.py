@@ -130,4 +130,5 @@ def _round_ticks(low: float, high: float, unit: Unit) -> FloatArray:
     step = power * next(each for each in (1.0, 2.0, 5.0, 10.0) if each * power >= raw * 0.999)
     count = np.arange(math.ceil(first / step - 1e-9), math.floor(last / step + 1e-9) + 1)
     # Written to as many digits as the step has.
-    return np.array([float(f"{each * step:.10g}") for each in count.tolist()]) * unit.size
+    written = np.array([float(f"{each * step:.10g}") for each in count.tolist()])
+    return np.asarray(written * unit.size)
