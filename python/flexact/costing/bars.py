@@ -51,7 +51,8 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     name, what = ("shifts", "displacement") if unit == "m" else ("turns", "rotation")
     shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
     title = f"Tolerance of a clamp for {what} ({shift})"
-    note = f"{left_out} more clamps bear more" if left_out else ""
+    many = "clamp bears" if left_out == 1 else "clamps bear"
+    note = f"{left_out} more {many} more" if left_out else ""
     return BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
 
 

@@ -9,16 +9,14 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..drawing.charts.scale import Scale, exact_scale, linear_scale, log_scale
-from ..drawing.charts.units import told
-from ..drawing.charts.values import Chart, Curve, Mark
-from .designs import CostValues, Design, StrokeCurve
+from ..drawing.charts.values import Chart, Curve
+from .designs import CostValues, StrokeCurve
+from .marks import marks_of
 from .names import short_labels
-from .values import FREQUENCY, Numbers, Tolerance, unit_of_direction, words_of_direction
+from .values import FREQUENCY, Numbers, unit_of_direction, words_of_direction
 
 #: Stiffnesses that differ by more than so many times are drawn on a logarithmic axis.
 _WIDE = 30.0
-#: Two values that differ by less than this part of them mirror each other.
-_MIRRORED = 0.02
 #: Room above the highest curve, as a part of the axis.
 _ABOVE = 1.08
 
@@ -66,9 +64,9 @@ def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> 
             continue
         values = [each.stiffness.value[:, k] for _, each in strokes]
         every = np.concatenate(values)
-        if not np.isfinite(every).all() or not every.max() > 0.0:
+        if np.isinf(every).any() or not np.nanmax(values[0], initial=0.0) > 0.0:
             continue
-        share = float(every.min() / values[0].max())
+        share = float(np.nanmin(every) / np.nanmax(values[0]))
         if best is None or share < best[0] * (1.0 - 1e-6):
             best = (share, k)
     return None if best is None else best[1]
@@ -118,43 +116,8 @@ def _misaligned(cost: CostValues) -> Chart | None:
         exact_scale(first - 0.04 * (last - first), last + 0.04 * (last - first), chosen.unit),
         _up(curves, unit),
         curves,
-        tuple(_marks(cost, curves)),
+        tuple(marks_of(cost, curves[0])),
     )
-
-
-def _marks(cost: CostValues, curves: Sequence[Curve]) -> Iterable[Mark]:
-    """Where the design as built is shifted by what is allowed, and where it buckles."""
-    found = _tolerance(cost, cost.as_built)
-    if found is None or curves[0].series != 0:
-        return
-    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
-    for words, pair in (
-        ("buckles at", (found.critical_negative, found.critical_positive)),
-        (f"{shift} at", (found.negative, found.positive)),
-    ):
-        values = [each.value for each in pair if _is_within(each.value, curves[0].x)]
-        yield from _marked(curves[0], words, values, found.misalignment.unit)
-
-
-def _is_within(value: float, x: FloatArray) -> bool:
-    room = 1e-3 * float(x[-1] - x[0])
-    return bool(x[0] - room <= value <= x[-1] + room)
-
-
-def _marked(curve: Curve, words: str, values: Sequence[float], unit: str) -> Iterable[Mark]:
-    """One mark for two values that mirror each other, else one each."""
-    points = [(value, float(np.interp(value, curve.x, curve.y))) for value in values]
-    if len(values) == 2 and abs(sum(values)) < _MIRRORED * abs(values[1]):
-        yield Mark(curve.series, tuple(points), f"{words} ±{told(values[1], unit)}")
-    else:
-        for value, point in zip(values, points, strict=True):
-            yield Mark(curve.series, (point,), f"{words} {told(value, unit)}")
-
-
-def _tolerance(cost: CostValues, design: Design) -> Tolerance | None:
-    """That of the misalignment which is drawn."""
-    wanted = None if design.curve is None else design.curve.misalignment
-    return next((each for each in design.tolerances if each.misalignment == wanted), None)
 
 
 def _strokes(cost: CostValues) -> list[tuple[int, StrokeCurve]]:

@@ -155,4 +155,7 @@ def _parasitic(design: Design) -> str:
     least = Number(float(along.value[k, 0]), float(along.uncertainty[k, 0]))
     if least.value > 0.99 * first.value:
         return told
-    return typeset(f"{told} -> {in_words(_rounded(least), 'Hz')}")
+    lowest = in_words(_rounded(least), "Hz")
+    if told.endswith(" Hz") and lowest.endswith(" Hz"):
+        told = told.removesuffix(" Hz")
+    return typeset(f"{told} -> {lowest}")

@@ -101,8 +101,8 @@ def _fitting(figure: Any, words: str, room: float) -> str:
     """As many words as there is room for."""
     letters = len(words)
     while letters > _FEWEST and width_of(figure, words, HEAD.words) > room + 0.02:
-        letters -= 2
-        words = textwrap.shorten(words, letters, placeholder="\N{HORIZONTAL ELLIPSIS}")
+        letters -= 1
+        words = f"{words[:letters].rstrip(' ;:,-')}\N{HORIZONTAL ELLIPSIS}"
     return words
 
 

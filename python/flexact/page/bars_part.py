@@ -9,15 +9,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..drawing.charts.units import told
-from ..drawing.charts.values import Bar, BarChart
+from ..drawing.charts.values import Bar, BarChart, Row
 from .charts_part import LETTER, LETTERS, WIDTH, line, svg, words
 
 #: Heights: of what stands above and below, of a row, and between groups.
 _TOP, _BOTTOM, _ROW, _BETWEEN = 28.0, 26.0, 17.0, 9.0
 #: Where a row's own label ends before the axis; room at the right; letters of a group's label.
 _BESIDE, _RIGHT, _LETTERS = 18.0, 14.0, 12
-#: Of a row's height: all bars together; how much thicker a bar with an end is.
-_FILLED, _THICK = 0.82, 2.2
 
 
 def bars_svg(chart: BarChart) -> str:
@@ -50,7 +48,7 @@ def _parts(chart: BarChart, left: float, bottom: float) -> Iterator[str]:
         top = place + _BETWEEN / 2
         for row in group.rows:
             marks.append(words(left - 6.0, top + _ROW / 2 + 4.5, row.label, "soft end"))
-            marks.extend(_row(chart, row.bars, top, (left, right)))
+            marks.extend(_row(chart, row, top, (left, right)))
             top += _ROW
         place += high
     yield from grounds
@@ -62,37 +60,45 @@ def _parts(chart: BarChart, left: float, bottom: float) -> Iterator[str]:
     yield from marks
 
 
-def _row(
-    chart: BarChart, bars: tuple[Bar, ...], top: float, across: tuple[float, float]
-) -> Iterator[str]:
-    """Bars of a row below each other, then what is said of the first."""
-    left, right = across
-    weights = [_THICK if math.isfinite(bar.value) else 1.0 for bar in bars]
-    place = top + (1.0 - _FILLED) / 2 * _ROW
+def _row(chart: BarChart, bars: Row, top: float, across: tuple[float, float]) -> Iterator[str]:
+    """Bars of a row below each other, then the value of the first."""
     said = ""
-    for bar, weight in zip(bars, weights, strict=True):
-        thick = _FILLED * _ROW * weight / sum(weights)
-        middle, kind = place + thick / 2, f"s{bar.series}"
-        place += thick
-        if not math.isfinite(bar.value):
-            yield line((left, middle), (right, middle), f"{kind} open")
-            yield (
-                f'<path d="M{right:.1f} {middle - 2.6:.1f}l5 2.6l-5 2.6Z" class="{kind} arrow"/>'
-            )
-            continue
-        values = np.array([bar.value, bar.value - bar.spread, bar.value + bar.spread])
-        shares = np.clip(chart.x.share(values), 0.0, 1.0)
-        end, low, high = (left + (right - left) * shares).tolist()
-        yield (
-            f'<rect x="{left:.1f}" y="{middle - 0.47 * thick:.1f}" width="{end - left:.1f}" '
-            f'height="{0.94 * thick:.1f}" class="{kind} bar"/>'
-        )
-        if bar.spread > 0.0:
-            yield line((low, middle), (high, middle), "whisker")
-        if bar.series == 0:
-            words_of = told(bar.value, chart.x.si, 2)
-            said = words(end + 5.0, middle + 4.0, words_of, f"{kind} named small")
+    for bar, (share, thick) in zip(bars.bars, bars.slots, strict=True):
+        middle, kind = top + _ROW * share, f"s{bar.series}"
+        yield from _bar(chart, bar, (middle, _ROW * thick), across)
+        if bar.series == 0 and math.isfinite(bar.value):
+            size, end = told(bar.value, chart.x.si, 2), _end(chart, bar.value, across)
+            said = words(end + 5.0, middle + 4.0, size, f"{kind} named small")
     yield said
+
+
+def _end(chart: BarChart, value: float, across: tuple[float, float]) -> float:
+    left, right = across
+    return float(left + (right - left) * np.clip(chart.x.share(value), 0.0, 1.0))
+
+
+def _bar(
+    chart: BarChart, bar: Bar, place: tuple[float, float], across: tuple[float, float]
+) -> Iterator[str]:
+    """A bar, or a line with a dot; one without an end has an arrow."""
+    (middle, thick), kind = place, f"s{bar.series}"
+    left, right = across
+    if not math.isfinite(bar.value):
+        yield line((left, middle), (right, middle), f"{kind} open")
+        yield f'<path d="M{right:.1f} {middle - 2.6:.1f}l5 2.6l-5 2.6Z" class="{kind} arrow"/>'
+        return
+    end = _end(chart, bar.value, across)
+    if bar.series:
+        yield line((left, middle), (end, middle), f"{kind} open")
+        yield f'<circle cx="{end:.1f}" cy="{middle:.1f}" r="2.3" class="{kind} arrow"/>'
+    else:
+        yield (
+            f'<rect x="{left:.1f}" y="{middle - thick / 2:.1f}" width="{end - left:.1f}" '
+            f'height="{thick:.1f}" class="{kind} bar"/>'
+        )
+    if bar.spread > 0.0:
+        low, high = (_end(chart, bar.value + way * bar.spread, across) for way in (-1.0, 1.0))
+        yield line((low, middle), (high, middle), "whisker")
 
 
 def _told(chart: BarChart) -> str:

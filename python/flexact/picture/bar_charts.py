@@ -11,10 +11,10 @@ from ..drawing.charts.units import told
 from ..drawing.charts.values import Bar, BarChart
 from .charts import INK, SMALL, SOFT, TITLE, draw_axis, halo, written
 
-#: Of a row's height: all bars together, and the room between groups.
-_FILLED, _BETWEEN = 0.86, 0.5
-#: How much thicker a bar with an end is than one without.
-_THICK = 2.2
+#: Room between groups, in heights of a row.
+_BETWEEN = 0.5
+#: The look of what is no thick bar.
+_LINE: Any = {"lw": 1.1, "alpha": 0.6, "solid_capstyle": "butt"}
 
 
 def bars_height(chart: BarChart) -> float:
@@ -41,12 +41,8 @@ def draw_bars(axes: Any, chart: BarChart) -> None:
         for row in group.rows:
             centre = place + _BETWEEN / 2 + 0.5
             _beside(axes, centre, row.label, 5.0, SOFT)
-            top = centre - _FILLED / 2
-            whole = sum(map(_weight, row.bars))
-            for bar in row.bars:
-                thick = _FILLED * _weight(bar) / whole
-                _draw_bar(axes, chart, bar, top, thick)
-                top += thick
+            for bar, (middle, thick) in zip(row.bars, row.slots, strict=True):
+                _draw_bar(axes, chart, bar, centre - 0.5 + middle, thick)
             place += 1.0
         place += _BETWEEN
     if chart.note:
@@ -68,42 +64,36 @@ def _beside(axes: Any, place: float, words: str, far: float, colour: str) -> Non
     )
 
 
-def _weight(bar: Bar) -> float:
-    """How thick a bar is beside others of its row."""
-    return _THICK if math.isfinite(bar.value) else 1.0
-
-
-def _draw_bar(axes: Any, chart: BarChart, bar: Bar, top: float, thick: float) -> None:
+def _draw_bar(axes: Any, chart: BarChart, bar: Bar, middle: float, thick: float) -> None:
     scale, look = chart.x, style_of(bar.series)
-    middle = top + thick / 2
-    if not math.isfinite(bar.value):
-        ends = [scale.low, scale.high]
-        axes.plot(ends, [middle, middle], color=look.colour, lw=1.0, alpha=0.55, zorder=2)
-        mark = {"marker": ">", "ms": 4.5, "color": look.colour, "mew": 0}
-        axes.plot(scale.high, middle, clip_on=False, zorder=4, **mark)
+    is_open = not math.isfinite(bar.value)
+    end = scale.high if is_open else bar.value
+    if is_open or bar.series:
+        axes.plot([scale.low, end], [middle, middle], color=look.colour, **_LINE, zorder=2)
+        mark = {"marker": ">" if is_open else "o", "ms": 4.0, "color": look.colour, "mew": 0}
+        axes.plot(end, middle, clip_on=False, zorder=4, **mark)
+    else:
+        place = {"height": thick, "left": scale.low}
+        axes.barh(middle, end - scale.low, **place, color=look.colour, lw=0, zorder=3)
+    if is_open:
         return
-    axes.barh(
-        middle,
-        bar.value - scale.low,
-        height=thick * 0.94,
-        left=scale.low,
-        color=look.colour,
-        lw=0,
-        zorder=3,
-    )
     if bar.spread > 0.0:
         ends = [max(bar.value - bar.spread, scale.low), min(bar.value + bar.spread, scale.high)]
         axes.plot(ends, [middle, middle], color=INK, lw=1.2, zorder=5, solid_capstyle="butt")
     if bar.series == 0:
-        axes.annotate(
-            written(told(bar.value, chart.x.si, 2)),
-            (bar.value, middle),
-            xytext=(4.0, 0.0),
-            textcoords="offset points",
-            ha="left",
-            va="center",
-            fontsize=SMALL - 0.5,
-            color=look.colour,
-            zorder=6,
-            path_effects=halo(),
-        )
+        _tell(axes, chart, bar, middle)
+
+
+def _tell(axes: Any, chart: BarChart, bar: Bar, middle: float) -> None:
+    axes.annotate(
+        written(told(bar.value, chart.x.si, 2)),
+        (bar.value, middle),
+        xytext=(4.0, 0.0),
+        textcoords="offset points",
+        ha="left",
+        va="center",
+        fontsize=SMALL - 0.5,
+        color=style_of(bar.series).colour,
+        zorder=6,
+        path_effects=halo(),
+    )

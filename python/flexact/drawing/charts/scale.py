@@ -84,7 +84,9 @@ def linear_scale(values: ArrayLike, unit: str, *, from_zero: bool = False) -> Sc
 
 
 def exact_scale(low: float, high: float, unit: str) -> Scale:
-    """A linear scale from one value to another."""
+    """A linear scale from one value to another; with some room where they are the same."""
+    if not high > low:
+        return linear_scale([low], unit)
     written = unit_for([low, high], unit)
     return Scale(low, high, written, False, _round_ticks(low, high, written), unit)
 
@@ -119,7 +121,7 @@ def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0) -> Scale:
 
 def _finite(values: ArrayLike) -> FloatArray:
     found = np.asarray(values, float).ravel()
-    return found[np.isfinite(found)]
+    return np.asarray(found[np.isfinite(found)])
 
 
 def _round_ticks(low: float, high: float, unit: Unit) -> FloatArray:

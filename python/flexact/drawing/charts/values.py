@@ -12,6 +12,9 @@ from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from .scale import Scale
 
+#: Of a row's height: what bars fill, and the first one where there are others.
+_FILLED, _FIRST = 0.88, 0.46
+
 
 @dataclass(frozen=True, eq=False)
 class Curve(Frozen):
@@ -94,10 +97,23 @@ class Bar(NamedTuple):
 
 
 class Row(NamedTuple):
-    """Bars of all designs for one thing."""
+    """Bars of all designs for one thing: the first is thick, the others are lines below it."""
 
     label: str
     bars: tuple[Bar, ...]
+
+    @property
+    def slots(self) -> list[tuple[float, float]]:
+        """Where the middle of each bar is and how thick it is, as parts of the row's height."""
+        others = sum(bar.series > 0 for bar in self.bars)
+        first = _FIRST if others else _FILLED
+        thin = (_FILLED - first) / max(others, 1)
+        made, top = [], (1.0 - _FILLED) / 2
+        for bar in self.bars:
+            thick = thin if bar.series > 0 else first
+            made.append((top + thick / 2, thick))
+            top += thick
+        return made
 
 
 class Group(NamedTuple):
