@@ -29,25 +29,14 @@ end subroutine describe_element
 ! where there is no such enumeration.
 subroutine describe_names(n, enumeration, names, first, count)
    use iso_c_binding
-   use flexact_exchange, only: to_text, from_text
-   use flexact_names, only: names_t, names_of
+   use flexact_names, only: give_names
    implicit none
    integer(c_int), intent(in) :: n
    integer(c_signed_char), intent(in) :: enumeration(n)
    integer(c_signed_char), intent(out) :: names(24, 64)
    integer(c_int), intent(out) :: first, count
-   character(len=:), allocatable :: asked
-   type(names_t) :: found
-   integer :: i
 
-   call to_text(enumeration, asked)
-   found = names_of(asked)
-   first = found%first
-   count = size(found%name)
-   names = 0_c_signed_char
-   do i = 1, count
-      call from_text(found%name(i), names(:, i))
-   end do
+   call give_names(enumeration, names, first, count)
 end subroutine describe_names
 
 ! Read a deck; name, choice, value and sizes are as give_deck says.
@@ -66,8 +55,8 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    integer(c_int), intent(inout) :: nodes(5, most_nodes), elements(12, most_elements)
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
    integer(c_int), intent(inout) :: name(2, most_elements + most_nodes), choice(2, most_elements)
-   real(c_double), intent(inout) :: value(11, 2*most_elements + most_nodes)
-   integer(c_int), intent(out) :: sizes(7), diag_count(4), diag_number(8, 100)
+   real(c_double), intent(inout) :: value(12, 2*most_elements + most_nodes + 1)
+   integer(c_int), intent(out) :: sizes(8), diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
    type(deck_model_t) :: deck
@@ -77,7 +66,7 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    call to_text(text, letters)
    call read_text(letters, deck, unused, diagnostics)
    call give_diagnostics(letters, diagnostics, diag_count, diag_number, diag_text)
-   sizes = [0, 0, 0, unused, 0, 0, 0]
+   sizes = [0, 0, 0, unused, 0, 0, 0, 0]
    if (.not. diagnostics%has_errors()) call give_deck(deck, nodes, places, elements, vectors, name, choice, value, sizes)
 end subroutine read_deck
 
@@ -86,8 +75,7 @@ end subroutine read_deck
 subroutine check_model(n, text, nn, ne, nodes, places, elements, vectors, name, diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_diagnostics, only: diagnostics_t
-   use flexact_exchange, only: unpack_model, give_diagnostics, to_text
-   use flexact_model, only: model_t
+   use flexact_exchange, only: give_diagnostics
    use flexact_model_check, only: check => check_made_model
    implicit none
 !f2py threadsafe
@@ -96,13 +84,9 @@ subroutine check_model(n, text, nn, ne, nodes, places, elements, vectors, name, 
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
    integer(c_int), intent(out) :: diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
-   character(len=:), allocatable :: letters
-   type(model_t) :: model
    type(diagnostics_t) :: diagnostics
 
-   call to_text(text, letters)
-   call unpack_model(nodes, places, elements, vectors, model)
-   call check(model, letters, name, diagnostics)
+   call check(nodes, places, elements, vectors, text, name, diagnostics)
    call give_diagnostics('', diagnostics, diag_count, diag_number, diag_text)
 end subroutine check_model
 
@@ -126,27 +110,21 @@ end subroutine count_model
 ! The reference frame of each element, axes as columns, and its length l0 [m].
 subroutine find_frames(nn, ne, nodes, places, elements, vectors, frame, length)
    use iso_c_binding
-   use flexact_configuration, only: element_frames
-   use flexact_exchange, only: unpack_model
-   use flexact_model, only: model_t
+   use flexact_geometry_exchange, only: give_frames
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
    real(c_double), intent(out) :: frame(3, 3, ne), length(ne)
-   type(model_t) :: model
 
-   call unpack_model(nodes, places, elements, vectors, model)
-   call element_frames(model, frame, length)
+   call give_frames(nodes, places, elements, vectors, frame, length)
 end subroutine find_frames
 
 ! Deformations and the whole Jacobian in a configuration; entry i stands at place(:, i),
 ! counted from 0: 6*element + deformation, 3*node + axis. used: its entries.
 subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configuration, c_t, deformation, place, value, used)
    use iso_c_binding
-   use flexact_exchange, only: unpack_model
-   use flexact_jacobian, only: jacobian_t, make_jacobian
-   use flexact_model, only: model_t
+   use flexact_geometry_exchange, only: give_jacobian
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: entries, nn, ne, nodes(5, nn), elements(12, ne)
@@ -155,17 +133,8 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
    integer(c_int), intent(inout) :: place(2, entries)
    real(c_double), intent(inout) :: value(entries)
    integer(c_int), intent(out) :: used
-   type(model_t) :: model
-   type(jacobian_t) :: jacobian
 
-   call unpack_model(nodes, places, elements, vectors, model)
-   call make_jacobian(model, configuration, jacobian, c_t)
-   used = jacobian%entries
-   deformation = jacobian%deformation
-   if (used > entries) return
-   place(1, :used) = 6*(jacobian%row(1, :used) - 1) + jacobian%row(2, :used) - 1
-   place(2, :used) = 3*(jacobian%column(1, :used) - 1) + jacobian%column(2, :used) - 1
-   value(:used) = jacobian%value(:used)
+   call give_jacobian(nodes, places, elements, vectors, configuration, c_t, deformation, place, value, used)
 end subroutine assemble
 
 ! Rank, motions and self-stresses in the reference configuration; what comes back, and what
@@ -173,8 +142,6 @@ end subroutine assemble
 subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
    use iso_c_binding
    use flexact_result_exchange, only: run
-   use flexact_exchange, only: unpack_model
-   use flexact_model, only: model_t
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne)
@@ -183,10 +150,8 @@ subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wish
    integer(c_int), intent(inout) :: index(3, n + 1), place(room)
    real(c_double), intent(inout) :: value(room), by_size(n, 8)
    real(c_double), intent(out) :: facts(48)
-   type(model_t) :: model
 
-   call unpack_model(nodes, places, elements, vectors, model)
-   call run(model, wishes, stage, index, place, value, by_size, facts)
+   call run(nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
 end subroutine analyse_model
 
 ! What small changes of the geometry make of the singular values of pairs of vectors of D(c)
@@ -196,8 +161,6 @@ end subroutine analyse_model
 ! and that element, 0 without one. used: rows and columns of D(c), which n must be.
 subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vectors, modes, pair, effect, place, used)
    use iso_c_binding
-   use flexact_exchange, only: unpack_model
-   use flexact_model, only: model_t
    use flexact_result_exchange, only: give_sensitivities
    implicit none
 !f2py threadsafe
@@ -205,18 +168,14 @@ subroutine find_sensitivities(n, k, pairs, nn, ne, nodes, places, elements, vect
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne), modes(n, k)
    real(c_double), intent(out) :: effect(5, pairs)
    integer(c_int), intent(out) :: place(2, pairs), used
-   type(model_t) :: model
 
-   call unpack_model(nodes, places, elements, vectors, model)
-   call give_sensitivities(model, modes, pair, effect, place, used)
+   call give_sensitivities(nodes, places, elements, vectors, modes, pair, effect, place, used)
 end subroutine find_sensitivities
 
 ! Residues of null vectors; wishes and what comes back as give_echelon says. n: columns of
 ! D(c), or of its transpose; room: no more entries are given.
 subroutine find_echelon(n, room, nn, ne, nodes, places, elements, vectors, wishes, pivot, place, facts)
    use iso_c_binding
-   use flexact_exchange, only: unpack_model
-   use flexact_model, only: model_t
    use flexact_result_exchange, only: give_echelon
    implicit none
 !f2py threadsafe
@@ -224,26 +183,62 @@ subroutine find_echelon(n, room, nn, ne, nodes, places, elements, vectors, wishe
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne)
    integer(c_int), intent(inout) :: pivot(n), place(4, room)
    integer(c_int), intent(out) :: facts(5)
-   type(model_t) :: model
 
-   call unpack_model(nodes, places, elements, vectors, model)
-   call give_echelon(model, wishes, pivot, place, facts)
+   call give_echelon(nodes, places, elements, vectors, wishes, pivot, place, facts)
 end subroutine find_echelon
 
 ! Each of some variants of a model; wishes, positions and classes (as many as variants, or
 ! one for all), and what comes back, as run_variants says.
 subroutine analyse_variants(room, variants, nn, ne, np, nc, nodes, places, elements, vectors, wishes, positions, classes, facts)
    use iso_c_binding
-   use flexact_exchange, only: unpack_model
-   use flexact_model, only: model_t
    use flexact_variant_exchange, only: run_variants
    implicit none
 !f2py threadsafe
    integer(c_int), intent(in) :: room, variants, nn, ne, np, nc, nodes(5, nn), elements(12, ne), classes(6, ne, nc)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(11), positions(3, nn, np)
    real(c_double), intent(inout) :: facts(room, variants)
-   type(model_t) :: model
 
-   call unpack_model(nodes, places, elements, vectors, model)
-   call run_variants(model, wishes, positions, classes, facts)
+   call run_variants(nodes, places, elements, vectors, wishes, positions, classes, facts)
 end subroutine analyse_variants
+
+! S of every element, notches applied, and its constant of torsion and elongation [m^2].
+subroutine find_stiffness(nn, ne, nodes, places, elements, vectors, of_elements, stiffness, c_t)
+   use iso_c_binding
+   use flexact_elastic_exchange, only: give_stiffness
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_elements(17, ne)
+   real(c_double), intent(out) :: stiffness(6, 6, ne), c_t(ne)
+
+   call give_stiffness(nodes, places, elements, vectors, of_elements, stiffness, c_t)
+end subroutine find_stiffness
+
+! From a state in equilibrium to another; all is as run_path says.
+subroutine follow_path(nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, reaction, &
+                       stress, facts)
+   use iso_c_binding
+   use flexact_elastic_exchange, only: run_path
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_nodes(27, nn), of_elements(35, ne), gravity(3, 2)
+   real(c_double), intent(out) :: configuration(4, nn), reaction(3, nn), stress(6, ne), facts(6)
+
+   call run_path(nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, reaction, stress, facts)
+end subroutine follow_path
+
+! What a state answers to small loads, its modes and its matrices; all is as run_task says.
+subroutine study_state(n, k, room, nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, wishes, given, answer, facts)
+   use iso_c_binding
+   use flexact_elastic_exchange, only: run_task
+   implicit none
+!f2py threadsafe
+   integer(c_int), intent(in) :: n, k, room, nn, ne, nodes(5, nn), elements(12, ne)
+   real(c_double), intent(in) :: places(4, nn), vectors(3, ne), of_nodes(13, nn), of_elements(23, ne), wishes(5), given(n, k)
+   real(c_double), intent(inout) :: answer(n, room)
+   real(c_double), intent(out) :: facts(5)
+
+   call run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given(:n - 1, :), answer(:n - 1, :), &
+                 answer(n, :), facts)
+end subroutine study_state

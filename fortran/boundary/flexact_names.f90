@@ -2,8 +2,12 @@
 !> The enumerations and limits of the core by name, for those who read them from
 !> outside.
 module flexact_names
+   use, intrinsic :: iso_c_binding, only: c_signed_char
+   use flexact_exchange, only: from_text, to_text
    use flexact_result_exchange, only: fact_names
    use flexact_diagnostics, only: severity_names
+   use flexact_elastic_exchange, only: task_names
+   use flexact_elastic_newton, only: step_names
    use flexact_error, only: error_names
    use flexact_element_table, only: frame_names, vector_names, member_names
    use flexact_appearance, only: section_names
@@ -16,7 +20,7 @@ module flexact_names
    use flexact_variant_exchange, only: variant_fact_names
    implicit none
    private
-   public :: names_t, names_of
+   public :: names_t, names_of, give_names
 
    type :: names_t
       !> The value that the first name stands for.
@@ -45,9 +49,30 @@ contains
       case ('stages'); names%name = [stage_names]
       case ('facts'); names = names_t(1, [fact_names])
       case ('variant facts'); names = names_t(1, [variant_fact_names])
+      case ('tasks'); names = names_t(1, [task_names])
+      case ('step endings'); names%name = [step_names]
       case ('severities'); names = names_t(1, [severity_names])
       case ('cross-sections'); names = names_t(1, [character(len=24) :: section_names])
       case default; allocate (names%name(0))
       end select
    end function names_of
+
+   !> The names as bytes, from the first value on; count 0 where there is no such enumeration.
+   subroutine give_names(enumeration, names, first, count)
+      integer(c_signed_char), intent(in) :: enumeration(:)
+      integer(c_signed_char), intent(out) :: names(:, :)
+      integer, intent(out) :: first, count
+      character(len=:), allocatable :: asked
+      type(names_t) :: found
+      integer :: i
+
+      call to_text(enumeration, asked)
+      found = names_of(asked)
+      first = found%first
+      count = size(found%name)
+      names = 0_c_signed_char
+      do i = 1, count
+         call from_text(found%name(i), names(:, i))
+      end do
+   end subroutine give_names
 end module flexact_names

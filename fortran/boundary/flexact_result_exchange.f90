@@ -7,7 +7,7 @@ module flexact_result_exchange
    use flexact_determinacy, only: analyse
    use flexact_echelon, only: echelon_t, find_echelon
    use flexact_error, only: error_memory
-   use flexact_exchange, only: give_basis, counts_of
+   use flexact_exchange, only: give_basis, counts_of, unpack_model
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_partition, only: model_count_t, count_model
@@ -40,17 +40,20 @@ module flexact_result_exchange
 contains
 
    !> Analyse a model within what flexact_blas says of threads and memory; all as for run_with_blas.
-   subroutine run(model, wishes, stage, index, place, value, by_size, facts)
-      type(model_t), intent(in) :: model
+   subroutine run(nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
+      integer, intent(in) :: nodes(:, :), elements(:, :)
+      real(wp), intent(in) :: places(:, :), vectors(:, :)
       real(wp), intent(in) :: wishes(:)
       integer, intent(inout), target :: stage(:)
       integer, intent(inout) :: index(:, :), place(:)
       real(wp), intent(inout) :: value(:), by_size(:, :)
       real(wp), intent(out) :: facts(:)
+      type(model_t) :: model
       type(model_count_t) :: counts
       type(blas_work_t) :: work
       real(wp) :: bytes, limited(size(wishes))
 
+      call unpack_model(nodes, places, elements, vectors, model)
       counts = count_model(model%coordinate_class, model%deformation_class)
       bytes = aside + bytes_each*(real(counts%rows, wp) + counts%columns)
       if (blas_begin(is_small(counts%rows, counts%columns), bytes, work) /= 0) then
@@ -121,18 +124,21 @@ contains
    end subroutine run_with_blas
 
    !> As find_sensitivities in bindings.f90 says; nothing where sizes do not fit.
-   subroutine give_sensitivities(model, modes, pair, effect, place, used)
-      type(model_t), intent(in) :: model
+   subroutine give_sensitivities(nodes, places, elements, vectors, modes, pair, effect, place, used)
+      integer, intent(in) :: nodes(:, :), elements(:, :)
+      real(wp), intent(in) :: places(:, :), vectors(:, :)
       real(wp), intent(in) :: modes(:, :)
       integer, intent(in) :: pair(:, :)
       real(wp), intent(out) :: effect(:, :)
       integer, intent(out) :: place(:, :), used
+      type(model_t) :: model
       type(model_count_t) :: counts
       type(sensitivity_t) :: found(size(pair, 2))
       integer :: i
 
       effect = 0
       place = 0
+      call unpack_model(nodes, places, elements, vectors, model)
       counts = count_model(model%coordinate_class, model%deformation_class)
       used = counts%rows + counts%columns
       if (used /= size(modes, 1) .or. any(pair < 1) .or. any(pair > size(modes, 2))) return
@@ -150,14 +156,17 @@ contains
    !> place: for the other entries that are not zero the column, the one where their row
    !> begins, and the residue in two parts of 31 bits. facts: the prime in two parts (0 where
    !> there is no FLINT), 1 if of decimals, columns, and entries, of which as many as fit are given.
-   subroutine give_echelon(model, wishes, pivot, place, facts)
-      type(model_t), intent(in) :: model
+   subroutine give_echelon(nodes, places, elements, vectors, wishes, pivot, place, facts)
+      integer, intent(in) :: nodes(:, :), elements(:, :)
+      real(wp), intent(in) :: places(:, :), vectors(:, :)
       integer, intent(in) :: wishes(:)
       integer, intent(inout) :: pivot(:), place(:, :)
       integer, intent(out) :: facts(:)
+      type(model_t) :: model
       type(echelon_t) :: echelon
       integer :: i, j, used
 
+      call unpack_model(nodes, places, elements, vectors, model)
       call find_echelon(model, wishes(1), wishes(2) > 0, wishes(3) > 0, echelon)
       pivot = 0
       used = 0

@@ -2,6 +2,7 @@
 !> Many variants of a model as flat arrays: what is asked, and what comes back of each.
 module flexact_variant_exchange
    use flexact_blas, only: blas_work_t, blas_begin, blas_end
+   use flexact_exchange, only: unpack_model
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
@@ -26,11 +27,13 @@ contains
    !> that a digit reaches, 1 if values are wanted, bytes of memory, how it is proven, 1 if
    !> numbers are no decimals, and the limits of flexact_zero_margins. position (3, nodes, variants): where nodes are, and class
    !> (6, elements, variants) of the deformations; either may be one for all.
-   subroutine run_variants(model, wishes, position, class, facts)
-      type(model_t), intent(inout) :: model
+   subroutine run_variants(nodes, places, elements, vectors, wishes, position, class, facts)
+      integer, intent(in) :: nodes(:, :), elements(:, :)
+      real(wp), intent(in) :: places(:, :), vectors(:, :)
       real(wp), intent(in) :: wishes(:), position(:, :, :)
       integer, intent(in) :: class(:, :, :)
       real(wp), intent(out) :: facts(:, :)
+      type(model_t) :: model
       type(question_t) :: question
       type(partition_t) :: partition
       type(variant_t) :: variant
@@ -47,6 +50,7 @@ contains
       question%options%as_stored = wishes(7) > 0
       question%zeros = zero_limits_t(nint(wishes(8)), nint(wishes(9)), wishes(10), wishes(11))
       if (blas_begin(1, 0.0_wp, work) /= 0) return
+      call unpack_model(nodes, places, elements, vectors, model)
       before = 0
       do i = 1, size(facts, 2)
          call place_nodes(position(:, :, min(i, size(position, 3))), model)

@@ -8,7 +8,7 @@ module flexact_beam
    use flexact_vectors, only: cross
    implicit none
    private
-   public :: beam_deformation
+   public :: beam_deformation, linear_deformation, coupling
 
 contains
 

@@ -3,10 +3,11 @@
 module flexact_chord
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
-   use flexact_vectors, only: length_of, unit
+   use flexact_second_order, only: skew, turned_once, apart
+   use flexact_vectors, only: identity, length_of, unit
    implicit none
    private
-   public :: chord_t, make_chord, across_chord
+   public :: chord_t, make_chord, across_chord, add_length, add_projection
 
    !> Where p and q have come to coincide there is no direction: it and the
    !> ratio are zero.
@@ -49,4 +50,49 @@ contains
       real(wp) :: derivative(3)
       derivative = chord%ratio*(a - dot_product(chord%direction, a)*chord%direction)
    end function across_chord
+
+   !> Add the second derivative of the length, times a factor.
+   pure subroutine add_length(reference, chord, factor, second)
+      type(reference_t), intent(in) :: reference
+      type(chord_t), intent(in) :: chord
+      real(wp), intent(in) :: factor
+      real(wp), intent(inout) :: second(9, 9)
+
+      associate (here => second(apart:apart + 2, apart:apart + 2), n => chord%direction)
+         here = here + factor*(chord%ratio/reference%length)*(identity - outer(n, n))
+      end associate
+   end subroutine add_length
+
+   !> Add the second derivative of l0 e_l . a, times a factor, for a vector a that
+   !> turns with the spin at this place.
+   pure subroutine add_projection(reference, chord, a, spin, factor, second)
+      type(reference_t), intent(in) :: reference
+      type(chord_t), intent(in) :: chord
+      real(wp), intent(in) :: a(3), factor
+      integer, intent(in) :: spin
+      real(wp), intent(inout) :: second(9, 9)
+      real(wp) :: n(3), along, mixed(3, 3)
+      integer :: x(3), w(3)
+
+      n = chord%direction
+      along = dot_product(n, a)
+      x = [apart, apart + 1, apart + 2]
+      w = [spin, spin + 1, spin + 2]
+      second(x, x) = second(x, x) + factor*chord%ratio*(chord%ratio/reference%length) &
+                     *(along*(3*outer(n, n) - identity) - outer(a, n) - outer(n, a))
+      mixed = -factor*chord%ratio*matmul(identity - outer(n, n), skew(a))
+      second(x, w) = second(x, w) + mixed
+      second(w, x) = second(w, x) + transpose(mixed)
+      second(w, w) = second(w, w) + factor*reference%length*turned_once(a, n)
+   end subroutine add_projection
+
+   pure function outer(a, b) result(matrix)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: matrix(3, 3)
+      integer :: i
+
+      do i = 1, 3
+         matrix(:, i) = a*b(i)
+      end do
+   end function outer
 end module flexact_chord

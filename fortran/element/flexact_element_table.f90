@@ -6,10 +6,11 @@ module flexact_element_table
    use flexact_roles, only: role_elongation, role_torsion, role_bending_xz_p, role_bending_xz_q, &
                             role_bending_xy_p, role_bending_xy_q, role_planar_bending_p, role_planar_bending_q, &
                             role_offset_x, role_offset_y, role_offset_z, role_rotation, role_tilt_y, role_tilt_z, role_angle
-   use flexact_slots, only: node_planar_position, node_position, node_angle, node_orientation, slots, most_deformations
+   use flexact_slots, only: node_planar_position, node_position, node_angle, node_orientation, &
+                            axes, slots, most_deformations, has_axis
    implicit none
    private
-   public :: element_kind_t, element_kinds, find_element_kind, deformations_of, beam_with_warping
+   public :: element_kind_t, element_kinds, find_element_kind, deformations_of, coordinates_of, beam_with_warping
    public :: frame_none, frame_along, frame_about, frame_planar, frame_names
    public :: vector_none, vector_optional, vector_required, vector_names
    public :: member_bar, member_beam, member_link, member_hinge, member_names
@@ -99,4 +100,20 @@ contains
       integer, intent(in) :: kind
       deformations = count(element_kinds(kind)%role /= 0)
    end function deformations_of
+
+   !> Whether an element of this kind has each of the coordinates x, y, z of the
+   !> position of p, rotation of p, position of q, rotation of q.
+   pure function coordinates_of(kind) result(has)
+      integer, intent(in) :: kind
+      logical :: has(axes*slots)
+      integer :: slot, axis
+
+      do slot = 1, slots
+         do axis = 1, axes
+            associate (node_kind => element_kinds(kind)%slot_kind(slot))
+               has(axes*(slot - 1) + axis) = node_kind /= 0 .and. has_axis(node_kind, axis)
+            end associate
+         end do
+      end do
+   end function coordinates_of
 end module flexact_element_table

@@ -3,10 +3,11 @@
 module flexact_rbeam
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
+   use flexact_second_order, only: skew, turned_once, at_ends, apart, spin_p
    use flexact_vectors, only: cross, planar_turn
    implicit none
    private
-   public :: rbeam_deformation, plrbeam_deformation
+   public :: rbeam_deformation, rbeam_curvature, plrbeam_deformation, plrbeam_curvature
 
 contains
 
@@ -33,22 +34,53 @@ contains
       end do
    end subroutine rbeam_deformation
 
+   !> sigma_1 d2e1 + sigma_2 d2e2 + sigma_3 d2e3: each is a vector that turns with p
+   !> times the vector from p to q.
+   pure function rbeam_curvature(reference, p, q, sigma) result(h)
+      type(reference_t), intent(in) :: reference
+      type(pose_t), intent(in) :: p, q
+      real(wp), intent(in) :: sigma(6)
+      real(wp) :: h(12, 12)
+      real(wp) :: force(3), second(9, 9)
+
+      force = matmul(matmul(p%rotation, reference%frame), sigma(1:3))
+      second = 0.0_wp
+      second(apart:apart + 2, spin_p:spin_p + 2) = -skew(force)
+      second(spin_p:spin_p + 2, apart:apart + 2) = skew(force)
+      second(spin_p:spin_p + 2, spin_p:spin_p + 2) = turned_once(force, q%position - p%position)
+      h = at_ends(second)
+   end function rbeam_curvature
+
    !> e1 and e2: the same in the xy plane, where p has turned by its angle.
    pure subroutine plrbeam_deformation(reference, p, q, e, derivative)
       type(reference_t), intent(in) :: reference
       type(pose_t), intent(in) :: p, q
       real(wp), intent(out) :: e(6), derivative(6, 12)
-      type(pose_t) :: turned
-      integer :: i
 
-      ! From rest: in the plane a node turns by its angle alone.
-      turned%position = p%position
-      do i = 1, 3
-         turned%rotation(:, i) = planar_turn(p%angle, turned%rotation(:, i))
-      end do
-      call rbeam_deformation(reference, turned, q, e, derivative)
+      call rbeam_deformation(reference, turned(p), q, e, derivative)
       e(3) = 0.0_wp
       derivative(3, :) = 0.0_wp
       derivative(:, 4:5) = 0.0_wp
    end subroutine plrbeam_deformation
+
+   !> sigma_1 d2e1 + sigma_2 d2e2.
+   pure function plrbeam_curvature(reference, p, q, sigma) result(h)
+      type(reference_t), intent(in) :: reference
+      type(pose_t), intent(in) :: p, q
+      real(wp), intent(in) :: sigma(6)
+      real(wp) :: h(12, 12)
+
+      h = rbeam_curvature(reference, turned(p), q, [sigma(1:2), 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+   end function plrbeam_curvature
+
+   !> From rest: in the plane a node turns by its angle alone.
+   pure type(pose_t) function turned(pose)
+      type(pose_t), intent(in) :: pose
+      integer :: i
+
+      turned%position = pose%position
+      do i = 1, 3
+         turned%rotation(:, i) = planar_turn(pose%angle, turned%rotation(:, i))
+      end do
+   end function turned
 end module flexact_rbeam

@@ -4,10 +4,11 @@
 module flexact_truss
    use flexact_kinds, only: wp
    use flexact_pose, only: pose_t, reference_t
-   use flexact_chord, only: chord_t, make_chord
+   use flexact_chord, only: chord_t, make_chord, add_length
+   use flexact_second_order, only: at_ends
    implicit none
    private
-   public :: truss_deformation
+   public :: truss_deformation, truss_curvature
 
 contains
 
@@ -27,4 +28,19 @@ contains
       derivative(1, 1:3) = -chord%direction
       derivative(1, 7:9) = chord%direction
    end subroutine truss_deformation
+
+   !> sigma_1 times the second derivative of e1.
+   pure function truss_curvature(reference, p, q, sigma) result(h)
+      type(reference_t), intent(in) :: reference
+      type(pose_t), intent(in) :: p, q
+      real(wp), intent(in) :: sigma(6)
+      real(wp) :: h(12, 12)
+      type(chord_t) :: chord
+      real(wp) :: second(9, 9)
+
+      call make_chord(reference, p, q, chord)
+      second = 0.0_wp
+      call add_length(reference, chord, sigma(1), second)
+      h = at_ends(second)
+   end function truss_curvature
 end module flexact_truss

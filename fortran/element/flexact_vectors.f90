@@ -5,7 +5,10 @@ module flexact_vectors
    use flexact_scaled_norm, only: length_of
    implicit none
    private
-   public :: cross, length_of, coincide, unit, axis_across, frame_along, planar_frame_along, planar_turn
+   public :: identity, cross, length_of, coincide, unit, axis_across, frame_along, planar_frame_along, planar_turn
+
+   real(wp), parameter :: identity(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, &
+                                                    0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
 
 contains
 
@@ -42,7 +45,7 @@ contains
 
       frame(:, 1) = unit(vector)
       if (.not. any(abs(frame(:, 1)) > 0)) then
-         frame = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+         frame = identity
          return
       end if
       frame(:, 2) = across(frame(:, 1), unit(hint))

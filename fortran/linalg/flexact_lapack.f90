@@ -5,7 +5,7 @@ module flexact_lapack
    implicit none
    private
    public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
-   public :: dsyrk, dpotrf
+   public :: dsyrk, dpotrf, dgemm, dsyevd, dsygv
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -118,5 +118,35 @@ module flexact_lapack
          real(wp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
+
+      !> c := alpha op(a) op(b) + beta c, op by 'N' as it is, by 'T' transposed.
+      pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+         import :: wp
+         character, intent(in) :: transa, transb
+         integer, intent(in) :: m, n, k, lda, ldb, ldc
+         real(wp), intent(in) :: alpha, beta, a(lda, *), b(ldb, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dgemm
+
+      !> Eigenvalues w of a symmetric a, ascending, and eigenvectors in its place.
+      pure subroutine dsyevd(jobz, uplo, n, a, lda, w, work, lwork, iwork, liwork, info)
+         import :: wp
+         character, intent(in) :: jobz, uplo
+         integer, intent(in) :: n, lda, lwork, liwork
+         real(wp), intent(inout) :: a(lda, *), work(*)
+         real(wp), intent(out) :: w(*)
+         integer, intent(inout) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dsyevd
+
+      !> The same of a x = w b x (itype 1), b positive definite, which is destroyed.
+      pure subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: itype, n, lda, ldb, lwork
+         character, intent(in) :: jobz, uplo
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *), work(*)
+         real(wp), intent(out) :: w(*)
+         integer, intent(out) :: info
+      end subroutine dsygv
    end interface
 end module flexact_lapack

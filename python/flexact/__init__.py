@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .advising import Advice, Step
     from .analysis import Analysis, analyse
     from .base.errors import FlexactError
+    from .costing.cost import Cost, cost
     from .deck.models import read, read_text
     from .diagnostics.diagnostic import Diagnostic, Place, Severity
     from .diagnostics.errors import DeckError, ModelError
@@ -48,6 +49,15 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .stiffness import (
+        Elastic,
+        ElasticError,
+        Estimate,
+        State,
+        StrokeError,
+        UnknownError,
+        elastic,
+    )
     from .tracing.trace import Trace
     from .tracing.tracer import trace
     from .variants.search.crossing import Crossing, Crossings
@@ -63,6 +73,7 @@ _HOMES = {
     "advising": ("Advice", "Step"),
     "analysis": ("Analysis", "analyse"),
     "base.errors": ("FlexactError",),
+    "costing.cost": ("Cost", "cost"),
     "deck.models": ("read", "read_text"),
     "diagnostics.diagnostic": ("Diagnostic", "Place", "Severity"),
     "diagnostics.errors": ("DeckError", "ModelError"),
@@ -79,6 +90,10 @@ _HOMES = {
     "result.verdict": (
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
+    ),
+    "stiffness": (
+        *("Elastic", "ElasticError", "Estimate", "State", "StrokeError", "UnknownError"),
+        "elastic",
     ),
     "tracing.tracer": ("trace",),
     "tracing.trace": ("Trace",),
@@ -100,12 +115,16 @@ __all__ = [
     "Certainty",
     "ClassCounts",
     "Configuration",
+    "Cost",
     "Counts",
     "Crossing",
     "Crossings",
     "DeckError",
     "Diagnostic",
+    "Elastic",
+    "ElasticError",
     "Element",
+    "Estimate",
     "ExactBases",
     "FlexactError",
     "FoldedSheet",
@@ -124,15 +143,20 @@ __all__ = [
     "SelfStress",
     "Severity",
     "Sheet",
+    "State",
     "Step",
+    "StrokeError",
     "Table",
     "Tolerances",
     "Trace",
+    "UnknownError",
     "Verdict",
     "Wire",
     "__version__",
     "analyse",
+    "cost",
     "deformations",
+    "elastic",
     "grid",
     "jacobian",
     "read",

@@ -33,7 +33,7 @@ FLOORS = (
 #: Folders of the core, in the order of dependence.
 LAYERS = (
     *("base", "linalg", "nullspace", "element", "model", "deck"),
-    *("assembly", "sensitivity", "exact", "analysis", "boundary"),
+    *("assembly", "sensitivity", "exact", "elastic", "analysis", "boundary"),
 )
 MOST_MODULES_AT_THE_TOP = 6
 MOST_ARGUMENTS = 15

@@ -88,3 +88,33 @@ def analyse_variants(
     facts: _Floats,
     /,
 ) -> None: ...
+def find_stiffness(
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    of_elements: _Floats,
+    /,
+) -> tuple[_Floats, _Floats]: ...
+def follow_path(
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    of_nodes: _Floats,
+    of_elements: _Floats,
+    gravity: _Floats,
+    /,
+) -> tuple[_Floats, _Floats, _Floats, _Floats]: ...
+def study_state(
+    nodes: _Ints,
+    places: _Floats,
+    elements: _Ints,
+    vectors: _Floats,
+    of_nodes: _Floats,
+    of_elements: _Floats,
+    wishes: _Floats,
+    given: _Floats,
+    answer: _Floats,
+    /,
+) -> _Floats: ...

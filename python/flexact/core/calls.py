@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The only importer of the extension: what goes in is checked, what comes out is named.
+"""With `elastic` the only importer of the extension: what goes in is checked, what comes out named.
 
 Every call is a function of its arguments.
 """
@@ -26,6 +26,7 @@ from .raw import (
     RawDiagnostics,
     RawEchelon,
     RawFrames,
+    RawLoads,
     RawProperties,
     RawSensitivities,
     RawVariants,
@@ -107,7 +108,7 @@ def _require_room(needed: float) -> None:
         )
 
 
-def _require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
+def require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
     _require_room(_OF_MODEL * model.nodes.shape[1] + of_element * model.elements.shape[1])
 
 
@@ -124,10 +125,11 @@ def read_deck(text: bytes) -> RawDeck:
     nn = room.nodes.shape[1]
     name = np.empty((2, ne + nn), np.int32, order="F")
     choice = np.empty((2, ne), np.int32, order="F")
-    value = np.empty((11, 2 * ne + nn), np.float64, order="F")
+    value = np.empty((12, 2 * ne + nn + 1), np.float64, order="F")
     sizes, counts, number, words = _core.read_deck(data, *room, name, choice, value)
-    nodes, elements, planar, _, drawn, long, given = sizes.tolist()
+    nodes, elements, planar, _, drawn, long, given, loaded = sizes.tolist()
     both, behind = np.s_[elements : 2 * elements], np.s_[2 * elements : 2 * elements + nodes]
+    last = 2 * elements + nodes
     return RawDeck(
         unpacked(room, nodes, elements),
         name[:, :elements],
@@ -135,7 +137,8 @@ def read_deck(text: bytes) -> RawDeck:
         planar == 1,
         RawDiagnostics(counts, number, words),
         RawAppearance(choice[:, :elements], value[:9, :elements]) if drawn else None,
-        RawProperties(value[:6, both], value[6:, both], value[:6, behind]) if given else None,
+        RawProperties(value[:6, both], value[6:11, both], value[:6, behind]) if given else None,
+        RawLoads(value[6:9, behind], value[9:, behind], value[6:9, last]) if loaded else None,
         long == 1,
     )
 
@@ -154,7 +157,7 @@ def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnosti
     """
     if name.size and not 0 <= name.min() <= name.max() <= len(text):
         raise ValueError("a name stands outside the text")
-    _require_room_for(model)
+    require_room_for(model)
     return RawDiagnostics(
         *_core.check_model(np.frombuffer(text, np.int8), *model, np.asfortranarray(name, np.int32))
     )
@@ -171,7 +174,7 @@ def count_model(model: PackedModel) -> RawCount:
 
 def find_frames(model: PackedModel) -> RawFrames:
     """Reference frames and lengths of a sound model's elements."""
-    _require_room_for(model)
+    require_room_for(model)
     frame, length = _core.find_frames(*model)
     return RawFrames(np.moveaxis(frame, 2, 0), length)
 
@@ -194,7 +197,7 @@ def assemble(model: PackedModel, configuration: FloatArray, c_t: FloatArray) -> 
         raise ValueError(f"c_t has shape {c_t.shape}, not {(elements,)}")
     place = np.empty((2, _ENTRIES_OF_ELEMENT * elements), np.int32, order="F")
     value = np.empty(place.shape[1])
-    _require_room_for(model, _OF_JACOBIAN)
+    require_room_for(model, _OF_JACOBIAN)
     deformation, used = _core.assemble(
         *model,
         np.asfortranarray(configuration, np.float64),
@@ -237,7 +240,7 @@ def analyse_model(
     # Where the address space is limited, what is set aside counts as used.
     room = max(1, min(most * most, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
     place, value = np.empty(room, np.int32), np.empty(room)
-    _require_room_for(model)
+    require_room_for(model)
     asked = -1.0 if tolerance is None else tolerance
     facts = _core.analyse_model(
         *model,
@@ -315,7 +318,7 @@ def find_echelon(
     # Entries beside the pivots: rank times (size - rank).
     place = np.empty((4, size * size // 4 + 1), np.int32, order="F")
     pivot = np.empty(size, np.int32)
-    _require_room_for(model, _OF_JACOBIAN)
+    require_room_for(model, _OF_JACOBIAN)
     wishes = np.array((number, as_stored, is_transposed), np.int32)
     facts = _core.find_echelon(*model, wishes, pivot, place)
     high, low, as_typed, _, used = facts.tolist()
@@ -416,7 +419,7 @@ def analyse_variants(
     first = len(_VARIANT_FACTS)
     facts = np.empty((first + 3 * _MOST_PAIRS, many), order="F")
     memory = min(wishes.memory, sys.float_info.max)
-    _require_room_for(model)
+    require_room_for(model)
     _core.analyse_variants(
         *model,
         np.array(

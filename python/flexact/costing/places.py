@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
-
 import numpy as np
 
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
@@ -73,15 +71,13 @@ class Places:
         return name or (named[0] if len(named) == 1 else "")
 
     def orientation_of(self, position: int) -> int | None:
-        """An orientation node that stands at a position node, by index; None without."""
+        """The orientation node at a position node, of the first element that names both."""
         slots = self.data.arrays.element_node - 1
-        turned = [
-            int(slots[op, element])
-            for element in self.parts.elements_at(position)
-            for p, op in ((0, 1), (2, 3))
-            if slots[p, element] == position and slots[op, element] >= 0
-        ]
-        return Counter(turned).most_common(1)[0][0] if turned else None
+        for element in self.parts.elements_at(position):
+            for p, op in ((0, 1), (2, 3)):
+                if slots[p, element] == position and slots[op, element] >= 0:
+                    return int(slots[op, element])
+        return None
 
     def node(self, target: object) -> int:
         """Index of the node that is meant: its number, the name of its point, or a handle.

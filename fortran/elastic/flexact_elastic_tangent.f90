@@ -1,0 +1,222 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A mechanism linearised at a state: deformations, their derivatives, second derivatives
+!> under the stress, gravity, and mass, element by element. Products are formed from these, so
+!> that a stiff elongation beside a soft bending costs half of the digits that it costs in an
+!> assembled matrix.
+module flexact_elastic_tangent
+   use flexact_configuration, only: make_poses
+   use flexact_elastic_model, only: elastic_model_t, gathered
+   use flexact_elastic_state, only: state_t, unit_parameters
+   use flexact_element, only: element_deformation
+   use flexact_element_curvature, only: element_curvature
+   use flexact_element_gravity, only: element_gravity
+   use flexact_element_mass, only: element_mass, node_mass
+   use flexact_kinds, only: wp
+   use flexact_pose, only: pose_t
+   use flexact_slots, only: axes, is_position, node_planar_position, node_orientation, node_angle
+   use flexact_vectors, only: cross
+   implicit none
+   private
+   public :: tangent_t, make_tangent, add_hessian, add_mass
+   public :: strains, forces, stiffness_times, hessian_times, mass_times, component_row
+
+   type :: tangent_t
+      !> (6, elements), (6, 12, elements).
+      real(wp), allocatable :: deformation(:, :), derivative(:, :, :)
+      !> (12, 12, elements) of the stress and of gravity; (nodes) times the identity on spins.
+      real(wp), allocatable :: hessian(:, :, :), node_hessian(:)
+      !> (12, 12, elements), (3, 3, nodes).
+      real(wp), allocatable :: mass(:, :, :), node_mass(:, :, :)
+      !> (3 nodes) of gravity.
+      real(wp), allocatable :: weight(:)
+   end type tangent_t
+
+contains
+
+   !> Deformations and their first derivatives, and weights.
+   subroutine make_tangent(elastic, configuration, gravity, tangent)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: configuration(:, :), gravity(3)
+      type(tangent_t), intent(inout) :: tangent
+      type(pose_t) :: p, q
+      real(wp) :: f(12), h(12, 12)
+      integer :: k
+
+      associate (model => elastic%model)
+         if (.not. allocated(tangent%deformation)) then
+            allocate (tangent%deformation(6, model%elements), tangent%derivative(6, 12, model%elements))
+            allocate (tangent%hessian(12, 12, model%elements), tangent%node_hessian(model%nodes))
+            allocate (tangent%weight(axes*model%nodes))
+         end if
+         tangent%weight = 0.0_wp
+         if (any(abs(gravity) > 0)) call weigh_nodes(elastic, gravity, tangent%weight)
+         do k = 1, model%elements
+            call make_poses(model, k, configuration, p, q)
+            call element_deformation(model%element_kind(k), elastic%reference(k), p, q, tangent%deformation(:, k), &
+                                     tangent%derivative(:, :, k))
+            if (.not. any(abs(gravity) > 0)) cycle
+            call element_gravity(model%element_kind(k), elastic%reference(k), p, q, elastic%given%mass(:, k), gravity, f, h)
+            call scatter(elastic%entry(:, k), f, tangent%weight)
+         end do
+      end associate
+   end subroutine make_tangent
+
+   subroutine weigh_nodes(elastic, gravity, weight)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: gravity(3)
+      real(wp), intent(inout) :: weight(:)
+      real(wp) :: m(3, 3)
+      integer :: node
+
+      do node = 1, elastic%model%nodes
+         if (.not. is_position(elastic%model%node_kind(node))) cycle
+         call node_mass(elastic%model%node_kind(node), elastic%model%node_value(:, node), &
+                        elastic%given%node_mass(:, node), m)
+         weight(axes*node - 2:axes*node) = matmul(m, gravity)
+      end do
+   end subroutine weigh_nodes
+
+   !> Second derivatives under the stress and the reactions of a state, and of gravity.
+   subroutine add_hessian(elastic, state, gravity, tangent)
+      type(elastic_model_t), intent(in) :: elastic
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gravity(3)
+      type(tangent_t), intent(inout) :: tangent
+      type(pose_t) :: p, q
+      real(wp) :: f(12), h(12, 12), euler(4)
+      integer :: k, node
+
+      do k = 1, elastic%model%elements
+         associate (kind => elastic%model%element_kind(k))
+            call make_poses(elastic%model, k, state%configuration, p, q)
+            tangent%hessian(:, :, k) = 0.0_wp
+            if (any(abs(state%stress(:, k)) > 0)) &
+               call element_curvature(kind, elastic%reference(k), p, q, state%stress(:, k), tangent%hessian(:, :, k))
+            if (.not. any(abs(gravity) > 0)) cycle
+            call element_gravity(kind, elastic%reference(k), p, q, elastic%given%mass(:, k), gravity, f, h)
+            tangent%hessian(:, :, k) = tangent%hessian(:, :, k) + h
+         end associate
+      end do
+      tangent%node_hessian = 0.0_wp
+      do node = 1, elastic%model%nodes
+         if (elastic%model%node_kind(node) /= node_orientation) cycle
+         euler = unit_parameters(state%configuration(:, node))
+         tangent%node_hessian(node) = sum(state%reaction(:, node)*euler(2:), &
+                                          elastic%is_component(axes*node - 2:axes*node))/2
+      end do
+   end subroutine add_hessian
+
+   subroutine add_mass(elastic, configuration, tangent)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: configuration(:, :)
+      type(tangent_t), intent(inout) :: tangent
+      type(pose_t) :: p, q
+      integer :: k, node
+
+      associate (model => elastic%model)
+         allocate (tangent%mass(12, 12, model%elements), tangent%node_mass(3, 3, model%nodes))
+         do k = 1, model%elements
+            call make_poses(model, k, configuration, p, q)
+            call element_mass(model%element_kind(k), elastic%reference(k), p, q, elastic%given%mass(:, k), tangent%mass(:, :, k))
+         end do
+         do node = 1, model%nodes
+            call node_mass(model%node_kind(node), configuration(:, node), elastic%given%node_mass(:, node), &
+                           tangent%node_mass(:, :, node))
+         end do
+      end associate
+   end subroutine add_mass
+
+   !> D v for every deformation.
+   pure function strains(elastic, tangent, v) result(e)
+      type(elastic_model_t), intent(in) :: elastic
+      type(tangent_t), intent(in) :: tangent
+      real(wp), intent(in) :: v(:)
+      real(wp) :: e(6, elastic%model%elements)
+      integer :: k
+
+      do k = 1, elastic%model%elements
+         e(:, k) = matmul(tangent%derivative(:, :, k), gathered(elastic%entry(:, k), v))
+      end do
+   end function strains
+
+   !> D' sigma.
+   pure function forces(elastic, tangent, stress) result(f)
+      type(elastic_model_t), intent(in) :: elastic
+      type(tangent_t), intent(in) :: tangent
+      real(wp), intent(in) :: stress(:, :)
+      real(wp) :: f(axes*elastic%model%nodes)
+      integer :: k
+
+      f = 0.0_wp
+      do k = 1, elastic%model%elements
+         call scatter(elastic%entry(:, k), matmul(stress(:, k), tangent%derivative(:, :, k)), f)
+      end do
+   end function forces
+
+   !> S e.
+   pure function stiffness_times(elastic, e) result(stress)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: e(:, :)
+      real(wp) :: stress(6, elastic%model%elements)
+      integer :: k
+
+      do k = 1, elastic%model%elements
+         stress(:, k) = matmul(elastic%stiffness(:, :, k), e(:, k))
+      end do
+   end function stiffness_times
+
+   !> H v.
+   pure function hessian_times(elastic, tangent, v) result(f)
+      type(elastic_model_t), intent(in) :: elastic
+      type(tangent_t), intent(in) :: tangent
+      real(wp), intent(in) :: v(:)
+      real(wp) :: f(axes*elastic%model%nodes)
+      integer :: k, node
+
+      do node = 1, elastic%model%nodes
+         f(axes*node - 2:axes*node) = tangent%node_hessian(node)*v(axes*node - 2:axes*node)
+      end do
+      do k = 1, elastic%model%elements
+         call scatter(elastic%entry(:, k), matmul(tangent%hessian(:, :, k), gathered(elastic%entry(:, k), v)), f)
+      end do
+   end function hessian_times
+
+   !> M v.
+   pure function mass_times(elastic, tangent, v) result(f)
+      type(elastic_model_t), intent(in) :: elastic
+      type(tangent_t), intent(in) :: tangent
+      real(wp), intent(in) :: v(:)
+      real(wp) :: f(axes*elastic%model%nodes)
+      integer :: k, node
+
+      do node = 1, elastic%model%nodes
+         f(axes*node - 2:axes*node) = matmul(tangent%node_mass(:, :, node), v(axes*node - 2:axes*node))
+      end do
+      do k = 1, elastic%model%elements
+         call scatter(elastic%entry(:, k), matmul(tangent%mass(:, :, k), gathered(elastic%entry(:, k), v)), f)
+      end do
+   end function mass_times
+
+   !> Derivative of component `axis` of the Euler parameters with respect to the spin.
+   pure function component_row(euler, axis) result(row)
+      real(wp), intent(in) :: euler(4)
+      integer, intent(in) :: axis
+      real(wp) :: row(3)
+      real(wp) :: e(3)
+
+      e = 0.0_wp
+      e(axis) = 1.0_wp
+      row = (euler(1)*e + cross(euler(2:), e))/2
+   end function component_row
+
+   pure subroutine scatter(entry, part, vector)
+      integer, intent(in) :: entry(:)
+      real(wp), intent(in) :: part(:)
+      real(wp), intent(inout) :: vector(:)
+      integer :: i
+
+      do i = 1, size(entry)
+         if (entry(i) > 0) vector(entry(i)) = vector(entry(i)) + part(i)
+      end do
+   end subroutine scatter
+end module flexact_elastic_tangent
