@@ -285,7 +285,9 @@ def errors(
         ValueError: a shape does not fit, or a number is not finite.
     """
     nodes, elements, k = model.nodes.shape[1], model.elements.shape[1], stresses.shape[-1]
-    if stresses.shape != (6, elements, k) or not (np.isfinite(stresses).all() and math.isfinite(square)):
+    if stresses.shape != (6, elements, k) or not (
+        np.isfinite(stresses).all() and math.isfinite(square)
+    ):
         raise ValueError("stresses must be finite, and of the model's elements")
     if not k:
         return RawErrors(np.zeros(0), np.zeros(0), 0, 0)
@@ -294,7 +296,9 @@ def errors(
     given[0, 0] = square
     answer, facts = _studied(model, arrays, state, gravity, "errors", 0, given, k)
     limit = np.finfo(float).max
-    below, above = (np.where(np.abs(row) >= limit, np.copysign(np.inf, row), row) for row in answer[:2])
+    below, above = (
+        np.where(np.abs(row) >= limit, np.copysign(np.inf, row), row) for row in answer[:2]
+    )
     return RawErrors(below, above, int(facts[1]), int(facts[2]))
 
 

@@ -11,7 +11,6 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..stiffness import Elastic, State, StrokeError
 from .designs import StrokeCurve
-from .bench import levels
 from .measuring import Measures, drives_of, numbers, over_levels
 from .values import Numbers
 
@@ -60,7 +59,9 @@ def follow(elastic: Elastic, asked: Asked) -> Along:
             ends[end] = reached
         why += [reason] if reason else []
     values = np.array(sorted(found))
-    return Along(tuple(found[v] for v in values.tolist()), values, (ends[0], ends[1]), " ".join(why))
+    return Along(
+        tuple(found[v] for v in values.tolist()), values, (ends[0], ends[1]), " ".join(why)
+    )
 
 
 def _one_way(
@@ -112,7 +113,7 @@ def curve_of(
         Numbers(force.value[:, 0], force.uncertainty[:, 0]),
         frequencies,
         parasitic,
-        tuple(bool(levels(state)[-1].is_stable) for state in along.states),
+        tuple(bool(state.alone[-1].is_stable) for state in along.states),
         tuple(state.under_constrained for state in along.states),
         tuple(state.over_constrained for state in along.states),
     )
@@ -146,7 +147,7 @@ def _own(state: State, drive: tuple[int, str], is_locked: bool) -> FloatArray:
 
 
 def _drives(measures: Measures, state: State, is_locked: bool) -> tuple[bool, ...]:
-    count = len(levels(state)[-1].frequencies)
+    count = len(state.alone[-1].frequencies)
     return (False,) * count if is_locked else drives_of(measures, state, count)
 
 

@@ -90,7 +90,7 @@ class Asked:
             tried(lambda: shift_of(shift), -0.05),  # type: ignore[arg-type]
             tried(lambda: _one_of("held", held, HELD), ""),
             tried(lambda: _one_of("drive", drive, DRIVE), ""),
-            tried(lambda: _beams(beams), AUTO),
+            tried(lambda: _beams(beams), _AUTO),
             tried(lambda: _whole("the number of places along a stroke", points, _MOST_POINTS), 2),
         )
         if made.points < 2 and not wrong:
@@ -98,6 +98,10 @@ class Asked:
         if wrong:
             raise AskedError("; ".join(wrong))
         return made
+
+
+#: Of its type a number or a word.
+_AUTO: int | str = AUTO
 
 
 def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:

@@ -16,9 +16,7 @@ _UNITS: dict[str, tuple[float, str]] = {
     "nm": (1e-9, "m"),
     "rad": (1.0, "rad"),
     "mrad": (1e-3, "rad"),
-    **dict.fromkeys(
-        ("urad", "\N{MICRO SIGN}rad", "\N{GREEK SMALL LETTER MU}rad"), (1e-6, "rad")
-    ),
+    **dict.fromkeys(("urad", "\N{MICRO SIGN}rad", "\N{GREEK SMALL LETTER MU}rad"), (1e-6, "rad")),
     **dict.fromkeys(("deg", "\N{DEGREE SIGN}"), (math.pi / 180.0, "rad")),
 }
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -23,7 +23,6 @@ from ..stiffness.imperfections import misalignment
 from ..stiffness.solution import Solution
 from .asking import ReleaseAsked
 from .values import Misalignment
-
 
 #: What rigid parts cannot follow of an error, beyond rounding.
 _MISMATCH = 1.0e-8
@@ -129,15 +128,15 @@ class Bench:
     def levels(self) -> tuple[Level, ...]:
         """The design with each number of beams, the fewest first."""
         rest = self.rest if self.has_masses else self.measured.undeformed()
-        return tuple(Level(self, each.finest) for each in levels(rest))
+        return tuple(Level(self, k, each.finest) for k, each in enumerate(rest.alone))
 
 
 class Level:
     """A design with one number of beams: what errors do to it whose stress is in proportion."""
 
-    def __init__(self, bench: Bench, solution: Solution) -> None:
-        """Keep the design and its state at rest."""
-        self.bench, self.solution = bench, solution
+    def __init__(self, bench: Bench, number: int, solution: Solution) -> None:
+        """Keep the design, which of its meshes this is, and its state at rest."""
+        self.bench, self.number, self.solution = bench, number, solution
 
     @cached_property
     def first_square(self) -> float:
@@ -201,15 +200,3 @@ class Level:
 def frequency_of(square: float) -> float:
     """A frequency [Hz] of the square of an angular one; 0 of an unstable motion."""
     return math.sqrt(max(square, 0.0)) / (2.0 * math.pi)
-
-
-def levels(state: State) -> tuple[State, ...]:
-    """A state with each number of beams, the fewest first."""
-    found: list[State] = []
-
-    def keep(each: State) -> float:
-        found.append(each)
-        return 0.0
-
-    state.estimate(keep)
-    return tuple(found)

@@ -13,9 +13,10 @@ from ..base.loading import load
 from ..deck.models import read
 from ..files.outputs import write_together
 from ..model.model import Model
+from .asked import Asked
 from .designs import CostValues
 from .json_cost import dictionary_of, text_of
-from .making import Asked, cost_of
+from .making import cost_of
 from .rows import csv_text
 from .saving import save
 from .words import describe, first_line

@@ -43,7 +43,7 @@ def able(compliance: FloatArray, scale: FloatArray) -> BoolArray:
 
 
 def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
-    """mu of C_before v = mu C_after v, ascending, of what can move in both; 1: all is kept.
+    """All mu of C_before v = mu C_after v, ascending, of what can move in both; 1: all is kept.
 
     A compliance that is not positive definite, of a state that has buckled, gives mu of 0 or
     less: such a direction keeps nothing.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is read off a state: compliance at the point, frequencies and which of them is the drive's."""
+"""What is read off a state: compliance, frequencies, and which of them are the drive's."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..stiffness import Estimate, State
-from .bench import levels
 from .keeping import Ratios, able, ratios, scales_of
 from .values import Number, Numbers, Point
 
@@ -78,7 +77,7 @@ def number(estimate: Estimate) -> Number:
 
 def over_levels(quantity: Callable[..., FloatArray], *states: State) -> Estimate:
     """A quantity of several states, extrapolated; of each number of beams what fits is taken."""
-    made = [quantity(*each) for each in zip(*map(levels, states), strict=True)]
+    made = [quantity(*each) for each in zip(*(s.alone for s in states), strict=True)]
     if len(made) == 1:
         return Estimate.fixed(made[0])
     count = min(len(each) for each in made)
@@ -92,7 +91,7 @@ def drives_of(measures: Measures, state: State, count: int) -> tuple[bool, ...]:
     most, of several the lowest.
     """
     found = [False] * count
-    finest = levels(state)[-1]
+    finest = state.alone[-1]
     for node, name in measures.drives:
         moved = [_moved(measures, finest, k, node, name) for k in range(count)]
         best = int(np.argmax(np.round(moved, 1)))

@@ -151,8 +151,8 @@ def _effect(label: str, directions: Sequence[str], effect: Effect) -> Iterator[R
     yield Row(label, "part reached", effect.reached, state="behind")
 
 
-def _row(label: str, quantity: str, number: Number, unit: str, **more: Cell) -> Row:
-    made = Row(label, quantity, number.value, number.uncertainty, unit)
+def _row(label: str, quantity: str, found: Number, unit: str, **more: Cell) -> Row:
+    made = Row(label, quantity, found.value, found.uncertainty, unit)
     return made._replace(**more)  # type: ignore[arg-type]
 
 

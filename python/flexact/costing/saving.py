@@ -37,9 +37,9 @@ def save(cost: CostValues, path: Path) -> None:
         raise OutputError("a file's name cannot hold a NUL")
     require_suffix(path)
     deck = cost.data.name
-    if cost.data.source is not None and deck and "\0" not in deck and os.path.exists(deck):
-        if os.path.realpath(deck) == os.path.realpath(path):
-            raise OutputError(f"{path} would overwrite the deck")
+    is_deck = cost.data.source is not None and deck and "\0" not in deck and os.path.exists(deck)
+    if is_deck and os.path.realpath(deck) == os.path.realpath(path):
+        raise OutputError(f"{path} would overwrite the deck")
     write_together({path: content_of(cost, path.suffix.lower())})
 
 

@@ -33,7 +33,7 @@ def shapes_of(
             hertz = Number(*(float(side[k]) for side in frequencies))
             kind = "frequency of the drive" if is_drive[k] else "parasitic frequency"
             words = f"{kind}, {in_words(hertz, 'Hz')}"
-            yield _shape(bench, "vibrating", words, hertz.value, bench.modes[k])
+            yield _shape(bench, "vibrating", words, hertz.value, bench.rest.modes[k])
     if buckles is not None:
         size, unit = buckles.critical, buckles.misalignment.unit
         sense = -1.0 if buckles.critical.value == -buckles.critical_negative.value else 1.0
@@ -49,10 +49,8 @@ def _shape(bench: Bench, kind: str, words: str, value: float, mode: FloatArray) 
 
 
 def _unit(data: ModelData, mode: FloatArray) -> FloatArray:
-    """(nodes, 3) with the largest displacement 1; where only rotations move, the largest of these."""
+    """(nodes, 3) with the largest displacement 1, or rotation where only rotations move."""
     places = data.arrays.node_kind <= NodeKind.POSITION
     size = np.linalg.norm(mode[places], axis=1).max(initial=0.0)
     size = size if size > 1e-9 * np.abs(mode).max(initial=0.0) else np.abs(mode).max(initial=0.0)
     return mode / size if size > 0.0 else mode.copy()
-
-

@@ -72,8 +72,7 @@ def _rising(level: Level, each: Misalignment, shift: float) -> tuple[float, floa
     """Errors that raise the first frequency: of several modes it stays the lowest."""
     model: Elastic = level.bench.measured
     node, about = each.clamp.node, each.about
-    alone = model.of_mesh(level.number)
-    return alone.misalignment_for(shift, node, each.direction, about)
+    return model.alone[level.number].misalignment_for(shift, node, each.direction, about)
 
 
 def extrapolated(found: Sequence[FloatArray]) -> Estimate:

@@ -97,11 +97,7 @@ def effects(cost: CostValues) -> Iterator[str]:
 
 def _effect(effect: Effect) -> tuple[str, ...]:
     first = effect.frequencies
-    frequency = (
-        ""
-        if first is None
-        else f"{first.value[0, 0]:.4g} -> {first.value[1, 0]:.4g} Hz"
-    )
+    frequency = "" if first is None else f"{first.value[0, 0]:.4g} -> {first.value[1, 0]:.4g} Hz"
     normal = in_words(_at(effect.resultants, 1, 0), "N")
     moment = f"{float(np.max(effect.resultants.value[1, 1:])):.3g} N m"
     peak = "" if effect.peak is None else in_words(_at(effect.peak, 1), "Pa")
