@@ -21,6 +21,10 @@ _LAYERS = (
     ("elements", "element numbers", False),
     ("nodes", "node numbers", False),
 )
+_MOVEMENTS = (
+    *(("motion", "Motions"), ("freedom", "Declared degrees of freedom")),
+    *(("vibrating", "Vibrates"), ("buckled", "Buckles")),
+)
 _MORE_KEYS = "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses."
 KEYS = f"Drag or arrow keys turn the drawing, with Shift they move it; the wheel or {_MORE_KEYS}"
 PLANAR_KEYS = f"Drag or arrow keys move the drawing; the wheel or {_MORE_KEYS}"
@@ -82,9 +86,9 @@ def choices_part(
 
 
 def _movements(movements: Sequence[dict[str, Any]], mark: str) -> str:
-    """Motions and declared degrees of freedom: one choice, under two headings."""
+    """Motions, declared degrees of freedom and elastic shapes: one choice, under headings."""
     none, made = "None", ""
-    for kind, legend in (("motion", "Motions"), ("freedom", "Declared degrees of freedom")):
+    for kind, legend in _MOVEMENTS:
         chosen = [
             _choice(index, movement)
             for index, movement in enumerate(movements)
