@@ -3,11 +3,9 @@
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
 !> singular. K with its factor serves all stresses.
 module flexact_elastic_errors
-   use flexact_block_lanczos, only: largest_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
-   use flexact_elastic_pencil, only: pencil_t, make_pencil
    use flexact_elastic_projection, only: project
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
@@ -16,6 +14,7 @@ module flexact_elastic_errors
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_sparse, only: sparse_t
+   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
    implicit none
    private
    public :: errors_t, find_errors
@@ -28,7 +27,7 @@ module flexact_elastic_errors
    end type errors_t
 
    !> Pairs that are looked for at first, and at most, until there is one on either side.
-   integer, parameter :: few = 2, many = 24, block = 4
+   integer, parameter :: few = 2, many = 24
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
    real(wp), parameter :: accuracy = 1.0e-5_wp
    !> Values so many times the nearest are rounding.
@@ -75,7 +74,7 @@ contains
       end do
    end subroutine find_errors
 
-   !> Eigenvalues v of inv(K - square M) H of largest magnitude on both sides; errors are -1/v.
+   !> Values d of (K - square M) v = -d H v on both sides of zero.
    subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)
       type(elastic_model_t), intent(in) :: elastic
       type(base_t), target, intent(in) :: base
@@ -84,30 +83,29 @@ contains
       real(wp), intent(in) :: square
       real(wp), intent(out) :: below, above
       logical, intent(out) :: failed
-      type(pencil_t) :: pencil
+      type(pairs_t) :: pairs
       type(error_t), allocatable :: error
-      real(wp), allocatable :: value(:), v(:, :)
       integer :: wanted, i
 
       below = -huge(1.0_wp)
       above = huge(1.0_wp)
       failed = .false.
       if (.not. any(abs(hessian%value) > 0)) return
-      call make_pencil(base%space, op, hessian, op%matrix, pencil)
       wanted = few
       do
-         call largest_pairs(pencil, base%space%motions, wanted, value, v, error, block, accuracy)
+         call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, wanted, pairs, error, op%least, &
+                                 accuracy)
          failed = allocated(error)
          if (failed) return
-         if (any(value > 0) .and. any(value < 0)) exit
-         if (size(value) < wanted .or. wanted >= many) exit
+         if (any(pairs%values > 0) .and. any(pairs%values < 0)) exit
+         if (size(pairs%values) < wanted .or. wanted >= many) exit
          wanted = 3*wanted
       end do
-      if (size(value) == 0) return
-      do i = size(value), 1, -1
-         if (rounding*abs(value(i)) < abs(value(1))) cycle
-         if (value(i) > 0) below = settled(elastic, base, square, v(:, i))
-         if (value(i) < 0) above = settled(elastic, base, square, v(:, i))
+      if (size(pairs%values) == 0) return
+      do i = 1, size(pairs%values)
+         if (abs(pairs%values(i)) > rounding*minval(abs(pairs%values))) cycle
+         if (pairs%values(i) < 0) below = max(below, settled(elastic, base, square, pairs%vectors(:, i)))
+         if (pairs%values(i) > 0) above = min(above, settled(elastic, base, square, pairs%vectors(:, i)))
       end do
    end subroutine find_nearest
 

@@ -26,7 +26,6 @@ module flexact_elastic_operator
       real(wp), allocatable :: least(:)
       logical :: failed = .false.
       type(sparse_t), private :: whole
-      real(wp), allocatable, private :: least(:)
    end type operator_t
 
 contains
@@ -59,7 +58,6 @@ contains
       call null_vectors(space%projection%pattern, op%factor, op%loose, error)
       if (allocated(error)) return
       op%negative = op%factor%negative
-      op%least = reduced_least
       op%failed = .false.
    end subroutine make_operator
 
