@@ -22,7 +22,7 @@ module flexact_elastic_operator
       type(symmetric_factor_t) :: factor
       !> (motions, loose) orthonormal.
       real(wp), allocatable :: loose(:, :)
-      !> (motions) what the terms of each diagonal entry sum up to in magnitude.
+      !> What the terms of each diagonal entry sum up to in magnitude.
       real(wp), allocatable :: least(:)
       logical :: failed = .false.
       type(sparse_t), private :: whole

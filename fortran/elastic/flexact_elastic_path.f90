@@ -44,6 +44,7 @@ contains
       integer :: iterations
 
       path%state = start
+      where (.not. reshape(elastic%is_held .or. elastic%is_component, shape(start%reaction))) path%state%reaction = 0.0_wp
       last = begin
       length = 1.0_wp
       do while (path%reached < 1 .and. path%steps < most_steps)

@@ -20,11 +20,12 @@ module flexact_elastic_spectrum
 
    !> Values in ascending order, modes (3 nodes, k) of which the largest entry is 1, with rotations
    !> times a length; loose: motions without stiffness (of K + H for frequencies, of K for
-   !> multipliers), negative: negative stiffnesses of the same.
+   !> multipliers), negative: negative stiffnesses of the same. is_complete: it is confirmed that
+   !> no value is missing between those given.
    type :: modes_t
       real(wp), allocatable :: value(:), mode(:, :)
       integer :: loose = 0, negative = 0
-      logical :: failed = .false.
+      logical :: failed = .false., is_complete = .true.
    end type modes_t
 
 contains
@@ -36,22 +37,21 @@ contains
       integer, intent(in) :: most
       type(modes_t), intent(out) :: modes
       type(operator_t) :: op
-      type(sparse_t) :: mass, whole
+      type(sparse_t) :: whole, mass
       type(pairs_t) :: pairs
       type(error_t), allocatable :: error
       real(wp), allocatable :: v(:, :), value(:)
 
       call make_operator(elastic, base%tangent, base%space, .true., op)
-      modes%failed = op%failed
-      if (op%failed) return
-      modes%loose = size(op%loose, 2)
-      modes%negative = op%negative
+      call begin(op, base, modes)
       call add_mass(elastic, configuration, base%tangent)
       call assemble_mass(elastic, base%tangent, base%space%layout, whole)
+      if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, mass)
       call lowest_pairs(base%space%projection%pattern, op%matrix, op%factor, mass, most, pairs, error, op%least)
       modes%failed = allocated(error)
       if (modes%failed) return
+      modes%is_complete = pairs%is_complete
       v = all_expanded(elastic, base, pairs%vectors)
       call settle_frequencies(elastic, base, v, value, modes%failed)
       ! Motions with mass but without stiffness.
@@ -66,25 +66,40 @@ contains
       integer, intent(in) :: most
       type(modes_t), intent(out) :: modes
       type(operator_t) :: op
-      type(sparse_t) :: hessian, whole
+      type(sparse_t) :: whole, hessian
       type(pairs_t) :: pairs
       type(error_t), allocatable :: error
       real(wp), allocatable :: v(:, :), value(:)
+      integer, allocatable :: order(:)
 
       call make_operator(elastic, base%tangent, base%space, .false., op)
-      modes%failed = op%failed
-      if (op%failed) return
-      modes%loose = size(op%loose, 2)
-      modes%negative = op%negative
+      call begin(op, base, modes)
       call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
+      if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, hessian)
       call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, most, pairs, error, op%least)
       modes%failed = allocated(error)
       if (modes%failed) return
+      modes%is_complete = pairs%is_complete
       v = all_expanded(elastic, base, pairs%vectors)
       call settle_multipliers(elastic, base, v, value, modes%failed)
-      call give(elastic, v, value, ascending(value), most, modes)
+      order = ascending(abs(value))
+      order = order(:min(most, size(order)))
+      call give(elastic, v, value, order(ascending(value(order))), most, modes)
    end subroutine find_multipliers
+
+   !> Without values, to begin with.
+   subroutine begin(op, base, modes)
+      type(operator_t), intent(in) :: op
+      type(base_t), intent(in) :: base
+      type(modes_t), intent(inout) :: modes
+
+      allocate (modes%value(0), modes%mode(base%space%layout%columns, 0))
+      modes%failed = op%failed
+      if (op%failed) return
+      modes%loose = size(op%loose, 2)
+      modes%negative = op%negative
+   end subroutine begin
 
    function all_expanded(elastic, base, y) result(v)
       type(elastic_model_t), intent(in) :: elastic
