@@ -55,8 +55,8 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    integer(c_int), intent(inout) :: nodes(5, most_nodes), elements(12, most_elements)
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
    integer(c_int), intent(inout) :: name(2, most_elements + most_nodes), choice(2, most_elements)
-   real(c_double), intent(inout) :: value(11, 2*most_elements + most_nodes)
-   integer(c_int), intent(out) :: sizes(7), diag_count(4), diag_number(8, 100)
+   real(c_double), intent(inout) :: value(12, 2*most_elements + most_nodes + 1)
+   integer(c_int), intent(out) :: sizes(8), diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
    type(deck_model_t) :: deck
@@ -66,7 +66,7 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    call to_text(text, letters)
    call read_text(letters, deck, unused, diagnostics)
    call give_diagnostics(letters, diagnostics, diag_count, diag_number, diag_text)
-   sizes = [0, 0, 0, unused, 0, 0, 0]
+   sizes = [0, 0, 0, unused, 0, 0, 0, 0]
    if (.not. diagnostics%has_errors()) call give_deck(deck, nodes, places, elements, vectors, name, choice, value, sizes)
 end subroutine read_deck
 

@@ -4,6 +4,7 @@ module flexact_deck_exchange
    use flexact_appearance, only: appearance_t
    use flexact_deck_model, only: deck_model_t
    use flexact_kinds, only: wp
+   use flexact_loads, only: loads_t
    use flexact_model, only: model_t
    use flexact_properties, only: properties_t
    use flexact_slots, only: node_position, node_orientation
@@ -14,10 +15,10 @@ module flexact_deck_exchange
 contains
 
    !> What a deck holds; there is room for it. name: of the elements, then of the nodes.
-   !> choice, value: as give_appearance and give_properties say, where sizes says that they
-   !> are filled. sizes: nodes, elements, 1 for a planar model, one that stays, 1 where the
-   !> deck says how elements are drawn, where it has more digits than its numbers hold, and
-   !> where it gives stiffness or mass.
+   !> choice, value: as give_appearance, give_properties and give_loads say, where sizes says
+   !> that they are filled. sizes: nodes, elements, 1 for a planar model, one that stays, 1 where the
+   !> deck says how elements are drawn, where it has more digits than its numbers hold, where
+   !> it gives stiffness or mass, and where it gives loads.
    pure subroutine give_deck(deck, nodes, places, elements, vectors, name, choice, value, sizes)
       type(deck_model_t), intent(in) :: deck
       integer, intent(inout) :: nodes(:, :), elements(:, :), name(:, :), choice(:, :), sizes(:)
@@ -30,12 +31,14 @@ contains
          sizes(5) = merge(1, 0, allocated(deck%appearance))
          sizes(6) = merge(1, 0, deck%has_long_numbers)
          sizes(7) = merge(1, 0, allocated(deck%properties))
+         sizes(8) = merge(1, 0, allocated(deck%loads))
          name(1, :ne) = deck%element_names%first
          name(2, :ne) = deck%element_names%last
          name(1, ne + 1:ne + nn) = deck%node_names%first
          name(2, ne + 1:ne + nn) = deck%node_names%last
          if (allocated(deck%appearance)) call give_appearance(deck%appearance, choice(:, :ne), value(:, :ne))
          if (allocated(deck%properties)) call give_properties(deck%properties, value(:, ne + 1:))
+         if (allocated(deck%loads)) call give_loads(deck%loads, value(7:, 2*ne + 1:))
       end associate
    end subroutine give_deck
 
@@ -85,4 +88,16 @@ contains
          value(1:6, ne + 1:ne + nn) = properties%node_mass
       end associate
    end subroutine give_properties
+
+   !> Loads, 3 and 3 numbers a column, of the nodes; then gravity.
+   pure subroutine give_loads(loads, value)
+      type(loads_t), intent(in) :: loads
+      real(wp), intent(inout) :: value(:, :)
+
+      associate (nn => size(loads%force, 2))
+         value(1:3, :nn) = loads%force
+         value(4:6, :nn) = loads%increment
+         value(1:3, nn + 1) = loads%gravity
+      end associate
+   end subroutine give_loads
 end module flexact_deck_exchange

@@ -5,6 +5,7 @@ module flexact_deck
    use flexact_deck_classes, only: read_classes
    use flexact_deck_elements, only: read_elements
    use flexact_deck_forms, only: read_forms, note_unused
+   use flexact_deck_loads, only: read_loads
    use flexact_deck_picture, only: read_picture
    use flexact_deck_model, only: deck_model_t
    use flexact_deck_properties, only: read_properties
@@ -49,6 +50,7 @@ contains
             call check_warping_nodes(deck)
             call read_picture(all_statements, deck)
             call read_properties(all_statements, deck)
+            call read_loads(all_statements, deck)
             call read_forms(all_statements, deck)
          end if
          names%text => text

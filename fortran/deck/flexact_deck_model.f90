@@ -4,6 +4,7 @@
 module flexact_deck_model
    use flexact_diagnostics, only: span_t, diagnostics_t
    use flexact_appearance, only: appearance_t
+   use flexact_loads, only: loads_t
    use flexact_model, only: model_t
    use flexact_numbering, only: numbering_t
    use flexact_operands, only: operands_t
@@ -43,6 +44,8 @@ module flexact_deck_model
       type(appearance_t), allocatable :: appearance
       !> Stiffness and mass, where the deck says something about them.
       type(properties_t), allocatable :: properties
+      !> Loads, likewise.
+      type(loads_t), allocatable :: loads
    end type deck_model_t
 
 contains

@@ -1,15 +1,17 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The statements that give stiffness and mass: ESTIFF, EM (EMASS) and XM (MASS).
-!> They are kept for who reads the model; of two for one thing the last counts.
+!> Of two for one thing the last counts.
 module flexact_deck_properties
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use flexact_deck_model, only: deck_model_t, take_node, take_element
+   use flexact_deck_numbers, only: meaning_t, take_numbers
    use flexact_diagnostics, only: span_t
-   use flexact_element_table, only: element_kinds
+   use flexact_element_table, only: element_kinds, member_hinge
    use flexact_keywords, only: keywords, role_property
    use flexact_kinds, only: wp
    use flexact_operands, only: operands_t, operands_of
-   use flexact_properties, only: make_properties
+   use flexact_properties, only: make_properties, stiffness_meant, mass_meant, node_mass_meant
+   use flexact_slots, only: node_orientation
    use flexact_statement, only: statement_t
    implicit none
    private
@@ -43,60 +45,96 @@ contains
       type(deck_model_t), intent(inout) :: deck
       type(places_t), intent(inout) :: stated
       type(operands_t) :: operands
-      integer :: owner, of_warping
+      integer :: owner
 
       operands = operands_of(deck%text, deck%diagnostics, statement)
-      associate (name => keywords(statement%what)%name, properties => deck%properties)
+      associate (name => keywords(statement%what)%name, properties => deck%properties, model => deck%model)
          if (name == 'XM' .or. name == 'MASS') then
             call take_node(deck, operands, owner)
-            if (owner > 0) call take_numbers(operands, 0, properties%node_mass(:, owner), stated%node_mass(owner))
+            if (owner > 0) call take(operands, mass_of_node(model%node_kind(owner)), properties%node_mass(:, owner), &
+                                     stated%node_mass(owner))
             return
          end if
          call take_element(deck, operands, owner)
          if (owner == 0) return
-         of_warping = merge(1, 0, element_kinds(deck%model%element_kind(owner))%keyword == 'BEAM')
          if (name == 'ESTIFF') then
-            call take_numbers(operands, of_warping, properties%stiffness(:, owner), stated%stiffness(owner))
+            call take(operands, stiffness_of(model%element_kind(owner)), properties%stiffness(:, owner), &
+                      stated%stiffness(owner))
          else
-            call take_numbers(operands, of_warping, properties%mass(:, owner), stated%mass(owner))
+            call take(operands, mass_of(model%element_kind(owner)), properties%mass(:, owner), stated%mass(owner))
          end if
       end associate
    end subroutine read_statement
 
-   !> Take the numbers behind the element or the node, at least one; those that are
-   !> more than there can be are left out. One of warping, behind the others, is not used.
-   subroutine take_numbers(operands, of_warping, numbers, stated)
+   !> Take the numbers of a statement that is fine; of an earlier one nothing stays.
+   subroutine take(operands, meaning, numbers, stated)
       type(operands_t), intent(inout) :: operands
-      integer, intent(in) :: of_warping
+      type(meaning_t), intent(in) :: meaning
       real(wp), intent(inout) :: numbers(:)
       type(span_t), intent(inout) :: stated
-      type(operands_t) :: ahead
-      type(span_t) :: owner, surplus
-      real(wp) :: value, taken(size(numbers))
+      real(wp) :: value(6)
       integer :: count
 
-      owner = operands%word
-      count = 0
-      do
-         call operands%real_number('number', value)
-         if (.not. operands%fine) return
-         count = count + 1
-         if (count <= size(taken)) taken(count) = value
-         if (count == size(taken) + 1) surplus = operands%word
-         ahead = operands
-         if (.not. ahead%another()) exit
-      end do
-      if (count > size(taken) .and. count /= size(taken) + of_warping) &
-         call operands%diagnostics%warning('surplus-operand', surplus, 'there are more numbers than can be meant; '// &
-                                           'they are left out', 'from here on', &
-                                           'ESTIFF takes up to 6 numbers, EM up to 5, XM up to 6')
-      if (stated%first > 0) &
-         call operands%diagnostics%warning('repeated-value', owner, 'the same is given already', 'this one counts', &
-                                           'remove one of the two statements', stated)
-      stated = owner
-      count = min(count, size(taken))
-      ! Of an earlier statement nothing stays.
+      call take_numbers(operands, meaning, value, count, stated)
+      if (.not. operands%fine) return
       numbers = ieee_value(1.0_wp, ieee_quiet_nan)
-      numbers(:count) = taken(:count)
-   end subroutine take_numbers
+      numbers(:count) = value(:count)
+   end subroutine take
+
+   function stiffness_of(kind) result(meaning)
+      integer, intent(in) :: kind
+      type(meaning_t) :: meaning
+
+      meaning%what = 'a stiffness of '//trim(element_kinds(kind)%keyword)
+      meaning%numbers = stiffness_meant(kind)
+      meaning%not_negative = .true.
+      select case (trim(element_kinds(kind)%keyword))
+      case ('BEAM')
+         ! One of warping behind the others is of a beam that is read as one without.
+         meaning%passed_over = 1
+         meaning%form = 'ESTIFF of a BEAM takes EA, G It, E Iy, E Iz, and the shear E Iy/(G A k), E Iz/(G A k)'
+      case ('PLBEAM')
+         meaning%form = 'ESTIFF of a PLBEAM takes EA, EI and the shear EI/(G A k)'
+      case default
+         if (element_kinds(kind)%member == member_hinge) then
+            meaning%form = 'ESTIFF of a joint takes one stiffness for each of its deformations, in their order'
+         else if (meaning%numbers == 1) then
+            meaning%form = 'ESTIFF of a bar takes EA'
+         else
+            meaning%form = 'it is rigid where it is held; leave ESTIFF out, or write a BEAM or a BEARING'
+         end if
+      end select
+   end function stiffness_of
+
+   function mass_of(kind) result(meaning)
+      integer, intent(in) :: kind
+      type(meaning_t) :: meaning
+
+      meaning%what = 'a mass of '//trim(element_kinds(kind)%keyword)
+      meaning%numbers = mass_meant(kind)
+      ! Jyz may be.
+      meaning%not_negative = [.true., .true., .true., .true., .false., .false.]
+      select case (meaning%numbers)
+      case (0)
+         meaning%form = 'it has no length to be heavy along: give XM to its nodes'
+      case (1)
+         meaning%form = 'EM of a '//trim(element_kinds(kind)%keyword)//' takes its mass per length'
+      case (2)
+         meaning%form = 'EM of a PLBEAM takes its mass and its moment of inertia per length'
+      case default
+         meaning%passed_over = 1
+         meaning%form = 'EM of a BEAM takes its mass and Jxx, Jyy, Jzz, Jyz per length'
+      end select
+   end function mass_of
+
+   function mass_of_node(kind) result(meaning)
+      integer, intent(in) :: kind
+      type(meaning_t) :: meaning
+
+      meaning%what = 'a mass'
+      meaning%numbers = node_mass_meant(kind)
+      meaning%not_negative = [.true., .false., .false., .true., .false., .true.]
+      meaning%form = 'XM takes one number, a mass or in a plane a moment of inertia'
+      if (kind == node_orientation) meaning%form = 'XM of an orientation takes Jxx, Jxy, Jxz, Jyy, Jyz, Jzz'
+   end function mass_of_node
 end module flexact_deck_properties

@@ -12,7 +12,7 @@ module flexact_keywords
    public :: why_uncovered, instead_of_uncovered
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
    public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture, &
-             role_property
+             role_property, role_load
 
    integer, parameter :: block_kinematics = 1
    integer, parameter :: block_dynamics = 2
@@ -24,7 +24,7 @@ module flexact_keywords
    !> What a statement does: makes an element; gives a node its value; gives a
    !> coordinate or a deformation its class; is read for its form alone; is
    !> known, and outside what Flexact covers; is not known at all; says how
-   !> elements are drawn; or gives a stiffness or a mass.
+   !> elements are drawn; gives a stiffness or a mass; or gives a load.
    integer, parameter :: role_element = 1
    integer, parameter :: role_value = 2
    integer, parameter :: role_coordinate = 3
@@ -34,6 +34,7 @@ module flexact_keywords
    integer, parameter :: role_unknown = 7
    integer, parameter :: role_picture = 8
    integer, parameter :: role_property = 9
+   integer, parameter :: role_load = 10
 
    type :: keyword_t
       character(len=13) :: name
@@ -52,6 +53,7 @@ module flexact_keywords
    integer, parameter :: form = role_form
    integer, parameter :: draw = role_picture
    integer, parameter :: give = role_property
+   integer, parameter :: load = role_load
    integer, parameter :: no = role_uncovered
 
    type(keyword_t), parameter :: keywords(*) = [ &
@@ -76,16 +78,16 @@ module flexact_keywords
                                  keyword_t('ESIG', dyn, form, 'er', 2, any_number), &
                                  keyword_t('XM', dyn, give, 'nr', 2, any_number), &
                                  keyword_t('MASS', dyn, give, 'nr', 2, any_number), &
-                                 keyword_t('XF', dyn, form, 'nr', 2, any_number), &
-                                 keyword_t('FORCE', dyn, form, 'nr', 2, any_number), &
-                                 keyword_t('DELXF', dyn, form, 'nr', 2, any_number), &
+                                 keyword_t('XF', dyn, load, 'nr', 2, any_number), &
+                                 keyword_t('FORCE', dyn, load, 'nr', 2, any_number), &
+                                 keyword_t('DELXF', dyn, load, 'nr', 2, any_number), &
                                  keyword_t('INPUTX', dyn, form, 'nir', 3, 5), &
                                  keyword_t('INPUTE', dyn, form, 'eir', 3, 5), &
                                  keyword_t('DELINPX', dyn, form, 'nir', 3, any_number), &
                                  keyword_t('DELINPE', dyn, form, 'eir', 3, any_number), &
                                  keyword_t('STARTDE', dyn, form, 'eir', 3, any_number), &
                                  keyword_t('STARTDX', dyn, form, 'nir', 3, any_number), &
-                                 keyword_t('GRAVITY', dyn, form, 'r', 2, 3), &
+                                 keyword_t('GRAVITY', dyn, load, 'r', 2, 3), &
                                  keyword_t('TIMESTEP', dyn, form, 'r', 2, 2), &
                                  keyword_t('ITERSTEP', dyn, form, 'r', 1, any_number), &
                                  keyword_t('ERROR', dyn, form, 'r', 1, any_number), &

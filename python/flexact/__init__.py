@@ -48,6 +48,15 @@ if TYPE_CHECKING:
         Proof,
         Verdict,
     )
+    from .stiffness import (
+        Elastic,
+        ElasticError,
+        Estimate,
+        State,
+        StrokeError,
+        UnknownError,
+        elastic,
+    )
     from .tracing.trace import Trace
     from .tracing.tracer import trace
     from .variants.search.crossing import Crossing, Crossings
@@ -80,6 +89,10 @@ _HOMES = {
         *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
         "Verdict",
     ),
+    "stiffness": (
+        *("Elastic", "ElasticError", "Estimate", "State", "StrokeError", "UnknownError"),
+        "elastic",
+    ),
     "tracing.tracer": ("trace",),
     "tracing.trace": ("Trace",),
     "variants.search.crossing": ("Crossing", "Crossings"),
@@ -105,7 +118,10 @@ __all__ = [
     "Crossings",
     "DeckError",
     "Diagnostic",
+    "Elastic",
+    "ElasticError",
     "Element",
+    "Estimate",
     "ExactBases",
     "FlexactError",
     "FoldedSheet",
@@ -124,15 +140,19 @@ __all__ = [
     "SelfStress",
     "Severity",
     "Sheet",
+    "State",
     "Step",
+    "StrokeError",
     "Table",
     "Tolerances",
     "Trace",
+    "UnknownError",
     "Verdict",
     "Wire",
     "__version__",
     "analyse",
     "deformations",
+    "elastic",
     "grid",
     "jacobian",
     "read",

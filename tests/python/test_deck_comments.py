@@ -38,7 +38,11 @@ INPUTE 2 1       % by a piezo
 END              % of the kinematics
 HALT
 % forces
-XF 3 1
+FORCE 3 1        % a pull
+% down
+GRAVITY 0 0 -9.81 % in Delft
+% time
+TIMESTEP 1 10
 % steel
 ESTIFF 1 1 2     % of 0.2 mm
 EMASS 1 3        % 7800 kg/m^3
@@ -80,12 +84,16 @@ DYNE 2 1 % by a piezo
 % that was the kinematics
 END
 HALT
-% forces
+% time
 % steel
 ESTIFF 1 1.0 2.0 % of 0.2 mm
 EM 1 3.0 % 7800 kg/m^3
 % half a kilo
 XM 7 0.5 % measured
+% forces
+XF 3 1.0 0.0 0.0 % a pull
+% down
+GRAVITY 0.0 0.0 -9.81 % in Delft
 % the last one
 END
 """
@@ -144,9 +152,9 @@ def test_comments_of_the_picture_block() -> None:
 
 
 def test_without_a_block_to_stand_in() -> None:
-    deck = "TRUSS 1 1 2\nX 2 1 0 0\nEND\nHALT\n% gravity\nGRAVITY 0 0 -9.81\nEND\n% the end\nEND\n"
+    deck = "TRUSS 1 1 2\nX 2 1 0 0\nEND\nHALT\n% time\nTIMESTEP 1 10\nEND\n% the end\nEND\n"
     written = flexact.read_text(deck).to_deck()
-    assert written.endswith("END\n% gravity\n% the end\n")
+    assert written.endswith("END\n% time\n% the end\n")
     assert flexact.read_text(written).to_deck() == written
 
 

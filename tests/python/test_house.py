@@ -23,7 +23,7 @@ FLOORS = (
     ("diagnostics",),
     ("model",),
     ("deck", "result"),
-    ("advice", "convert", "drawing", "regress"),
+    ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
     ("advising", "saving", "tracing", "variants"),

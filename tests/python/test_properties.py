@@ -41,7 +41,7 @@ def test_a_deck_without_them_has_none() -> None:
 @pytest.mark.parametrize(("em", "xm"), [("EM", "XM"), ("emass", "mass")])
 def test_statements_are_kept(em: str, xm: str) -> None:
     deck = f"{MODEL}END\nHALT\nESTIFF 7 2.52E6 2.9D-2 3.36e2 .0189\n{em} 7 0.0936\n"
-    deck += f"ESTIFF 9 1e5\n{xm} 3 0.5\n{xm} 4 1 2 3 4 5 6\nXF 3 1\nEND\nEND\n"
+    deck += f"ESTIFF 9 1e5\n{xm} 3 0.5\n{xm} 4 1 2 3 4 5 6\nTIMESTEP 3 1\nEND\nEND\n"
     model = flexact.read_text(deck)
     properties = given_of(model)
     assert rows(properties.stiffness) == [[2.52e6, 0.029, 336.0, 0.0189], [1e5]]
@@ -95,7 +95,7 @@ def test_too_many_numbers_are_left_out_with_a_warning() -> None:
 
 
 @pytest.mark.parametrize(
-    ("statement", "places"), [("EM 7 1 2 3 4 5 6", []), ("ESTIFF 9 1 2 3 4 5 6 7", [22])]
+    ("statement", "places"), [("EM 7 1 2 3 4 5 6", []), ("ESTIFF 9 1 2 3 4 5 6 7", [12])]
 )
 def test_the_number_of_warping_is_that_of_a_beam(statement: str, places: list[int]) -> None:
     """One behind the others, as programs write it for every beam."""
@@ -130,18 +130,18 @@ def built() -> flexact.Model:
 @given(
     st.lists(numbers, min_size=1, max_size=6),
     st.lists(numbers, min_size=1, max_size=5),
-    st.lists(numbers, min_size=1, max_size=6),
+    numbers,
 )
-def test_a_draft_is_written_to_the_last_bit(e: list[float], m: list[float], x: list[float]) -> None:
+def test_a_draft_is_written_to_the_last_bit(e: list[float], m: list[float], x: float) -> None:
     model = built()
     draft = model._change()
     draft.give_properties(0, stiffness=tuple(e))
     draft.give_properties(0, mass=tuple(m))
-    draft.give_node_mass(3, tuple(x))
+    draft.give_node_mass(3, (x,))
     properties = given_of(model)
     assert rows(properties.stiffness) == [e]
     assert rows(properties.mass) == [m]
-    assert rows(properties.node_mass) == [[], [], x, []]
+    assert rows(properties.node_mass) == [[], [], [x], []]
     assert_same(properties, flexact.read_text(model.to_deck()).data.properties)
 
 

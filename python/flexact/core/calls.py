@@ -26,6 +26,7 @@ from .raw import (
     RawDiagnostics,
     RawEchelon,
     RawFrames,
+    RawLoads,
     RawProperties,
     RawSensitivities,
     RawVariants,
@@ -108,6 +109,11 @@ def _require_room(needed: float) -> None:
 
 
 def require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
+    """Raise where a limit leaves no room for a model's copy and so many bytes an element.
+
+    Raises:
+        MemoryError: there is none.
+    """
     _require_room(_OF_MODEL * model.nodes.shape[1] + of_element * model.elements.shape[1])
 
 
@@ -124,10 +130,11 @@ def read_deck(text: bytes) -> RawDeck:
     nn = room.nodes.shape[1]
     name = np.empty((2, ne + nn), np.int32, order="F")
     choice = np.empty((2, ne), np.int32, order="F")
-    value = np.empty((11, 2 * ne + nn), np.float64, order="F")
+    value = np.empty((12, 2 * ne + nn + 1), np.float64, order="F")
     sizes, counts, number, words = _core.read_deck(data, *room, name, choice, value)
-    nodes, elements, planar, _, drawn, long, given = sizes.tolist()
+    nodes, elements, planar, _, drawn, long, given, loaded = sizes.tolist()
     both, behind = np.s_[elements : 2 * elements], np.s_[2 * elements : 2 * elements + nodes]
+    last = 2 * elements + nodes
     return RawDeck(
         unpacked(room, nodes, elements),
         name[:, :elements],
@@ -135,7 +142,8 @@ def read_deck(text: bytes) -> RawDeck:
         planar == 1,
         RawDiagnostics(counts, number, words),
         RawAppearance(choice[:, :elements], value[:9, :elements]) if drawn else None,
-        RawProperties(value[:6, both], value[6:, both], value[:6, behind]) if given else None,
+        RawProperties(value[:6, both], value[6:11, both], value[:6, behind]) if given else None,
+        RawLoads(value[6:9, behind], value[9:, behind], value[6:9, last]) if loaded else None,
         long == 1,
     )
 

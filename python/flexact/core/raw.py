@@ -66,6 +66,17 @@ class RawProperties(NamedTuple):
     """(6, nn) of XM."""
 
 
+class RawLoads(NamedTuple):
+    """Loads, as a deck gives them; zero where it gives none."""
+
+    force: FloatArray
+    """(3, nn) of XF."""
+    increment: FloatArray
+    """(3, nn) of DELXF."""
+    gravity: FloatArray
+    """(3,) of GRAVITY."""
+
+
 class RawDeck(NamedTuple):
     """What reading a deck gives."""
 
@@ -79,6 +90,8 @@ class RawDeck(NamedTuple):
     appearance: RawAppearance | None
     """None where the deck has nothing of it."""
     properties: RawProperties | None
+    """None likewise."""
+    loads: RawLoads | None
     """None likewise."""
     has_long_numbers: bool
     """Whether its geometry was typed with more digits than its numbers hold."""

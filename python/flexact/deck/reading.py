@@ -13,6 +13,7 @@ from ..diagnostics.errors import DeckError
 from ..diagnostics.source import Source
 from ..model.appearance import Appearance
 from ..model.data import DeckNames, ModelData
+from ..model.loads import Loads
 from ..model.properties import Properties
 
 LARGEST_DECK = 2**31 - 2
@@ -104,6 +105,7 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
         found=problems,
         given_appearance=Appearance.of(deck.appearance) if deck.appearance is not None else None,
         properties=Properties.of(deck.properties) if deck.properties is not None else None,
+        loads=Loads.of(deck.loads) if deck.loads is not None else None,
         has_long_numbers=deck.has_long_numbers,
     )
 

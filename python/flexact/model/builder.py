@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from .copies import CopyMethods
 from .edits import EditMethods
+from .loading import LoadMethods
 
 
-class Builder(CopyMethods, EditMethods):
+class Builder(CopyMethods, EditMethods, LoadMethods):
     """The half of `Model` that makes it; see there."""

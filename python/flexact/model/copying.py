@@ -5,9 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import partial
+from itertools import zip_longest
 
 from ..core.elements import AXES, NodeKind, is_position
-from .draft import Draft
+from .draft import Draft, Vector
+from .loads_draft import LoadsDraft
 from .places import Places
 from .point_arguments import pivot, whole_point
 from .transform import Transform
@@ -44,7 +47,7 @@ class Copying:
         target: Draft,
         tolerance: float | None,
     ) -> None:
-        """Note what there is to be copied, with its classes and masses."""
+        """Note what there is to be copied, with its classes, masses and loads."""
         self.source, self.target = source, target
         self.indices = indices
         self.nodes = _nodes_of(source, indices, further)
@@ -60,6 +63,7 @@ class Copying:
             for n in self.nodes
             if n in source.properties.node_mass
         }
+        self._loads = source.loads.on(self.nodes)
 
     def run(self, move: Transform) -> Copy:
         """Make one copy.
@@ -125,7 +129,7 @@ class Copying:
         return new
 
     def _give_classes(self, move: Transform, made: Copy) -> None:
-        """Classes and masses of nodes that did not come to lie on themselves."""
+        """Classes, masses and loads of nodes that did not come to lie on themselves."""
         target = self.target
         for number, given in self._axes.items():
             new = made.nodes[number]
@@ -137,12 +141,16 @@ class Copying:
                 target.state_coordinates(places, value)
                 if any((number, k) in self._named for k in axes):
                     target.named.update(places)
+        foreign = {n: new for n, new in made.nodes.items() if not self._is_own(n, new)}
         for number, mass in self._mass.items():
-            new = made.nodes[number]
-            if not self._is_own(number, new):
-                moved = move.inertia(mass) if len(mass) == 6 else mass
-                there = target.properties.node_mass.get(new, (0.0,) * len(moved))
-                target.give_node_mass(new, tuple(a + b for a, b in zip(there, moved, strict=True)))
+            if number in foreign:
+                new = foreign[number]
+                moved = _turned_mass(self.source, number, mass, move)
+                there = target.properties.node_mass.get(new, ())
+                target.give_node_mass(
+                    new, tuple(a + b for a, b in zip_longest(there, moved, fillvalue=0.0))
+                )
+        target.loads.add(self._loads, foreign, partial(_turned_load, self.source, move))
         for p, o in self._whole:
             both = made.nodes[p], made.nodes[o]
             if both != (p, o) or self.source is not target:
@@ -190,6 +198,19 @@ def _ends_of(kind: int, slots: tuple[int, int, int, int]) -> tuple[int, frozense
     return kind, frozenset((slots[:2], slots[2:]))
 
 
+def _turned_mass(
+    draft: Draft, number: int, mass: tuple[float, ...], move: Transform
+) -> tuple[float, ...]:
+    """Numbers of XM after a move; of an orientation all of them, since they mix."""
+    if draft.node_kind[number] != NodeKind.ORIENTATION:
+        return mass
+    return move.inertia((*mass, *(0.0,) * (6 - len(mass))))
+
+
+def _turned_load(draft: Draft, move: Transform, number: int, load: Vector) -> Vector:
+    return move.turned(load) if is_position(draft.node_kind[number]) else move.turned_axially(load)
+
+
 def turn(draft: Draft, move: Transform) -> None:
     """Turn all that there is.
 
@@ -208,9 +229,12 @@ def turn(draft: Draft, move: Transform) -> None:
             draft.node_value[number] = (*move.place((value[0], value[1], value[2])), 0.0)
         elif kind == NodeKind.ORIENTATION:
             draft.node_value[number] = move.euler(value)
-        mass = draft.properties.node_mass.get(number, ())
-        if len(mass) == 6:
-            draft.properties.node_mass[number] = move.inertia(mass)
+        if mass := draft.properties.node_mass.get(number):
+            draft.properties.node_mass[number] = _turned_mass(draft, number, mass, move)
+    everything = {number: number for number in draft.node_kind}
+    loads, draft.loads = draft.loads, LoadsDraft()
+    draft.loads.gravity = loads.gravity
+    draft.loads.add(loads, everything, partial(_turned_load, draft, move))
     single = {number for number, _ in draft.named}
     draft.named = {place for place in classes if place[0] in single}
     draft.coordinate_class = classes

@@ -18,6 +18,7 @@ from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
 from ..diagnostics.source import Source, decode
 from .appearance import Appearance
+from .loads import Loads
 from .parts.chains import Chain, chains_of
 from .parts.directions import directions_across
 from .properties import Properties
@@ -77,6 +78,7 @@ class ModelData(Frozen):
         besides: What making the arrays found besides.
         given_appearance: What was said about drawing the elements; None where nothing was.
         properties: Stiffness and mass; None where nothing is said of them.
+        loads: Forces, moments and gravity; None where there are none.
         has_long_numbers: Whether the geometry was typed with more digits than its numbers hold,
             so that these are not what was typed, though they may look like it.
         began_as: The deck that a model started as which was changed since; its comments stay.
@@ -92,6 +94,7 @@ class ModelData(Frozen):
     besides: tuple[Diagnostic, ...] = ()
     given_appearance: Appearance | None = None
     properties: Properties | None = None
+    loads: Loads | None = None
     has_long_numbers: bool = False
     began_as: Source | None = None
 

@@ -15,6 +15,8 @@ Key = tuple[str, int]
 
 #: Of all elements; their numbers are their own, whatever their keywords.
 ELEMENT = "element"
+#: Which has no number.
+GRAVITY = "GRAVITY"
 _KINEMATICS, _DYNAMICS, _BEHIND, _PICTURE = range(4)
 #: What a statement is written as again, by block.
 _WRITTEN_AS: dict[int, dict[str, str]] = {
@@ -23,7 +25,12 @@ _WRITTEN_AS: dict[int, dict[str, str]] = {
         "INPUTX": "DYNX",
         "INPUTE": "DYNE",
     },
-    _DYNAMICS: {"ESTIFF": "ESTIFF", "EM": "EM", "EMASS": "EM", "XM": "XM", "MASS": "XM"},
+    _DYNAMICS: {
+        **{word: word for word in ("ESTIFF", "EM", "XM", "XF", "DELXF", GRAVITY)},
+        "EMASS": "EM",
+        "MASS": "XM",
+        "FORCE": "XF",
+    },
 }
 #: Whose comments are names, which are data of the model.
 _NAMED = (ELEMENT, "X")
@@ -128,7 +135,7 @@ class _Reader:
         if self.block == _KINEMATICS and keyword in self.elements:
             written = ELEMENT
         # Python makes no number of thousands of digits, even of zeros.
-        digits = number.removeprefix("+").lstrip("0")
+        digits = "0" if written == GRAVITY else number.removeprefix("+").lstrip("0")
         if written is None or not digits.isdecimal() or len(digits) > _MOST_DIGITS:
             return
         key = written, int(digits)

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from ..core.arrays import IntArray
+from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, keywords_of
 from .appearance import Appearance, CrossSection
 from .data import ModelData
-from .deck_comments import ELEMENT, DeckComments, comments_of
+from .deck_comments import ELEMENT, GRAVITY, DeckComments, comments_of
 from .lookup import one_line
 from .properties_draft import rows_of
 
@@ -140,24 +140,39 @@ def _deformations(data: ModelData, wanted: Class, keyword: str) -> _Statements:
 
 
 def dynamics_of(data: ModelData, comments: DeckComments) -> list[str]:
-    """The statements of stiffness and mass, with their comments."""
-    given = data.properties
-    if given is None:
-        return []
+    """The statements of stiffness, mass and loads, with their comments."""
+    given, loads = data.properties, data.loads
+    elements, nodes = data.arrays.element_number, data.arrays.node_number
+    tables: list[tuple[str, IntArray, Iterable[tuple[int, tuple[float, ...]]]]] = []
+    if given is not None:
+        tables += [
+            ("ESTIFF", elements, rows_of(given.stiffness)),
+            ("EM", elements, rows_of(given.mass)),
+            ("XM", nodes, rows_of(given.node_mass)),
+        ]
+    if loads is not None:
+        tables += [
+            ("XF", nodes, _loads(data, loads.force)),
+            ("DELXF", nodes, _loads(data, loads.increment)),
+        ]
     made: list[str] = []
-    for keyword, table, numbers in (
-        ("ESTIFF", given.stiffness, data.arrays.element_number),
-        ("EM", given.mass, data.arrays.element_number),
-        ("XM", given.node_mass, data.arrays.node_number),
-    ):
-        made += comments.beside(
-            keyword,
-            (
-                (number := int(numbers[i]), " ".join([keyword, str(number), *map(repr, row)]))
-                for i, row in rows_of(table)
-            ),
+    for keyword, numbers, rows in tables:
+        statements = (
+            (number := int(numbers[i]), " ".join([keyword, str(number), *map(repr, row)]))
+            for i, row in rows
         )
+        made += comments.beside(keyword, statements)
+    if loads is not None and loads.gravity.any():
+        words = ["GRAVITY", *map(repr, loads.gravity[: 2 if data.planar else 3].tolist())]
+        made += comments.beside(GRAVITY, [(0, " ".join(words))])
     return made
+
+
+def _loads(data: ModelData, table: FloatArray) -> Iterator[tuple[int, tuple[float, ...]]]:
+    """Index and components of each node with a load, as many as it has coordinates."""
+    for i in np.flatnonzero(table.any(axis=1)).tolist():
+        axes = AXES[int(data.arrays.node_kind[i])]
+        yield i, tuple(table[i, list(axes)].tolist())
 
 
 #: How many numbers of elements stand in a line of the picture block.

@@ -74,6 +74,7 @@ def _part_words(draft: Draft, index: int) -> str:
 def _drop_node(draft: Draft, number: int) -> None:
     for table in (draft.node_kind, draft.node_value, draft.node_names, draft.properties.node_mass):
         table.pop(number, None)
+    draft.loads.drop(number)
     draft.coordinate_class = {
         place: value for place, value in draft.coordinate_class.items() if place[0] != number
     }

@@ -16,6 +16,7 @@ from ..diagnostics.source import Source
 from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
 from .handles import Owner
+from .loads_draft import LoadsDraft
 from .lookup import Lookup
 from .properties_draft import PropertiesDraft
 
@@ -56,6 +57,7 @@ class Draft(Lookup):
         self.classes: list[tuple[int, ...]] = []
         self.appearance = AppearanceDraft()
         self.properties = PropertiesDraft()
+        self.loads = LoadsDraft()
         #: Classes that were stated for single deformations, by index.
         self.stated: dict[tuple[int, int], int] = {}
         #: Indices of rigid elements whose kind is decided when arrays are made.
@@ -95,6 +97,8 @@ class Draft(Lookup):
         }
         if data.properties is not None:
             draft.properties = PropertiesDraft.of(data.properties, numbers)
+        if data.loads is not None:
+            draft.loads = LoadsDraft.of(data.loads, numbers)
         if data.given_appearance is not None:
             draft.appearance = AppearanceDraft.of(data.given_appearance)
         draft.has_long_numbers = data.has_long_numbers
@@ -268,6 +272,7 @@ class Draft(Lookup):
             besides=tuple(self._left_over(in_use)),
             given_appearance=self.appearance.freeze(len(self.kinds)),
             properties=self.properties.freeze(len(self.kinds), numbers),
+            loads=self.loads.freeze(numbers),
             has_long_numbers=self.has_long_numbers,
             began_as=self.began_as,
         )
@@ -291,6 +296,7 @@ class Draft(Lookup):
         rigid[list(self.rigid)] = True
         needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
         needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        needed.update(self.loads.nodes)
         # Two links that end at one point carry it both, so that they are one body.
         far, times = np.unique(slots[rigid, 3], return_counts=True)
         needed.update(far[times > 1].tolist())
@@ -317,7 +323,7 @@ class Draft(Lookup):
         return classes.T
 
     def _left_over(self, used: set[int]) -> Iterator[Diagnostic]:
-        """Warnings about points, and about masses, that nothing uses."""
+        """Warnings about points, masses and loads that nothing uses."""
         points = [
             number
             for number, kind in self.node_kind.items()
@@ -330,6 +336,11 @@ class Draft(Lookup):
         if masses := [number for number in self.properties.node_mass if number not in used]:
             yield _warning_of_unused(
                 f"{self._listed(masses)} is given a mass, but no element uses it",
+                "give it to a node that an element uses",
+            )
+        if loads := [number for number in self.loads.nodes if number not in used]:
+            yield _warning_of_unused(
+                f"{self._listed(loads)} is given a load, but no element uses it",
                 "give it to a node that an element uses",
             )
 

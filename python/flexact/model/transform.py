@@ -42,6 +42,11 @@ class Transform:
         a, b, c = (row[0] * v[0] + row[1] * v[1] + row[2] * v[2] for row in self.matrix)
         return a, b, c
 
+    def turned_axially(self, v: Vector) -> Vector:
+        """The image of a rotation or a moment, which a mirror image reverses."""
+        a, b, c = self.turned(v)
+        return (-a, -b, -c) if self.is_mirror else (a, b, c)
+
     @property
     def is_mirror(self) -> bool:
         """Whether it turns a right hand into a left one."""

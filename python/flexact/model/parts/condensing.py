@@ -251,6 +251,7 @@ def condensed(data: ModelData) -> Condensed:
             node_names=tuple(data.node_names[i] for i in nodes.tolist()),
             given_appearance=_some(data.given_appearance, elements),
             properties=None,
+            loads=None,
         ),
         chains,
         nodes,

@@ -155,6 +155,7 @@ def _alone(
         node_names=(),
         given_appearance=None,
         properties=None,
+        loads=None,
         found=None,
         besides=(),
     )

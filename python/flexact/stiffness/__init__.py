@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Elastic states, strokes and misalignment; uses `core`, `model`, `deck` and `result`."""
+
+from .elastic import Elastic, elastic
+from .errors import ElasticError, StrokeError, UnknownError
+from .estimate import Estimate
+from .state import State
+
+__all__ = [
+    "Elastic",
+    "ElasticError",
+    "Estimate",
+    "State",
+    "StrokeError",
+    "UnknownError",
+    "elastic",
+]

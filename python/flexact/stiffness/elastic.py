@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Elastic models: `flexact.elastic`, and the states of what it gives."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..core.elements import Class, NodeKind
+from ..deck.models import read
+from ..model.model import Model
+from . import paths
+from .divisions import beams_given
+from .errors import ElasticError
+from .imperfections import Imperfection, misalignment, misfit, warmth
+from .points import Points
+from .policy import DRIVES, HELD, Release, choice, numbered, releases_given
+from .solution import Solution
+from .state import State
+from .tolerated import Tolerated
+
+_misfit = misfit
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Elastic(Tolerated):
+    """A model with its stiffness and mass, ready for states; made by `flexact.elastic`."""
+
+    def undeformed(self) -> State:
+        """As the deck gives it, without loads or anything off."""
+        made = tuple(paths.at_rest(each, self.locked) for each in self.solvers)
+        return State(self, "undeformed", None, made)
+
+    def assembled(self) -> State:
+        """Without loads, with all that is off.
+
+        Raises:
+            StrokeError: no equilibrium was found.
+            ElasticError: it is over-constrained, and held rigid.
+        """
+        label = " and ".join(each.label for each in self.off) or "undeformed"
+        return State(self, label, None, self._assembled())
+
+    def equilibrium(self, load: float = 1.0) -> State:
+        """Under the deck's loads, XF, DELXF and GRAVITY, times a factor; ramped.
+
+        Raises:
+            StrokeError: no equilibrium was found.
+            ElasticError: the factor is no finite number.
+        """
+        factor = paths.strokes_given(load, False)[0]
+        made = tuple(paths.loaded(at, factor) for at in self._assembled())
+        return State(self, f"equilibrium under {factor:g} times the loads", None, made)
+
+    def along(self, node: object, coordinate: str, values: Iterable[float]) -> tuple[State, ...]:
+        """Equilibria along the stroke of a drive, without the deck's loads.
+
+        Values that ascend or descend are driven to from the start outward, both ways; others
+        one after another as given, so that a snap-through shows its hysteresis.
+        With drive "free" the driven coordinate may move in what is asked about a state, and the
+        force of the drive stays as a dead load; "locked" holds it.
+
+        Args:
+            node: Of the coordinate, or its point.
+            coordinate: "x", "y", "z", "rx", "ry" or "rz". An angle is twice the arcsine of its
+                Euler parameter.
+            values: Where it is driven to: absolute [m, rad].
+
+        Raises:
+            UnknownError: there is no such coordinate.
+            ElasticError: it is fixed, or a value is not finite.
+            StrokeError: a value was not reached; `reached` is the last one that was.
+        """
+        drive = self.points.coordinate(node, coordinate)
+        if self.points.has_class(drive, Class.FIXED):
+            raise ElasticError(
+                f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
+            )
+        given = values if isinstance(values, (list, tuple, np.ndarray)) else list(values)
+        turns = self.points.kinds[drive.node] == NodeKind.ORIENTATION
+        there = paths.strokes_given(given, bool(turns))
+        ways = [
+            paths.driven(at, self.points, drive, there, self.drive == "locked")
+            for at in self._assembled()
+        ]
+        words = self.points.words(drive)
+        return tuple(
+            State(self, f"driven to {words} = {value:g}", drive, states)
+            for value, states in zip(there, zip(*ways, strict=True), strict=True)
+        )
+
+    def misaligned(
+        self, node: object, coordinate: str, value: float, about: object = None
+    ) -> State:
+        """A clamp that is moved, or turned about an axis through a point.
+
+        Args:
+            node: Position or orientation node of the clamp.
+            coordinate: "x", "y", "z" [m]; "rx", "ry", "rz" [rad], about a global axis.
+            value: By how much.
+            about: For a turn: a node, or (x, y, z) [m]; by default the clamp's own position.
+
+        Raises:
+            UnknownError: there is no such coordinate.
+            ElasticError: it is not fixed; or it is over-constrained, and held rigid.
+            StrokeError: no equilibrium was found.
+        """
+        return self._imperfect(misalignment(self.points, node, coordinate, value, about))
+
+    def misfit(self, element: int, deformation: int, value: float) -> State:
+        """An element that is made too long, twisted or bent.
+
+        Args:
+            element: Its number.
+            deformation: Which, from 1.
+            value: By how much, in the deck's units: torsion and bending are the element's length
+                times an angle.
+
+        Raises:
+            UnknownError: there is no such element or deformation.
+            ElasticError: it is over-constrained, and held rigid.
+            StrokeError: no equilibrium was found.
+        """
+        return self._imperfect(misfit(self.points, element, deformation, value))
+
+    def warmed(self, kelvin: float, expansion: float, elements: object = None) -> State:
+        """Elements that are warmer than the ground, and so longer.
+
+        Args:
+            kelvin: By how much [K].
+            expansion: Of their material [1/K].
+            elements: Numbers of the elements; all by default.
+
+        Raises:
+            UnknownError: there is no such element.
+            ElasticError: it is over-constrained, and held rigid.
+            StrokeError: no equilibrium was found.
+        """
+        return self._imperfect(warmth(self.points, kelvin, expansion, elements))
+
+    def imperfect(
+        self,
+        misaligned: Iterable[tuple[object, ...]] = (),
+        misfit: Iterable[tuple[object, object, object]] = (),
+        warmed: tuple[object, ...] | None = None,
+    ) -> Elastic:
+        """The same model with things off in all of its states: for strokes and loads then.
+
+        Args:
+            misaligned: Arguments of `misaligned`, of each clamp.
+            misfit: Arguments of `misfit`, of each element.
+            warmed: Arguments of `warmed`.
+
+        Raises:
+            UnknownError: something is not there.
+            ElasticError: something is wrong with a value.
+        """
+        off = [misalignment(self.points, *each) for each in misaligned]
+        off += [_misfit(self.points, *each) for each in misfit]
+        if warmed is not None:
+            off.append(warmth(self.points, *warmed))
+        return replace(self, off=(*self.off, *off))
+
+    def _imperfect(self, off: Imperfection) -> State:
+        return replace(self, off=(*self.off, off)).assembled()
+
+    def _assembled(self) -> tuple[Solution, ...]:
+        if self.off:
+            self.require_determined()
+        return tuple(paths.assembled(each, self.off, self.locked) for each in self.solvers)
+
+
+def elastic(
+    model: Model | str | bytes | os.PathLike[str] | os.PathLike[bytes],
+    held: str = "elastic",
+    drive: str = "free",
+    release: Release = (),
+    beams: int | str = "auto",
+) -> Elastic:
+    """A model with its stiffness and mass: states, frequencies, buckling and misalignment.
+
+    Args:
+        model: A model, or the path of a deck.
+        held: "elastic": fixed deformations that have a stiffness (ESTIFF) are elastic, others are
+            rigid; "rigid": all fixed deformations are.
+        drive: Whether declared coordinates (DYNX, INPUTX) may move, "free" or "locked".
+        release: Deformations that are released stress-free, pairs of element and deformation; or
+            a mapping of them to the stiffness of a notch [N m/rad; N/m of an elongation].
+        beams: Beams into which each flexible sheet or wire is divided, a divided one of the deck
+            counting as what it is; 1: the deck's own elements; "auto": 8 and 16, extrapolated.
+
+    Raises:
+        DeckError: the model's deck is wrong.
+        ModelError: the model is wrong.
+        UnknownError: what is to be released is not there.
+        ElasticError: a choice is none.
+        TypeError: something is of another kind than it must be.
+    """
+    if not isinstance(model, (Model, str, bytes, os.PathLike)):
+        kind = type(model).__name__
+        raise TypeError(f"a model or the path of a deck can be analysed, not {kind}")
+    data = (model if isinstance(model, Model) else read(model)).data
+    data.require_sound()
+    released = numbered(data, releases_given(Points(data), release))
+    return Elastic(
+        data,
+        choice(held, HELD, "held"),
+        choice(drive, DRIVES, "drive"),
+        released,
+        beams_given(beams),
+    )

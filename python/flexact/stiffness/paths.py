@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From one equilibrium to the next: along loads, imperfections and strokes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..base.plain_text import in_short
+from ..core import elastic
+from ..core.arrays import FloatArray
+from ..core.elastic import ElasticState, RawEquilibrium, Waypoint
+from ..core.elements import NodeKind
+from .errors import ElasticError, StrokeError
+from .imperfections import Imperfection
+from .mesh import Mesh
+from .points import Coordinate, Points
+from .rotations import dual_to_parameters
+from .solution import Solution
+from .solver import Held, Solver
+
+DONE = "done"
+#: Why there may be no equilibrium, by how the core ended.
+_WHY = {
+    "": "it snaps or buckles there, or comes to the end of its reach; smaller steps change nothing",
+    "inconsistent": "what is rigid cannot follow any farther",
+    "unheld": "a load acts along a motion that nothing resists",
+}
+
+
+def built(solver: Solver, off: Sequence[Imperfection]) -> Waypoint:
+    """Where the supports are and what is off of the pieces, without loads."""
+    own = solver.mesh.own
+    target = solver.at_rest.configuration.copy(order="F")
+    mine = target[:, : solver.mesh.nodes]
+    misfit = np.zeros((6, own.arrays.element_number.size))
+    for each in off:
+        mine = each.moved_to(mine, own)
+        misfit += each.value * each.misfit
+    target[:, : solver.mesh.nodes] = mine
+    return solver.nothing._replace(target=target, misfit=solver.mesh.misfit(misfit))
+
+
+def at_rest(solver: Solver, held: Held) -> Solution:
+    """The undeformed state."""
+    return Solution(solver, solver.at_rest, solver.nothing, held)
+
+
+def assembled(solver: Solver, off: Sequence[Imperfection], held: Held) -> Solution:
+    """The state without loads, with what is off.
+
+    Raises:
+        StrokeError: it was not reached.
+    """
+    if not off:
+        return at_rest(solver, held)
+    way = built(solver, off)
+    found = _go(solver, held, solver.at_rest, solver.nothing, way)
+    if found.status != DONE:
+        size = off[0].value if len(off) == 1 else 1.0
+        what = off[0].words if len(off) == 1 else "part of what is off"
+        raise _stopped(solver.mesh, found, 0.0, size, what)
+    return Solution(solver, found.state, way, held)
+
+
+def loaded(start: Solution, factor: float) -> Solution:
+    """Equilibrium under the deck's loads times a factor, ramped from none.
+
+    Raises:
+        StrokeError: it was not reached.
+    """
+    solver = start.solver
+    force, gravity = solver.loads(factor)
+    way = start.way._replace(force=force, gravity=gravity)
+    found = _go(solver, start.held, start.raw, start.way, way)
+    if found.status != DONE:
+        raise _stopped(solver.mesh, found, 0.0, factor, "the loads, as a factor")
+    return Solution(solver, found.state, way, start.held)
+
+
+def driven(
+    start: Solution, points: Points, drive: Coordinate, values: Sequence[float], locked: bool
+) -> tuple[Solution, ...]:
+    """Equilibria at values of a driven coordinate, in the order of `order_of`.
+
+    Raises:
+        StrokeError: one was not reached.
+    """
+    solver, held = start.solver, start.held | {drive}
+    begin = value_at(start, drive)
+    found: dict[int, Solution] = {}
+    here, last = start, begin
+    for k in order_of(values, begin):
+        if k is None:
+            here, last = start, begin
+            continue
+        there = values[k]
+        way = start.way._replace(target=_with_drive(solver, start.way.target, drive, there))
+        before = here.way._replace(target=_with_drive(solver, here.way.target, drive, last))
+        raw = _go(solver, held, here.raw, before, way)
+        if raw.status != DONE:
+            raise _stopped(solver.mesh, raw, last, there, points.words(drive))
+        here, last = Solution(solver, raw.state, way, held), there
+        found[k] = here if locked else _freed(here, start.held, drive)
+    return tuple(found[k] for k in range(len(values)))
+
+
+def _freed(at: Solution, held: Held, drive: Coordinate) -> Solution:
+    """The state with the drive free: its force stays as a dead load."""
+    raw = at.raw
+    if at.is_whole(drive.node):
+        reaction = raw.reaction.copy(order="F")
+        here = raw.configuration[:, drive.node]
+        reaction[:, drive.node] = dual_to_parameters(here, reaction[:, drive.node])
+        raw = raw._replace(reaction=reaction)
+    return Solution(at.solver, raw, at.way, held)
+
+
+def order_of(values: Sequence[float], start: float) -> list[int | None]:
+    """In which order values are driven to; None: back at the start.
+
+    Values that ascend or descend are driven to from the start outward, first those beyond it
+    one way and then those the other way; others in their order, one after another.
+    """
+    steps = np.diff(values)
+    if values and not ((steps >= 0.0).all() or (steps <= 0.0).all()):
+        return list(range(len(values)))
+    far = np.argsort(np.abs(np.asarray(values) - start), kind="stable").tolist()
+    below = [k for k in far if values[k] < start]
+    above = [k for k in far if values[k] >= start]
+    return [*above, None, *below]
+
+
+def value_at(at: Solution, drive: Coordinate) -> float:
+    """The value of a coordinate: a position [m], or an angle [rad]."""
+    node, axis = drive
+    here = at.raw.configuration[:, node]
+    kind = at.solver.mesh.own.arrays.node_kind[node]
+    if kind == NodeKind.ANGLE:
+        return float(here[0])
+    if kind == NodeKind.ORIENTATION:
+        sine = float(here[1 + axis]) / float(np.linalg.norm(here))
+        return 2.0 * math.asin(min(1.0, max(-1.0, sine)))
+    return float(here[axis])
+
+
+def force_of(at: Solution, drive: Coordinate) -> float:
+    """Force of a drive on the mechanism [N], or moment on its angle [N m]."""
+    node, axis = drive
+    reaction = at.raw.reaction[:, node]
+    if at.solver.mesh.own.arrays.node_kind[node] != NodeKind.ORIENTATION:
+        return float(reaction[axis])
+    if at.is_whole(node):
+        reaction = dual_to_parameters(at.raw.configuration[:, node], reaction)
+    return float(reaction[axis]) * math.cos(value_at(at, drive) / 2.0)
+
+
+def reaction_of(at: Solution, held: Coordinate) -> float:
+    """Force [N] or moment [N m] of what holds a coordinate; about an axis of a whole clamp."""
+    node, axis = held
+    return float(at.raw.reaction[axis, node]) if at.is_whole(node) else force_of(at, held)
+
+
+def strokes_given(values: object, is_turn: bool) -> list[float]:
+    """The values of a stroke; `is_turn`: of an Euler parameter.
+
+    Raises:
+        ElasticError: one is no finite number, or an angle of more than half a turn.
+    """
+    try:
+        made = np.atleast_1d(np.asarray(values, np.float64))
+    except (TypeError, ValueError):
+        raise ElasticError(f"a stroke has values, not {in_short(values)}") from None
+    if made.ndim != 1 or not np.isfinite(made).all():
+        raise ElasticError(f"a stroke has finite values in a row, not {in_short(values)}")
+    if is_turn and (np.abs(made) >= math.pi).any():
+        raise ElasticError("an angle of a stroke must be within half a turn, below pi")
+    return [float(value) for value in made]
+
+
+def _with_drive(solver: Solver, target: FloatArray, drive: Coordinate, value: float) -> FloatArray:
+    node, axis = drive
+    made = target.copy(order="F")
+    kind = solver.mesh.own.arrays.node_kind[node]
+    if kind == NodeKind.ANGLE:
+        made[0, node] = value
+    elif kind == NodeKind.ORIENTATION:
+        made[1 + axis, node] = math.sin(value / 2.0)
+        # Where all of them are held, lambda0 follows.
+        rest = math.sqrt(max(0.0, 1.0 - float(np.sum(made[1:, node] ** 2))))
+        made[0, node] = math.copysign(rest, made[0, node])
+    else:
+        made[axis, node] = value
+    return made
+
+
+def _go(
+    solver: Solver, held: Held, start: ElasticState, begin: Waypoint, end: Waypoint
+) -> RawEquilibrium:
+    return elastic.equilibrium(solver.model(held), solver.arrays, start, begin, end)
+
+
+def _stopped(mesh: Mesh, found: RawEquilibrium, begin: float, end: float, what: str) -> StrokeError:
+    """The error of a path that ended early."""
+    reached = begin + found.reached * (end - begin)
+    place = _place(mesh, found.place)
+    where = f", where it stopped at {place}" if place else ""
+    return StrokeError(
+        f"no equilibrium was found beyond {reached:.6g} on the way from {begin:.6g} to "
+        f"{end:.6g} of {what}{where}: {_WHY.get(found.status, _WHY[''])}",
+        reached,
+        place,
+    )
+
+
+def _place(mesh: Mesh, place: int) -> str:
+    """What the core means: a coordinate 3 node + axis, or -1 - (6 element + deformation)."""
+    if place >= 0:
+        node, axis = divmod(place, 3)
+        if node < mesh.nodes:
+            points = Points(mesh.own)
+            return points.words(Coordinate(node, axis))
+        touched = (mesh.data.arrays.element_node == node + 1).any(axis=0)
+        element = mesh.owner[int(np.argmax(touched))]
+        return f"the middle of element {int(mesh.own.arrays.element_number[element])}"
+    piece, k = divmod(-1 - place, 6)
+    element = mesh.owner[piece]
+    return f"deformation {k + 1} of element {int(mesh.own.arrays.element_number[element])}"
