@@ -101,6 +101,22 @@ def test_bars_and_planar_sheets_have_fewer_values() -> None:
     assert properties(bar) == (pytest.approx((1e9 * area,)), pytest.approx((1000 * area,)))
 
 
+def test_hinges_and_notches_have_a_stiffness_of_their_own() -> None:
+    model = Model()
+    p = model.node(0, 0, 0)
+    model.hinge(p, "z", name="free")
+    model.hinge(p, "z", stiffness=2.5, name="spring")
+    model.notch(p, "z", stiffness=(2.5, 4e3, 5e3), name="notch")
+    assert model._change().properties.stiffness == {1: (2.5,), 2: (2.5, 4e3, 5e3)}
+    plane = Model(planar=True)
+    plane.hinge(plane.node(0, 0), stiffness=3)
+    assert plane._change().properties.stiffness == {0: (3.0,)}
+    for stiffness in (-1, (1, 2), "stiff", math.nan):
+        with pytest.raises(ModelError) as error:
+            model.notch(p, "z", stiffness=stiffness, name="wrong")  # type: ignore[arg-type]
+        assert code_of(error) in ("bad-size", "bad-number")
+
+
 def test_a_material_without_density_gives_no_mass() -> None:
     model = Model()
     model.wire((0, 0, 0), (1, 0, 0), thickness=1e-3, material=Material("light", 1e9, 4e8))
