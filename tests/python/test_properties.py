@@ -276,3 +276,54 @@ def test_less_than_zero_is_warned_of_where_it_stands(statement: str, column: int
     model = flexact.read_text(f"{ALL}{statement}\nEND\n")
     found = [(d.code, d.line, d.column) for d in model.diagnostics]
     assert found == ([] if column is None else [("negative-number", 18, column)])
+
+
+#: As public programs and people write them: SPACAR Light, oopspa (github.com/Wout-S/oopspa), and
+#: decks of github.com/roepnaamstraat/FlexibleInstrumentSimulation and
+#: github.com/shantnavagarwal/Flexible-Endoscopic-Robots; the statements are stated anew.
+AS_WRITTEN = {
+    "of a beam with shear and a number of warping": (
+        " ESTIFF \t   2 \t 2100000.000000000000000 \t   0.009309804722106 \t   0.007000000000000 "
+        "\t 437.500000000000114 \t   0.000000011666667 \t   0.000729166666667 \t   "
+        "0.000001458333333 \t",
+        "stiffness",
+        [2.1e6, 0.009309804722106, 0.007, 437.500000000000114, 1.1666667e-8, 7.29166666667e-4],
+    ),
+    "of a beam with the inertia of warping": (
+        "EM\t\t\t  2\t\t   0.078000000000000\t   0.000016250260000\t   0.000000000260000\t   "
+        "0.000016250000000\t   0.000000000000000\t   0.000000000000054",
+        "mass",
+        [0.078, 1.625026e-5, 2.6e-10, 1.625e-5, 0.0],
+    ),
+    "of a beam that cannot be stretched": (
+        "ESTIFF 2   0 0.0093 0.012 0.012 ",
+        "stiffness",
+        [0.0, 0.0093, 0.012, 0.012],
+    ),
+    "of a hinge, about its axis alone": ("ESTIFF 5   2.80", "stiffness", [2.8]),
+    "of a rigid link": ("EM 3   0.5", "mass", [0.5]),
+    "in small letters with exponents of Fortran": (
+        "estiff 2 2.1D6 9.3d-3 +7E-3 .4375e3 % steel",
+        "stiffness",
+        [2.1e6, 9.3e-3, 7e-3, 437.5],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", list(AS_WRITTEN))
+def test_decks_as_they_are_written(name: str) -> None:
+    statement, table, wanted = AS_WRITTEN[name]
+    number = int(statement.split()[1])
+    # The last line of such decks often has no end.
+    for ending in ("\nEND\nEND\n", "\r\nEND\r\nEND", "\n\nEND\nEND\n\n"):
+        model = flexact.read_text(f"{ALL}{statement}{ending}")
+        assert model.diagnostics == ()
+        assert rows(getattr(given_of(model), table))[model.element_index(number)] == wanted
+
+
+def test_small_inertias_against_singular_matrices() -> None:
+    """Decks have them at each orientation, so that SPACAR can solve."""
+    model = flexact.read_text(f"{ALL}XM 5     0.0000001 0.0 0.0 0.0000001 0.0 0.0000001\nEND\n")
+    assert model.diagnostics == ()
+    given_row = rows(given_of(model).node_mass)[model.node_index(5)]
+    assert given_row == [1e-7, 0.0, 0.0, 1e-7, 0.0, 1e-7]
