@@ -87,7 +87,7 @@ class Elastic(Tolerated):
         ]
         words = self.points.words(drive)
         return tuple(
-            State(self, f"{words} at {value:g}", drive, states)
+            State(self, f"driven to {words} = {value:g}", drive, states)
             for value, states in zip(there, zip(*ways, strict=True), strict=True)
         )
 

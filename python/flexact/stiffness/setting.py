@@ -148,8 +148,11 @@ class Setting(Frozen):
 
     @property
     def words(self) -> str:
-        """The choices, such as "held elastic, drive free, 8 and 16 beams a sheet"."""
-        beams = {"auto": "8 and 16 beams a sheet, extrapolated", 1: "the deck's own elements"}
+        """The choices, such as "held elastic, drive free, 8 beams a sheet"."""
+        beams = {
+            "auto": "8 and 16 beams a sheet or more, extrapolated",
+            1: "the deck's own elements",
+        }
         many = beams.get(self.beams, f"{self.beams} beams a sheet")
         released = ", ".join(
             f"{e}:{k}" + (f" with {stiffness:g} N m/rad" if stiffness else "")

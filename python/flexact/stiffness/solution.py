@@ -19,6 +19,8 @@ from .solver import Held, Solver
 
 #: How many frequencies and multipliers are computed.
 FREQUENCIES, MULTIPLIERS = 10, 20
+#: Multipliers so many times the nearest are those of stresses that are rounding.
+_ROUNDING = 1.0e10
 
 
 class Solution:
@@ -124,9 +126,12 @@ class Solution:
         s = self.solver
         if not self.is_stressed:
             return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0)
-        return elastic.multipliers(
+        found = elastic.multipliers(
             s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
         )
+        size = np.abs(found.values)
+        some = size < _ROUNDING * size.min(initial=math.inf)
+        return found._replace(values=found.values[some], modes=found.modes[:, :, some])
 
     @cached_property
     def deformation(self) -> FloatArray:

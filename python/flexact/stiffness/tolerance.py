@@ -30,6 +30,8 @@ _FAR = 1.0e3
 _MISMATCH = 1.0e-8
 #: Multipliers beyond so many times the nearest are rounding.
 _ROUNDING = 1.0e6
+#: The part of the nearest critical error with which a rise is looked for.
+_BEGIN = 1.0e-2
 
 Pair = tuple[float, float]
 
@@ -69,13 +71,16 @@ class Linear:
     def critical(self) -> Pair:
         """The errors of both signs at which it buckles; infinite where it does not."""
         values = self.stressed.buckling.values
-        size = self._rest.size * _FAR if not self._off.is_turn else _FAR
         nearest = float(np.abs(values).min(initial=math.inf))
-        there = values[(np.abs(values) < size) & (np.abs(values) < _ROUNDING * nearest)]
+        there = values[np.abs(values) < min(self._far, _ROUNDING * nearest)]
         return (
             float(there[there < 0.0].max(initial=-math.inf)),
             float(there[there > 0.0].min(initial=math.inf)),
         )
+
+    @property
+    def _far(self) -> float:
+        return _FAR if self._off.is_turn else _FAR * self._rest.size
 
     def square(self, value: float) -> float:
         """The square of the first angular frequency at an error."""
@@ -124,10 +129,12 @@ class Linear:
         part = None if near is None else near[0 if sign < 0.0 else 1]
         if wanted < self.first:
             return sign * falls_to(square, wanted, self.first, limit, part)
-        far = self._rest.size * _FAR if not self._off.is_turn else _FAR
-        other = abs(self.critical[1 if sign < 0.0 else 0])
-        begin = min(limit, other, far) * 1.0e-2
-        return sign * rises_to(square, wanted, self.first, begin, min(limit, far))
+        nearest = min(map(abs, self.critical))
+        if math.isinf(nearest):
+            # It falls on neither side, and is concave: it does not change.
+            return sign * math.inf
+        far = min(limit, self._far)
+        return sign * rises_to(square, wanted, self.first, _BEGIN * nearest, far)
 
     def parts(self, errors: Pair) -> Pair:
         """Errors as parts of the critical ones; NaN where there is none."""
