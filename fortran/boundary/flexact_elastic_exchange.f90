@@ -88,7 +88,8 @@ contains
    !> displacements alone, and of matrices given(1, :) has the coordinates and answer(:q, :3q)
    !> three matrices. Behind answers stand motions without stiffness, as many as there is room
    !> for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
-   !> negative stiffnesses, 1 where coordinates determine all others, 1 where the arithmetic fails.
+   !> negative stiffnesses, 1 where coordinates determine all others or
+   !> no mode is missing, 1 where the arithmetic fails.
    subroutine run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given, answer, values, facts)
       integer, intent(in) :: nodes(:, :), elements(:, :)
       real(wp), intent(in) :: places(:, :), vectors(:, :), of_nodes(:, :), of_elements(:, :), wishes(:), given(:, :)
@@ -159,7 +160,7 @@ contains
       k = size(modes%value)
       values(:k) = modes%value
       answer(:size(modes%mode, 1), :k) = modes%mode
-      facts(:3) = [k, modes%loose, modes%negative]
+      facts(:4) = [k, modes%loose, modes%negative, merge(1, 0, modes%is_complete)]
    end subroutine run_modes
 
    subroutine run_matrices(elastic, state, base, independent, answer, facts)

@@ -112,6 +112,8 @@ class RawModes(NamedTuple):
     then those of the rest."""
     negative: int
     """How many stiffnesses are negative, of the same."""
+    is_complete: bool
+    """Whether it is confirmed that no value is missing between those given."""
 
 
 class RawMatrices(NamedTuple):
@@ -294,7 +296,9 @@ def _modes(
     answer, facts = _studied(model, arrays, state, gravity, task, count, given, room)
     k = int(facts[0])
     modes = answer[: 3 * nodes, :k].reshape((3, nodes, k), order="F")
-    return RawModes(answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]))
+    return RawModes(
+        answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]), facts[3] == 1
+    )
 
 
 def _studied(

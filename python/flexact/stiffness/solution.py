@@ -94,6 +94,12 @@ class Solution:
         fixed = self.solver.mesh.data.arrays.coordinate_class[axis, node] == Class.FIXED
         return bool(fixed) or coordinate in self.held
 
+    def is_whole(self, node: int) -> bool:
+        """Whether all of an orientation is held, so that its reaction is a moment on the spin."""
+        if self.solver.mesh.data.arrays.node_kind[node] != NodeKind.ORIENTATION:
+            return False
+        return all(self.is_held(Coordinate(node, axis)) for axis in range(3))
+
     @cached_property
     def size(self) -> float:
         """A length of the model [m]: the root of the mean square of those of its elements."""
@@ -125,7 +131,7 @@ class Solution:
         """Multipliers of the stresses nearest to zero, of both signs, with their modes."""
         s = self.solver
         if not self.is_stressed:
-            return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0)
+            return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0, True)
         found = elastic.multipliers(
             s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
         )
