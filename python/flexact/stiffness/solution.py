@@ -121,6 +121,12 @@ class Solution:
         )
 
     @property
+    def is_confirmed(self) -> bool:
+        """Whether none is missing among the frequencies and multipliers that were asked for."""
+        asked = (self.__dict__.get(name) for name in ("squares", "buckling"))
+        return all(raw.is_complete for raw in asked if raw is not None)
+
+    @property
     def frequencies(self) -> FloatArray:
         """The lowest frequencies [Hz], ascending; negative where the square is: unstable."""
         values = self.squares.values
@@ -129,12 +135,14 @@ class Solution:
     @cached_property
     def buckling(self) -> RawModes:
         """Multipliers of the stresses nearest to zero, of both signs, with their modes."""
+        return self.multipliers(MULTIPLIERS)
+
+    def multipliers(self, count: int) -> RawModes:
+        """So many of them."""
         s = self.solver
         if not self.is_stressed:
             return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0, True)
-        found = elastic.multipliers(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
-        )
+        found = elastic.multipliers(s.model(self.held), s.arrays, self.raw, self.way.gravity, count)
         size = np.abs(found.values)
         some = size < _ROUNDING * size.min(initial=math.inf)
         return found._replace(values=found.values[some], modes=found.modes[:, :, some])

@@ -188,7 +188,7 @@ class State(Response):
         """The smallest singular value of D(c) itself here, in the deck's units."""
         return self._verdict.smallest_singular_value
 
-    @cached_property
+    @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known about the numbers of this state."""
         return self.model.notes_of(self.finest)
