@@ -10,7 +10,9 @@ import numpy as np
 class Draw:
     """A deck in the making: positions, elements of all kinds, supports, loads."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, size: float = 1.0) -> None:
+        """Loads and strokes of a size: 1 bends most of them far, and buckles some."""
+        self.load = size
         self.random = np.random.default_rng(seed)
         self.planar = bool(self.random.random() < 0.3)
         self.size = 2 if self.planar else 3
@@ -113,18 +115,18 @@ class Draw:
     def _loads(self) -> None:
         for node in self.free:
             if self.chance(0.7):
-                force = np.round(self.random.normal(size=self.size), 3)
+                force = np.round(self.load * self.random.normal(size=self.size), 3)
                 self.dynamics.append(f"XF {node} " + " ".join(map(str, force)))
             if self.chance(0.3):
                 size = 1 if self.planar else 3
-                moment = np.round(0.2 * self.random.normal(size=size), 3)
+                moment = np.round(0.2 * self.load * self.random.normal(size=size), 3)
                 self.dynamics.append(f"XF {node + 1} " + " ".join(map(str, moment)))
             if self.chance(0.5):
                 self.dynamics.append(f"XM {node} {self.spread(0.01, 1)}")
             if self.chance(0.3):
                 self.dynamics.append(self._inertia(node + 1))
         if self.chance(0.4):
-            field = np.round(3 * self.random.normal(size=self.size), 2)
+            field = np.round(3 * self.load * self.random.normal(size=self.size), 2)
             self.dynamics.append("GRAVITY " + " ".join(map(str, field)))
 
     def _inertia(self, node: int) -> str:
@@ -145,7 +147,7 @@ Ask = Callable[[Draw, Callable[..., Any]], Any]
 
 def _along(draw: Draw, model: Callable[..., Any], **options: Any) -> Any:
     start = draw.places[draw.point][draw.axis]
-    reach = [start + step for step in (0.02, 0.05, -0.03, 0.0)]
+    reach = [start + draw.load * step for step in (0.02, 0.05, -0.03, 0.0)]
     states = model(**options).along(draw.point, "xyz"[draw.axis], reach)
     return [[s.force, s.energy, *np.ravel(s.compliance(draw.point))] for s in states]
 
@@ -155,8 +157,8 @@ def _misaligned(draw: Draw, model: Callable[..., Any]) -> Any:
     turn = "rz" if draw.planar else "ry"
     about = tuple(draw.places[draw.point])
     states = [
-        elastic.misaligned(draw.clamps[-1], "y", 0.003),
-        elastic.misaligned(1, turn, 0.02, about=about),
+        elastic.misaligned(draw.clamps[-1], "y", 0.003 * draw.load),
+        elastic.misaligned(1, turn, 0.02 * draw.load, about=about),
     ]
     return [_everything(draw, state) for state in states]
 
