@@ -7,6 +7,7 @@ import math
 import re
 from typing import NamedTuple
 
+from ..base.errors import FlexactError
 from ..base.plain_text import in_short
 
 _UNITS: dict[str, tuple[float, str]] = {
@@ -29,8 +30,21 @@ _NOTCH_UNITS = ("", "Nm/rad", "N*m/rad", "N/m")
 NONE = "none"
 
 
-class AskedError(ValueError):
-    """What was asked for is not understood; its text says what is wanted."""
+class AskedError(FlexactError, ValueError):
+    """What was asked for is not understood; its text says what is wanted.
+
+    Attributes:
+        messages: What is wrong, one by one.
+    """
+
+    def __init__(self, *messages: str) -> None:
+        """Keep what is wrong."""
+        super().__init__("; ".join(messages))
+        self.messages = messages
+
+    def __reduce__(self) -> tuple[type[AskedError], tuple[str, ...]]:
+        """What makes it anew, as a worker of a sweep does."""
+        return type(self), self.messages
 
 
 class PointText(NamedTuple):

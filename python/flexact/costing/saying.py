@@ -52,9 +52,10 @@ def left_out(
         )
     if result.over_constrained and asked.release is None and len(designs) == 1:
         made.append("no proven release was found; name one with --release (release=)")
-    if result.under_constrained:
+    whole = result.with_internal_declared or result
+    if whole.under_constrained:
         made.append(
-            f"under-constrained by {result.under_constrained} as declared; what is elastic may "
+            f"under-constrained by {whole.under_constrained} as declared; what is elastic may "
             "hold these motions all the same"
         )
     return tuple(made)

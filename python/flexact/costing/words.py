@@ -15,6 +15,8 @@ from .words_of_paths import effects, stroke
 _WIDTH = 80
 _HEADINGS = ("design", "worst stiffness", "first parasitic", "tightest", "buckles at")
 _SECOND = ("", "kept", "frequency", "tolerance", "")
+#: A part of a stiffness from which all of it is kept.
+_ALL = 0.9999
 #: Between columns.
 _GAP = 2
 
@@ -71,7 +73,9 @@ def _choices(cost: CostValues) -> Iterator[str]:
     beams = (
         "8 and 16 beams a sheet, extrapolated"
         if cost.beams == "auto"
-        else f"{cost.beams} beam{'s' * (cost.beams != 1)} a sheet, uncertainty not known"
+        else "the deck's own elements, uncertainty not known"
+        if cost.beams == 1
+        else f"{cost.beams} beams a sheet, uncertainty not known"
     )
     yield _filled(
         f"At {harmless(cost.point.words)}, {cost.point.reason}. Held deformations {cost.held}, "
@@ -110,7 +114,8 @@ def _where(cost: CostValues) -> Iterator[str]:
     for design in cost.designs:
         told = []
         if design.kept is not None:
-            told.append(f"weakest {design.kept.words}")
+            is_all = design.kept.smallest.value > _ALL
+            told.append("keeps all stiffness" if is_all else f"weakest {design.kept.words}")
         tightest, buckles = design.tightest, design.buckles_at
         if tightest is not None:
             told.append(f"tightest {harmless(tightest.misalignment.words)}")
@@ -131,7 +136,7 @@ def _legend(cost: CostValues) -> Iterator[str]:
     kept = "worst stiffness kept: the smallest mu of C_before v = mu C_after v at the point; "
     shift = percent(abs(cost.shift))
     way = "fall" if cost.shift < 0 else "rise"
-    what = "first frequency" if cost.measure == FREQUENCY else "stiffness of the drive"
+    what = FREQUENCY if cost.measure == FREQUENCY else "lowest stiffness of that point"
     yield _filled(
         f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
         f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "
