@@ -51,10 +51,9 @@ def scale_of(value: float, unit: str) -> tuple[float, str]:
 def _rounded(value: float, off: float) -> str:
     if not off > _CERTAIN * abs(value):
         return f"{value:.{_DIGITS}g}"
-    # Two digits of an uncertainty that begins with 1, else one.
+    # One digit of the uncertainty, rounded up.
     digits = -math.floor(math.log10(off))
-    if off * 10.0**digits < 2.0:
-        digits += 1
+    off = math.ceil(off * 10.0**digits - 1.0e-9) / 10.0**digits
     if digits > _MOST_DECIMALS or digits < 0:
         return f"{value:.{_DIGITS}g} +- {off:.1g}"
     return f"{value:.{digits}f} +- {off:.{digits}f}"

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from ..base.plain_text import harmless
 from .designs import CostValues, Design
 from .quantities import in_words, percent
-from .values import FREQUENCY, Tolerance, words_of_direction
+from .values import FREQUENCY, Number, Tolerance, words_of_direction
 from .words_of_paths import effects, stroke
 
 _WIDTH = 80
@@ -17,6 +17,8 @@ _HEADINGS = ("design", "worst stiffness", "first parasitic", "tightest", "buckle
 _SECOND = ("", "kept", "frequency", "tolerance", "")
 #: A part of a stiffness from which all of it is kept.
 _ALL = 0.9999
+#: The longest label of a design, and behind which column "none" is an answer.
+_LONGEST, _KNOWN = 16, 2
 #: Between columns.
 _GAP = 2
 
@@ -84,8 +86,12 @@ def _choices(cost: CostValues) -> Iterator[str]:
 
 
 def _table(cost: CostValues) -> Iterator[str]:
-    rows = [_HEADINGS, _SECOND, *map(_row, cost.designs)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
+    """The designs, with as many uncertainties as there is room for: the last columns first."""
+    for first in range(len(_HEADINGS) + 1):
+        rows = [_HEADINGS, _SECOND, *(_row(design, first) for design in cost.designs)]
+        widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
+        if sum(widths) + _GAP * (len(widths) - 1) <= _WIDTH:
+            break
     for row in rows:
         cells = (
             cell.ljust(width) if k == 0 else cell.rjust(width)
@@ -94,19 +100,26 @@ def _table(cost: CostValues) -> Iterator[str]:
         yield (" " * _GAP).join(cells).rstrip()
 
 
-def _row(design: Design) -> tuple[str, ...]:
+def _row(design: Design, first: int) -> tuple[str, ...]:
+    """A row, with uncertainties from a column on."""
     label = design.label
-    if len(label) > 20:
-        label = f"{label[:17]}..."
-    kept = "" if design.kept is None else in_words(design.kept.smallest)
-    parasitic = design.first_parasitic
-    tolerances = [(design.tightest, "tightest"), (design.buckles_at, "critical")]
-    cells = [
-        "none" if each is None else in_words(getattr(each, name), each.misalignment.unit)
-        for each, name in tolerances
-    ]
-    known = cells if design.tolerances else ["", ""]
-    return label, kept, "" if parasitic is None else in_words(parasitic, "Hz"), *known
+    if len(label) > _LONGEST:
+        label = f"{label[: _LONGEST - 3]}..."
+    kept = None if design.kept is None else design.kept.smallest
+    tightest, buckles = design.tightest, design.buckles_at
+    columns: tuple[tuple[Number | None, str], ...] = (
+        (kept, ""),
+        (design.first_parasitic, "Hz"),
+        (tightest and tightest.tightest, tightest.misalignment.unit if tightest else ""),
+        (buckles and buckles.critical, buckles.misalignment.unit if buckles else ""),
+    )
+    cells = [label]
+    for k, (number, unit) in enumerate(columns, start=1):
+        if number is None:
+            cells.append("none" if k > _KNOWN and design.tolerances else "")
+        else:
+            cells.append(in_words(number if k >= first else Number(number.value), unit))
+    return tuple(cells)
 
 
 def _where(cost: CostValues) -> Iterator[str]:
