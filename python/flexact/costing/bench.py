@@ -173,8 +173,8 @@ class Level:
         at = self.solution
         model = at.solver.model(at.held)
         raw = core.errors(model, at.solver.arrays, at.raw, at.way.gravity, stresses, square)
-        if raw.negative:
-            raise ElasticError("the undeformed state is unstable")
+        if raw.negative or raw.loose:
+            raise ElasticError("the undeformed state has a motion without stiffness, or is unstable")
         return np.stack([raw.below, raw.above], axis=1)
 
     def measure(self, stress: FloatArray) -> float:
