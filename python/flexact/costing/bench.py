@@ -174,7 +174,7 @@ class Level:
         model = at.solver.model(at.held)
         raw = core.errors(model, at.solver.arrays, at.raw, at.way.gravity, stresses, square)
         if raw.negative or raw.loose:
-            raise ElasticError("the undeformed state has a motion without stiffness, or is unstable")
+            raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
         return np.stack([raw.below, raw.above], axis=1)
 
     def measure(self, stress: FloatArray) -> float:
