@@ -21,8 +21,8 @@ module flexact_elastic_exchange
    private
    public :: give_stiffness, run_path, run_task, task_names
 
-   character(len=24), parameter :: task_names(*) = [character(len=24) :: 'linear', 'frequencies', 'multipliers', 'matrices', &
-                                                               'errors']
+   character(len=24), parameter :: task_names(*) = &
+                                   [character(len=24) :: 'linear', 'frequencies', 'multipliers', 'matrices', 'errors']
 
 contains
 
@@ -205,7 +205,7 @@ contains
       facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. errors%failed)
       if (facts(5) > 0) return
       facts(:3) = [size(given, 2), errors%loose, errors%negative]
-      if (errors%negative > 0) return
+      if (errors%negative + errors%loose > 0) return
       answer(1, :size(given, 2)) = errors%below
       answer(2, :size(given, 2)) = errors%above
    end subroutine run_errors

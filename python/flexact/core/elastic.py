@@ -126,9 +126,9 @@ class RawErrors(NamedTuple):
     above: FloatArray
     """(k,)."""
     loose: int
-    """Motions without stiffness."""
+    """Motions of K - square M without stiffness."""
     negative: int
-    """How many stiffnesses of K - square M are negative: with one nothing was looked for."""
+    """How many stiffnesses of it are negative: with one, or one without, nothing was looked for."""
 
 
 class RawMatrices(NamedTuple):

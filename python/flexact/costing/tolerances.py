@@ -21,6 +21,8 @@ from .values import Misalignment, Number, Numbers, Tolerance
 
 #: Errors of so many sizes of the model, or radians, are none that anybody makes.
 _FAR = 10.0
+#: A design that buckles within so many times the reach is followed until it does.
+_NEAR = 1.5
 #: Places of a curve on each side of zero, closer where it falls steeply.
 _PLACES = 9
 
@@ -48,13 +50,14 @@ def tolerances_of(
     """
     found, able = [], np.ones(len(misalignments), bool)
     for k, level in enumerate(bench.levels):
+        square = level.first_square * (1.0 + shift) ** 2
         stresses = level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
         critical = level.errors(stresses, 0.0)
         progress((k + 0.5) / len(bench.levels))
         if shift < 0.0:
-            aimed = level.errors(stresses, level.first_square * (1.0 + shift) ** 2)
+            aimed = level.errors(stresses, square)
         else:
             some = [each for each, fits in zip(misalignments, able, strict=True) if fits]
             aimed = np.array([_rising(level, each, shift) for each in some]).reshape(-1, 2)
@@ -93,10 +96,12 @@ def curve_against(bench: Bench, tolerance: Tolerance, reach: float) -> Misalignm
     Args:
         bench: The design.
         tolerance: Of that misalignment.
-        reach: How far it is followed where it does not buckle [m, rad].
+        reach: How far it is followed where it does not buckle before, about [m, rad].
     """
     low, high = tolerance.critical_negative.value, tolerance.critical_positive.value
-    first, last = max(low, -reach), min(high, reach)
+    first, last = (
+        end if abs(end) <= _NEAR * reach else math.copysign(reach, end) for end in (low, high)
+    )
     bend = np.sin(np.linspace(0.0, math.pi / 2.0, _PLACES + 1)[1:])
     values = np.concatenate([first * bend[::-1], [0.0], last * bend])
     rows = []
