@@ -91,7 +91,8 @@ contains
    !> three matrices. For errors given(1, 1) has the square and the rows of misfits have stresses;
    !> answer(:2, :) the errors below and above zero. Behind answers stand motions without stiffness, as many as there is room
    !> for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
-   !> negative stiffnesses, 1 where coordinates determine all others, 1 where the arithmetic fails.
+   !> negative stiffnesses, 1 where coordinates determine all others or
+   !> no mode is missing, 1 where the arithmetic fails.
    subroutine run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given, answer, values, facts)
       integer, intent(in) :: nodes(:, :), elements(:, :)
       real(wp), intent(in) :: places(:, :), vectors(:, :), of_nodes(:, :), of_elements(:, :), wishes(:), given(:, :)
@@ -163,7 +164,7 @@ contains
       k = size(modes%value)
       values(:k) = modes%value
       answer(:size(modes%mode, 1), :k) = modes%mode
-      facts(:3) = [k, modes%loose, modes%negative]
+      facts(:4) = [k, modes%loose, modes%negative, merge(1, 0, modes%is_complete)]
    end subroutine run_modes
 
    subroutine run_matrices(elastic, state, base, independent, answer, facts)
@@ -200,7 +201,7 @@ contains
       facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. errors%failed)
       if (facts(5) > 0) return
       facts(:3) = [size(given, 2), errors%loose, errors%negative]
-      if (errors%negative > 0) return
+      if (errors%negative + errors%loose > 0) return
       answer(1, :size(given, 2)) = errors%below
       answer(2, :size(given, 2)) = errors%above
    end subroutine run_errors

@@ -3,11 +3,10 @@
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
 !> singular. K with its factor serves all stresses.
 module flexact_elastic_errors
-   use flexact_block_lanczos, only: largest_pairs
+   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
-   use flexact_elastic_pencil, only: pencil_t, make_pencil
    use flexact_elastic_projection, only: project
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
@@ -16,6 +15,8 @@ module flexact_elastic_errors
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_sparse, only: sparse_t
+   use flexact_symmetric_factor, only: solve, symmetric_times
+   use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private
    public :: errors_t, find_errors
@@ -27,6 +28,16 @@ module flexact_elastic_errors
       logical :: failed = .false.
    end type errors_t
 
+   !> inv(A) B in the inner product of A, which is definite.
+   type, extends(self_adjoint_t) :: definite_t
+      type(symmetric_pattern_t), pointer :: pattern => null()
+      type(operator_t), pointer :: a => null()
+      type(sparse_t), pointer :: b => null()
+   contains
+      procedure :: apply
+      procedure :: weigh
+   end type definite_t
+
    !> Pairs that are looked for at first, and at most, until there is one on either side.
    integer, parameter :: few = 2, many = 24, block = 4
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
@@ -36,8 +47,25 @@ module flexact_elastic_errors
 
 contains
 
+   subroutine apply(self, x, y)
+      class(definite_t), intent(in) :: self
+      real(wp), intent(in), contiguous :: x(:, :)
+      real(wp), intent(out), contiguous :: y(:, :)
+
+      call symmetric_times(self%b, x, y)
+      call solve(self%pattern, self%a%factor, y)
+   end subroutine apply
+
+   subroutine weigh(self, x, y)
+      class(definite_t), intent(in) :: self
+      real(wp), intent(in), contiguous :: x(:, :)
+      real(wp), intent(out), contiguous :: y(:, :)
+
+      call symmetric_times(self%a%matrix, x, y)
+   end subroutine weigh
+
    !> The base is that of a state without stress. No errors are found where K - square M has
-   !> something negative, or K a motion without stiffness beside a square.
+   !> something negative, or a motion without stiffness.
    subroutine find_errors(elastic, state, gravity, base, square, stress, errors)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
@@ -55,7 +83,6 @@ contains
       errors%failed = op%failed
       if (op%failed) return
       if (.not. allocated(base%tangent%mass)) call add_mass(elastic, state%configuration, base%tangent)
-      errors%loose = size(op%loose, 2)
       if (abs(square) > 0) then
          call assemble_mass(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, mass)
@@ -63,7 +90,9 @@ contains
       end if
       errors%failed = op%failed
       errors%negative = op%negative
-      if (op%failed .or. op%negative > 0) return
+      if (op%failed) return
+      errors%loose = size(op%loose, 2)
+      if (errors%negative + errors%loose > 0) return
       stressed = state
       do i = 1, size(stress, 3)
          stressed%stress = stress(:, :, i)
@@ -84,7 +113,7 @@ contains
       real(wp), intent(in) :: square
       real(wp), intent(out) :: below, above
       logical, intent(out) :: failed
-      type(pencil_t) :: pencil
+      type(definite_t) :: pencil
       type(error_t), allocatable :: error
       real(wp), allocatable :: value(:), v(:, :)
       integer :: wanted, i
@@ -93,7 +122,9 @@ contains
       above = huge(1.0_wp)
       failed = .false.
       if (.not. any(abs(hessian%value) > 0)) return
-      call make_pencil(base%space, op, hessian, op%matrix, pencil)
+      pencil%pattern => base%space%projection%pattern
+      pencil%a => op
+      pencil%b => hessian
       wanted = few
       do
          call largest_pairs(pencil, base%space%motions, wanted, value, v, error, block, accuracy)

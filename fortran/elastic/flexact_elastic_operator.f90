@@ -22,9 +22,10 @@ module flexact_elastic_operator
       type(symmetric_factor_t) :: factor
       !> (motions, loose) orthonormal.
       real(wp), allocatable :: loose(:, :)
+      !> What the terms of each diagonal entry sum up to in magnitude.
+      real(wp), allocatable :: least(:)
       logical :: failed = .false.
       type(sparse_t), private :: whole
-      real(wp), allocatable, private :: least(:)
    end type operator_t
 
 contains
@@ -36,28 +37,27 @@ contains
       logical, intent(in) :: with_hessian
       type(operator_t), intent(inout) :: op
       type(error_t), allocatable :: error
-      real(wp), allocatable :: least(:), reduced_least(:)
+      real(wp), allocatable :: least(:)
       integer :: j, p
 
       op%failed = .true.
       if (allocated(op%loose)) deallocate (op%loose)
       call assemble_stiffness(elastic, tangent, space%layout, with_hessian, op%whole, least)
       associate (z => space%projection%basis)
-         allocate (reduced_least(z%columns), source=0.0_wp)
+         op%least = spread(0.0_wp, 1, z%columns)
          do j = 1, z%columns
             do p = z%start(j), z%start(j + 1) - 1
-               reduced_least(j) = reduced_least(j) + z%value(p)**2*least(z%place(p))
+               op%least(j) = op%least(j) + z%value(p)**2*least(z%place(p))
             end do
          end do
       end associate
-      if (.not. all(reduced_least <= huge(1.0_wp))) return
+      if (.not. all(op%least <= huge(1.0_wp))) return
       call project(space%projection, op%whole, op%matrix)
-      call factorise(space%projection%pattern, op%matrix, op%factor, error, reduced_least)
+      call factorise(space%projection%pattern, op%matrix, op%factor, error, op%least)
       if (allocated(error)) return
       call null_vectors(space%projection%pattern, op%factor, op%loose, error)
       if (allocated(error)) return
       op%negative = op%factor%negative
-      op%least = reduced_least
       op%failed = .false.
    end subroutine make_operator
 

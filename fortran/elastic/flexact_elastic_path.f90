@@ -1,23 +1,32 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> From one waypoint to the next in steps that are halved where they do not converge.
+!> From one waypoint to the next in steps that are halved where they do not converge, or where
+!> they lead elsewhere than the tangents at both of their ends say: then a limit of the load or
+!> a snap lies between.
 module flexact_elastic_path
    use flexact_elastic_model, only: elastic_model_t
-   use flexact_elastic_newton, only: attempt_t, take_step, step_done
-   use flexact_elastic_state, only: state_t, waypoint_t, between
+   use flexact_elastic_newton, only: newton_t, find_increment, advance, settle, extent, step_done, step_diverges
+   use flexact_elastic_state, only: state_t, waypoint_t, between, increment_between
    use flexact_kinds, only: wp
    implicit none
    private
    public :: path_t, follow
 
-   !> No step is shorter than this part of the way.
-   real(wp), parameter :: shortest = 2.0_wp**(-13)
-   !> After a step with no more iterations the next one is twice as long.
-   integer, parameter :: few_iterations = 8
+   !> No step is shorter than this part of the way, and there are no more.
+   real(wp), parameter :: shortest = 2.0_wp**(-14)
    integer, parameter :: most_steps = 20000
+   !> After a step with no more iterations the next one is twice as long.
+   integer, parameter :: few_iterations = 10
+   integer, parameter :: most_iterations = 25
+   !> Corrections that are rounding; that may have come to rest at it; beyond which nothing is
+   !> expected any more.
+   real(wp), parameter :: tiny_correction = 1.0e-14_wp, small_correction = 1.0e-8_wp, wild_correction = 1.0e3_wp
+   !> How much of a step may differ from what the tangent says at either end, and what is too
+   !> small to be judged.
+   real(wp), parameter :: most_difference = 0.5_wp, least_step = 1.0e-6_wp
 
-   !> status: how the last step ended that was tried. reached: part of the way.
+   !> status, residual and place are those of the last step that was tried.
    type :: path_t
-      integer :: status = step_done, iterations = 0, steps = 0, place = 0
+      integer :: status = step_done, iterations = 0, steps = 0, place = 1
       real(wp) :: reached = 0.0_wp, residual = 0.0_wp
       type(state_t) :: state
    end type path_t
@@ -29,28 +38,74 @@ contains
       type(state_t), intent(in) :: start
       type(waypoint_t), intent(in) :: begin, end
       type(path_t), intent(out) :: path
-      type(attempt_t) :: attempt
+      type(newton_t) :: newton
+      type(waypoint_t) :: last, goal
       real(wp) :: length, t
+      integer :: iterations
 
-      attempt%state = start
+      path%state = start
+      where (.not. reshape(elastic%is_held .or. elastic%is_component, shape(start%reaction))) path%state%reaction = 0.0_wp
+      last = begin
       length = 1.0_wp
       do while (path%reached < 1 .and. path%steps < most_steps)
          t = min(1.0_wp, path%reached + length)
          if (1 - t < shortest/2) t = 1.0_wp
-         call take_step(elastic, between(elastic, begin, end, t), attempt)
+         goal = between(elastic, begin, end, t)
+         newton%state = path%state
+         call take_step(elastic, last, goal, newton, iterations)
          path%steps = path%steps + 1
-         path%iterations = path%iterations + attempt%iterations
-         path%status = attempt%status
-         path%place = attempt%place
-         path%residual = attempt%left%relative
-         if (attempt%status == step_done) then
+         path%iterations = path%iterations + iterations
+         path%status = newton%status
+         path%place = newton%place
+         path%residual = newton%left%relative
+         if (newton%status == step_done) then
+            path%state = newton%state
             path%reached = t
-            if (attempt%iterations <= few_iterations) length = 2*length
+            last = goal
+            if (iterations <= few_iterations) length = 2*length
          else
-            length = min(length, t - path%reached)/2
+            length = (t - path%reached)/2
             if (length < shortest) exit
          end if
       end do
-      path%state = attempt%state
    end subroutine follow
+
+   !> From a state in equilibrium at one place to that at another.
+   subroutine take_step(elastic, from, goal, newton, iterations)
+      type(elastic_model_t), intent(in) :: elastic
+      type(waypoint_t), intent(in) :: from, goal
+      type(newton_t), intent(inout) :: newton
+      integer, intent(out) :: iterations
+      real(wp), dimension(size(elastic%scale)) :: increment, first, last, whole
+      real(wp) :: far, before
+      real(wp), allocatable :: start(:, :)
+      logical :: failed
+
+      start = newton%state%configuration
+      newton%status = step_diverges
+      before = huge(before)
+      do iterations = 1, most_iterations
+         call find_increment(elastic, goal, .true., newton, increment, failed)
+         if (failed) return
+         far = extent(elastic, increment)
+         if (.not. far < wild_correction) return
+         if (iterations == 1) first = increment
+         call advance(elastic, goal, increment, newton)
+         if (far <= tiny_correction .or. (far <= small_correction .and. far > before/4)) exit
+         before = far
+      end do
+      if (iterations > most_iterations) return
+      call find_increment(elastic, from, .false., newton, last, failed)
+      call settle(elastic, goal, newton)
+      whole = increment_between(elastic, start, newton%state%configuration)
+      if (newton%status /= step_done .or. extent(elastic, whole) < least_step) return
+      if (differ(elastic, whole, first) .or. differ(elastic, whole, -last)) newton%status = step_diverges
+   end subroutine take_step
+
+   pure logical function differ(elastic, whole, predicted)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: whole(:), predicted(:)
+
+      differ = extent(elastic, whole - predicted) > most_difference*extent(elastic, whole)
+   end function differ
 end module flexact_elastic_path

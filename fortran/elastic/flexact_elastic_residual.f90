@@ -12,7 +12,8 @@ module flexact_elastic_residual
    private
    public :: left_t, balance
 
-   !> The largest force that is left, relative to the largest of all, and where it is.
+   !> The largest force that is left beyond rounding, relative to the largest of all, and where
+   !> most is left.
    type :: left_t
       real(wp) :: relative = 0.0_wp
       integer :: place = 1
@@ -46,7 +47,7 @@ contains
       call sizes_of(elastic, tangent, state, noise, most)
       most = max(most, abs(load))/elastic%scale
       left%place = maxloc(abs(f)/elastic%scale, 1)
-      if (maxval(most) > 0) left%relative = maxval(abs(f)/elastic%scale)/maxval(most)
+      if (maxval(most) > 0) left%relative = maxval(max(abs(f) - times*noise, 0.0_wp)/elastic%scale)/maxval(most)
       ! A rigid body shares what is left with all of its nodes.
       noise = max(part*maxval(most)*elastic%scale, times*noise)
       left%is_balanced = all(abs(reduced(space, elastic, f)) <= reduced_sizes(space, elastic, noise))

@@ -1,12 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Natural frequencies and buckling multipliers at a state, with their modes.
 module flexact_elastic_spectrum
-   use flexact_block_lanczos, only: largest_pairs
    use flexact_eigenpairs, only: pencil_eigenpairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator
-   use flexact_elastic_pencil, only: pencil_t, make_pencil
    use flexact_elastic_projection, only: project
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
@@ -15,17 +13,19 @@ module flexact_elastic_spectrum
    use flexact_kinds, only: wp
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
+   use flexact_symmetric_pencil, only: pairs_t, lowest_pairs, pairs_next_to_zero
    implicit none
    private
    public :: modes_t, find_frequencies, find_multipliers
 
    !> Values in ascending order, modes (3 nodes, k) of which the largest entry is 1, with rotations
    !> times a length; loose: motions without stiffness (of K + H for frequencies, of K for
-   !> multipliers), negative: negative stiffnesses of the same.
+   !> multipliers), negative: negative stiffnesses of the same. is_complete: it is confirmed that
+   !> no value is missing between those given.
    type :: modes_t
       real(wp), allocatable :: value(:), mode(:, :)
       integer :: loose = 0, negative = 0
-      logical :: failed = .false.
+      logical :: failed = .false., is_complete = .true.
    end type modes_t
 
 contains
@@ -33,87 +33,73 @@ contains
    subroutine find_frequencies(elastic, configuration, base, most, modes)
       type(elastic_model_t), intent(in) :: elastic
       real(wp), intent(in) :: configuration(:, :)
-      type(base_t), target, intent(inout) :: base
+      type(base_t), intent(inout) :: base
       integer, intent(in) :: most
       type(modes_t), intent(out) :: modes
-      type(operator_t), target :: op
-      type(sparse_t), target :: mass
-      type(sparse_t) :: whole
-      type(pencil_t) :: pencil
+      type(operator_t) :: op
+      type(sparse_t) :: whole, mass
+      type(pairs_t) :: pairs
+      type(error_t), allocatable :: error
       real(wp), allocatable :: v(:, :), value(:)
 
       call make_operator(elastic, base%tangent, base%space, .true., op)
-      modes%failed = op%failed
-      if (op%failed) return
-      modes%loose = size(op%loose, 2)
-      modes%negative = op%negative
+      call begin(op, base, modes)
       call add_mass(elastic, configuration, base%tangent)
       call assemble_mass(elastic, base%tangent, base%space%layout, whole)
+      if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, mass)
-      call make_pencil(base%space, op, mass, mass, pencil)
-      call find_pairs(pencil, most, op%negative, v, modes%failed)
+      call lowest_pairs(base%space%projection%pattern, op%matrix, op%factor, mass, most, pairs, error, op%least)
+      modes%failed = allocated(error)
       if (modes%failed) return
-      v = all_expanded(elastic, base, v)
+      modes%is_complete = pairs%is_complete
+      v = all_expanded(elastic, base, pairs%vectors)
       call settle_frequencies(elastic, base, v, value, modes%failed)
       ! Motions with mass but without stiffness.
-      v = reshape([v, all_expanded(elastic, base, pencil%touched)], [size(v, 1), size(v, 2) + size(pencil%touched, 2)])
-      value = [value, spread(0.0_wp, 1, size(pencil%touched, 2))]
+      v = reshape([v, all_expanded(elastic, base, pairs%null)], [size(v, 1), size(v, 2) + size(pairs%null, 2)])
+      value = [value, spread(0.0_wp, 1, size(pairs%null, 2))]
       call give(elastic, v, value, ascending(value), most, modes)
    end subroutine find_frequencies
 
    subroutine find_multipliers(elastic, base, most, modes)
       type(elastic_model_t), intent(in) :: elastic
-      type(base_t), target, intent(in) :: base
+      type(base_t), intent(in) :: base
       integer, intent(in) :: most
       type(modes_t), intent(out) :: modes
-      type(operator_t), target :: op
-      type(sparse_t), target :: hessian
-      type(sparse_t) :: whole
-      type(pencil_t) :: pencil
+      type(operator_t) :: op
+      type(sparse_t) :: whole, hessian
+      type(pairs_t) :: pairs
+      type(error_t), allocatable :: error
       real(wp), allocatable :: v(:, :), value(:)
       integer, allocatable :: order(:)
 
       call make_operator(elastic, base%tangent, base%space, .false., op)
-      modes%failed = op%failed
-      if (op%failed) return
-      modes%loose = size(op%loose, 2)
-      modes%negative = op%negative
+      call begin(op, base, modes)
       call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
+      if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, hessian)
-      call make_pencil(base%space, op, hessian, op%matrix, pencil)
-      call find_pairs(pencil, most, 0, v, modes%failed)
+      call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, most, pairs, error, op%least)
+      modes%failed = allocated(error)
       if (modes%failed) return
-      v = all_expanded(elastic, base, v)
+      modes%is_complete = pairs%is_complete
+      v = all_expanded(elastic, base, pairs%vectors)
       call settle_multipliers(elastic, base, v, value, modes%failed)
       order = ascending(abs(value))
       order = order(:min(most, size(order)))
       call give(elastic, v, value, order(ascending(value(order))), most, modes)
    end subroutine find_multipliers
 
-   !> The pairs of largest magnitude; with negative ones among them as far as they are found.
-   subroutine find_pairs(pencil, most, negative, v, failed)
-      type(pencil_t), intent(in) :: pencil
-      integer, intent(in) :: most, negative
-      real(wp), allocatable, intent(out) :: v(:, :)
-      logical, intent(out) :: failed
-      real(wp), allocatable :: value(:)
-      type(error_t), allocatable :: error
-      integer :: wanted
+   !> Without values, to begin with.
+   subroutine begin(op, base, modes)
+      type(operator_t), intent(in) :: op
+      type(base_t), intent(in) :: base
+      type(modes_t), intent(inout) :: modes
 
-      wanted = most + negative
-      failed = .false.
-      if (.not. any(abs(pencil%b%value) > 0)) then
-         allocate (v(pencil%space%motions, 0))
-         return
-      end if
-      do
-         call largest_pairs(pencil, pencil%space%motions, wanted, value, v, error)
-         failed = allocated(error)
-         if (failed .or. count(value < 0) >= negative .or. size(value) < wanted) return
-         if (wanted > 4*(most + negative)) return
-         wanted = 2*wanted
-      end do
-   end subroutine find_pairs
+      allocate (modes%value(0), modes%mode(base%space%layout%columns, 0))
+      modes%failed = op%failed
+      if (op%failed) return
+      modes%loose = size(op%loose, 2)
+      modes%negative = op%negative
+   end subroutine begin
 
    function all_expanded(elastic, base, y) result(v)
       type(elastic_model_t), intent(in) :: elastic

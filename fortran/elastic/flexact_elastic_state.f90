@@ -7,7 +7,7 @@ module flexact_elastic_state
    use flexact_vectors, only: cross
    implicit none
    private
-   public :: state_t, waypoint_t, between, moved, increment_between, unit_parameters, turned, rotation_between
+   public :: state_t, waypoint_t, between, moved, put_supports, increment_between, unit_parameters, turned, rotation_between
 
    !> configuration (4, nodes) as node values, Euler parameters of unit length; stress (6,
    !> elements), of rigid deformations the multipliers; reaction (3, nodes) at what is held:
@@ -86,6 +86,24 @@ contains
          end associate
       end do
    end subroutine moved
+
+   !> What is held, exactly at its target.
+   pure subroutine put_supports(elastic, target, configuration)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: target(:, :)
+      real(wp), intent(inout) :: configuration(:, :)
+      integer :: node, axis
+
+      do node = 1, elastic%model%nodes
+         if (elastic%is_turn(axes*node)) then
+            if (elastic%is_held(axes*node)) configuration(:, node) = target(:, node)
+            cycle
+         end if
+         do axis = 1, axes
+            if (elastic%is_held(axes*(node - 1) + axis)) configuration(axis, node) = target(axis, node)
+         end do
+      end do
+   end subroutine put_supports
 
    !> Euler parameters of unit length; four zeros are no rotation.
    pure function unit_parameters(euler) result(unit)

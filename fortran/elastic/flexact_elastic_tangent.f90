@@ -76,7 +76,8 @@ contains
       end do
    end subroutine weigh_nodes
 
-   !> Second derivatives under the stress and the reactions of a state, and of gravity.
+   !> Second derivatives under the stress and the reactions of a state, and of gravity. A reaction
+   !> where nothing is held any more stays as a dead load, dual to its Euler parameter.
    subroutine add_hessian(elastic, state, gravity, tangent)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
@@ -101,8 +102,7 @@ contains
       do node = 1, elastic%model%nodes
          if (elastic%model%node_kind(node) /= node_orientation) cycle
          euler = unit_parameters(state%configuration(:, node))
-         tangent%node_hessian(node) = sum(state%reaction(:, node)*euler(2:), &
-                                          elastic%is_component(axes*node - 2:axes*node))/2
+         if (elastic%is_free(axes*node)) tangent%node_hessian(node) = dot_product(state%reaction(:, node), euler(2:))/2
       end do
    end subroutine add_hessian
 

@@ -51,8 +51,8 @@ module flexact_block_lanczos
    integer, parameter :: most_restarts = 100
    !> Part of a vector's length below which what is left of it is rounding.
    real(wp), parameter :: nothing = 1.0e-12_wp
-   !> Residual of a converged pair to its eigenvalue, and to the largest one.
-   real(wp), parameter :: converged = 1.0e-10_wp, noise = 1.0e-14_wp
+   !> Residual of a converged pair to its eigenvalue, which errs by its square, and to the largest one.
+   real(wp), parameter :: converged = 1.0e-8_wp, noise = 1.0e-14_wp
    !> Eigenvalues below this part of the largest are zero.
    real(wp), parameter :: zero = 1.0e-13_wp
 
@@ -205,21 +205,20 @@ contains
       type(process_t), intent(inout) :: process
       real(wp), intent(in) :: least, inside(:)
       real(wp), intent(out) :: triangle(:, :)
-      real(wp) :: product, square, whole
-      integer :: i, j, k, round
+      real(wp) :: products(size(triangle, 1)), square, whole
+      integer :: i, k, n, round
 
       triangle = 0.0_wp
       k = 0
+      n = size(process%next, 1)
       associate (v => process%next, w => process%next_weighed)
          do i = 1, process%fresh
             whole = max(dot_product(v(:, i), w(:, i)), 0.0_wp) + inside(i)**2
-            do round = 1, 2
-               do j = 1, k
-                  product = dot_product(w(:, j), v(:, i))
-                  triangle(j, i) = triangle(j, i) + product
-                  v(:, i) = v(:, i) - product*v(:, j)
-                  w(:, i) = w(:, i) - product*w(:, j)
-               end do
+            do round = 1, merge(2, 0, k > 0)
+               call dgemm('T', 'N', k, 1, n, 1.0_wp, w, n, v(:, i), n, 0.0_wp, products, k)
+               call dgemm('N', 'N', n, 1, k, -1.0_wp, v, n, products, k, 1.0_wp, v(:, i), n)
+               call dgemm('N', 'N', n, 1, k, -1.0_wp, w, n, products, k, 1.0_wp, w(:, i), n)
+               triangle(:k, i) = triangle(:k, i) + products(:k)
             end do
             square = dot_product(v(:, i), w(:, i))
             if (.not. square > least**2*whole) cycle

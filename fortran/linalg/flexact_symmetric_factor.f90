@@ -23,8 +23,8 @@ module flexact_symmetric_factor
       integer :: n = 0
       !> Eigenvalues of the matrix that are negative, and those that are zero.
       integer :: negative = 0, zero = 0
-      !> The scale of each column, in the order as given; the rest in that of elimination.
-      real(wp), allocatable :: scale(:)
+      !> What columns are multiplied with before, in the order of elimination as all below.
+      real(wp), allocatable :: unit(:)
       !> L by columns as in the pattern, and D.
       real(wp), allocatable :: value(:), pivot(:)
       !> Columns that were pinned, and inv(F) times them, turned by the eigenvectors of S.
@@ -39,7 +39,7 @@ module flexact_symmetric_factor
    !> Larger pivots are not suspected.
    real(wp), parameter :: suspicious = 1.0e-4_wp
    !> Right-hand sides that are taken at a time.
-   integer, parameter :: lanes = 4
+   integer, parameter :: lanes = 8
 
 contains
 
@@ -56,17 +56,18 @@ contains
       real(wp) :: row(pattern%n)
 
       factor%n = pattern%n
-      allocate (factor%scale(pattern%n), factor%pivot(pattern%n), factor%value(size(pattern%place)), stat=info)
+      allocate (factor%unit(pattern%n), factor%pivot(pattern%n), factor%value(size(pattern%place)), stat=info)
       if (info /= 0) then
          call fail(error_memory, error)
          return
       end if
-      call find_scale(matrix, factor%scale, least)
+      call find_scale(matrix, row, least)
+      factor%unit = 1/row(pattern%order)
       allocate (factor%pinned(0))
       next = pattern%start(:pattern%n)
       row = 0.0_wp
       do k = 1, pattern%n
-         call gather_row(pattern, matrix, factor%scale, k, row)
+         call gather_row(pattern, matrix, factor%unit, k, row)
          call eliminate_row(pattern, k, next, row, factor)
          if (.not. abs(factor%pivot(k)) > suspicious) call pin_if_zero(pattern, k, next, factor)
       end do
@@ -109,17 +110,17 @@ contains
    end subroutine find_scale
 
    !> Row k of the scaled lower triangle.
-   pure subroutine gather_row(pattern, matrix, scale, k, row)
+   pure subroutine gather_row(pattern, matrix, unit, k, row)
       type(symmetric_pattern_t), intent(in) :: pattern
       type(sparse_t), intent(in) :: matrix
-      real(wp), intent(in) :: scale(:)
+      real(wp), intent(in) :: unit(:)
       integer, intent(in) :: k
       real(wp), intent(inout) :: row(:)
       integer :: entry, j
 
       do entry = pattern%row_start(k), pattern%row_start(k + 1) - 1
          j = pattern%row_column(entry)
-         row(j) = row(j) + matrix%value(pattern%row_entry(entry))/(scale(pattern%order(j))*scale(pattern%order(k)))
+         row(j) = row(j) + matrix%value(pattern%row_entry(entry))*unit(j)*unit(k)
       end do
    end subroutine gather_row
 
@@ -181,16 +182,21 @@ contains
       type(symmetric_factor_t), intent(inout) :: factor
       type(error_t), allocatable, intent(out) :: error
       real(wp), allocatable :: turn(:, :), unturned(:, :)
-      integer :: pins, i, k
+      real(wp) :: block(lanes, pattern%n)
+      integer :: pins, i, k, first, last
 
       pins = size(factor%pinned)
       allocate (factor%response(pattern%n, pins), factor%slack(pins))
       if (pins == 0) return
-      factor%response = 0.0_wp
-      do i = 1, pins
-         factor%response(factor%pinned(i), i) = 1.0_wp
+      do first = 1, pins, lanes
+         last = min(first + lanes - 1, pins)
+         block = 0.0_wp
+         do i = first, last
+            block(i - first + 1, factor%pinned(i)) = 1.0_wp
+         end do
+         call solve_lanes(pattern, factor, block)
+         factor%response(:, first:last) = transpose(block(:last - first + 1, :))
       end do
-      call solve_pinned(pattern, factor, factor%response)
       turn = -factor%response(factor%pinned, :)
       do i = 1, pins
          turn(i, i) = turn(i, i) + 1.0_wp
@@ -206,27 +212,52 @@ contains
       factor%negative = factor%negative + count(factor%slack < 0)
    end subroutine take_pins_off
 
-   !> Solve F x = b in place, scaled and in the order of elimination.
-   pure subroutine solve_pinned(pattern, factor, x)
+   !> Solve A x = b for x (n, k) in place of b. Where A is singular, b must be orthogonal to
+   !> its null vectors, and x is one of the solutions.
+   pure subroutine solve(pattern, factor, x)
       type(symmetric_pattern_t), intent(in) :: pattern
       type(symmetric_factor_t), intent(in) :: factor
       real(wp), intent(inout) :: x(:, :)
-      real(wp) :: block(lanes, pattern%n)
-      integer :: first, last
+      real(wp) :: block(lanes, pattern%n), part(lanes, size(factor%slack))
+      integer :: first, last, i, k
 
+      block = 0.0_wp
       do first = 1, size(x, 2), lanes
          last = min(first + lanes - 1, size(x, 2))
-         if (last == first) then
-            call solve_one(pattern, factor, x(:, first))
+         do k = 1, pattern%n
+            do i = first, last
+               block(i - first + 1, k) = x(pattern%order(k), i)*factor%unit(k)
+            end do
+         end do
+         if (size(factor%slack) > factor%zero) part = matmul(block, factor%response)
+         if (last == first) call solve_one(pattern, factor, block)
+         if (last > first) call solve_lanes(pattern, factor, block)
+         if (size(factor%slack) > factor%zero) call add_response(factor, part, block)
+         do k = 1, pattern%n
+            do i = first, last
+               x(pattern%order(k), i) = block(i - first + 1, k)*factor%unit(k)
+            end do
+         end do
+      end do
+   end subroutine solve
+
+   !> From the inverse of F to that of A.
+   pure subroutine add_response(factor, part, x)
+      type(symmetric_factor_t), intent(in) :: factor
+      real(wp), intent(inout) :: part(:, :), x(:, :)
+      integer :: i
+
+      do i = 1, size(factor%slack)
+         if (abs(factor%slack(i)) > 0) then
+            part(:, i) = part(:, i)/factor%slack(i)
          else
-            block(last - first + 2:, :) = 0.0_wp
-            block(:last - first + 1, :) = transpose(x(:, first:last))
-            call solve_lanes(pattern, factor, block)
-            x(:, first:last) = transpose(block(:last - first + 1, :))
+            part(:, i) = 0.0_wp
          end if
       end do
-   end subroutine solve_pinned
+      x = x + matmul(part, transpose(factor%response))
+   end subroutine add_response
 
+   !> Solve F x = b in place, scaled and in the order of elimination, for all lanes.
    pure subroutine solve_lanes(pattern, factor, x)
       type(symmetric_pattern_t), intent(in) :: pattern
       type(symmetric_factor_t), intent(in) :: factor
@@ -249,13 +280,15 @@ contains
       end do
    end subroutine solve_lanes
 
-   pure subroutine solve_one(pattern, factor, x)
+   !> The same for the first lane alone.
+   pure subroutine solve_one(pattern, factor, block)
       type(symmetric_pattern_t), intent(in) :: pattern
       type(symmetric_factor_t), intent(in) :: factor
-      real(wp), intent(inout) :: x(:)
-      real(wp) :: total
+      real(wp), intent(inout) :: block(:, :)
+      real(wp) :: x(pattern%n), total
       integer :: j, p
 
+      x = block(1, :)
       do j = 1, pattern%n
          total = x(j)
          do p = pattern%start(j), pattern%start(j + 1) - 1
@@ -269,33 +302,8 @@ contains
          end do
          x(j) = total
       end do
+      block(1, :) = x
    end subroutine solve_one
-
-   !> Solve A x = b for x (n, k) in place of b. Where A is singular, b must be orthogonal to
-   !> its null vectors, and x is one of the solutions.
-   pure subroutine solve(pattern, factor, x)
-      type(symmetric_pattern_t), intent(in) :: pattern
-      type(symmetric_factor_t), intent(in) :: factor
-      real(wp), intent(inout) :: x(:, :)
-      real(wp) :: scaled(pattern%n, size(x, 2)), part(size(factor%slack), size(x, 2))
-      integer :: i, k
-
-      do k = 1, size(x, 2)
-         scaled(:, k) = x(pattern%order, k)/factor%scale(pattern%order)
-      end do
-      if (size(factor%slack) > factor%zero) then
-         part = matmul(transpose(factor%response), scaled)
-         do i = 1, size(factor%slack)
-            part(i, :) = merge(part(i, :)/merge(factor%slack(i), 1.0_wp, abs(factor%slack(i)) > 0), 0.0_wp, &
-                               abs(factor%slack(i)) > 0)
-         end do
-      end if
-      call solve_pinned(pattern, factor, scaled)
-      if (size(factor%slack) > factor%zero) scaled = scaled + matmul(factor%response, part)
-      do k = 1, size(x, 2)
-         x(pattern%order, k) = scaled(:, k)/factor%scale(pattern%order)
-      end do
-   end subroutine solve
 
    !> The same with this many rounds of refinement by the residual of the matrix.
    pure subroutine solve_refined(pattern, factor, matrix, x, rounds)
@@ -330,7 +338,7 @@ contains
       do k = 1, size(factor%slack)
          if (abs(factor%slack(k)) > 0) cycle
          found = found + 1
-         vectors(pattern%order, found) = factor%response(:, k)/factor%scale(pattern%order)
+         vectors(pattern%order, found) = factor%response(:, k)*factor%unit
          vectors(:, found) = vectors(:, found)/norm2(vectors(:, found))
       end do
       call orthonormalise(vectors, error)
@@ -342,25 +350,43 @@ contains
       type(sparse_t), intent(in) :: matrix
       real(wp), intent(in), contiguous :: x(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
-      real(wp) :: total
-      integer :: i, j, k, entry
+      real(wp) :: from(lanes, matrix%columns), to(lanes, matrix%columns)
+      integer :: first, last, i
 
-      y = 0.0_wp
-      do k = 1, size(x, 2)
-         do j = 1, matrix%columns
-            total = 0.0_wp
-            do entry = matrix%start(j), matrix%start(j + 1) - 1
-               i = matrix%place(entry)
-               if (i < j) cycle
-               if (i == j) then
-                  total = total + matrix%value(entry)*x(j, k)
-               else
-                  y(i, k) = y(i, k) + matrix%value(entry)*x(j, k)
-                  total = total + matrix%value(entry)*x(i, k)
-               end if
-            end do
-            y(j, k) = y(j, k) + total
+      do first = 1, size(x, 2), lanes
+         last = min(first + lanes - 1, size(x, 2))
+         from(last - first + 2:, :) = 0.0_wp
+         do i = first, last
+            from(i - first + 1, :) = x(:, i)
+         end do
+         call multiply_lanes(matrix, from, to)
+         do i = first, last
+            y(:, i) = to(i - first + 1, :)
          end do
       end do
    end subroutine symmetric_times
+
+   pure subroutine multiply_lanes(matrix, x, y)
+      type(sparse_t), intent(in) :: matrix
+      real(wp), intent(in) :: x(lanes, matrix%columns)
+      real(wp), intent(out) :: y(lanes, matrix%columns)
+      real(wp) :: total(lanes), here(lanes)
+      integer :: i, j, entry
+
+      y = 0.0_wp
+      do j = 1, matrix%columns
+         here = x(:, j)
+         total = y(:, j)
+         do entry = matrix%start(j), matrix%start(j + 1) - 1
+            i = matrix%place(entry)
+            if (i > j) then
+               total = total + matrix%value(entry)*x(:, i)
+               y(:, i) = y(:, i) + matrix%value(entry)*here
+            else if (i == j) then
+               total = total + matrix%value(entry)*here
+            end if
+         end do
+         y(:, j) = total
+      end do
+   end subroutine multiply_lanes
 end module flexact_symmetric_factor

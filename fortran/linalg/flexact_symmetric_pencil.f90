@@ -1,58 +1,57 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Eigenvalues of pairs of sparse symmetric matrices: the lowest omega2 of
-!> K x = omega2 M x, K of any signs, M positive semidefinite; and those of K x = -l G x
-!> that are nearest to zero, K positive definite, G of any signs.
+!> Eigenvalues of pairs of sparse symmetric matrices: the lowest ones of K x = value M x,
+!> K of any signs, M positive semidefinite; and those of K x = -value G x that are nearest to
+!> zero, K positive semidefinite, G of any signs.
 !>
-!> The block Lanczos process finds them, and the inertia of K - t M, or K + t G, tells whether
-!> one is missing (Parlett, The Symmetric Eigenvalue Problem, section 3.3): then it is asked
-!> again with wider blocks. Rayleigh quotients with the caller's products come last.
+!> The block Lanczos process finds them. Null vectors of K are known and taken out. The inertia
+!> of K - t M, or K + t G, tells whether a value is missing, as where more are equal than a
+!> block has vectors (Parlett, The Symmetric Eigenvalue Problem, section 3.3): then wider
+!> blocks are taken.
 module flexact_symmetric_pencil
    use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
-   use flexact_eigenpairs, only: pencil_eigenpairs
-   use flexact_error, only: error_t, fail, error_not_definite, error_not_found
+   use flexact_eigenpairs, only: symmetric_eigenpairs
+   use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_orthonormal, only: fill_at_random
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, symmetric_times
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors, symmetric_times
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private
-   public :: product_t, lowest_pairs, pairs_next_to_zero
+   public :: pairs_t, lowest_pairs, pairs_next_to_zero
 
-   !> A product with K that loses fewer digits than K itself has lost, as by deformations.
-   type, abstract :: product_t
-   contains
-      procedure(multiply), deferred :: multiply
-   end type product_t
+   !> Values, ascending, and vectors (n, :). null (n, :): null vectors of K to which the other
+   !> matrix does something: their values are 0, and they are not among the others.
+   !> is_complete: inertia has confirmed that none is missing.
+   type :: pairs_t
+      real(wp), allocatable :: values(:), vectors(:, :), null(:, :)
+      logical :: is_complete = .false.
+   end type pairs_t
 
-   abstract interface
-      !> y = K x for x, y (n, k).
-      subroutine multiply(self, x, y)
-         import :: product_t, wp
-         class(product_t), intent(in) :: self
-         real(wp), intent(in), contiguous :: x(:, :)
-         real(wp), intent(out), contiguous :: y(:, :)
-      end subroutine multiply
-   end interface
-
-   !> Op = inv(A) B in the inner product of W, which is A or B.
+   !> Op = inv(A) B, A = K + shift M or K, in the inner product of W, on vectors that are
+   !> B-orthogonal to null vectors of K.
    type, extends(self_adjoint_t) :: pencil_t
       type(symmetric_pattern_t), pointer :: pattern => null()
       type(symmetric_factor_t) :: factor
       type(sparse_t), pointer :: b => null(), w => null()
+      !> Orthonormal null vectors N of K; T of those that B does something to, eigenvectors of
+      !> N'B N, these eigenvalues, and inv(T'B T) T'B.
+      real(wp), allocatable :: null(:, :), touched(:, :), strength(:), without(:, :)
    contains
       procedure :: apply
       procedure :: weigh
    end type pencil_t
 
-   !> Shifts are this part of the lowest value, where it is not negative, and grow by this
-   !> factor until all values lie above them, and no more often than this.
-   real(wp), parameter :: first_shift = 0.1_wp, growth = 8.0_wp
+   !> Shifts start at this part of the lowest magnitude, grow by this factor until no value
+   !> lies below, and no more often than this.
+   real(wp), parameter :: first_shift = 2.0_wp, growth = 8.0_wp
    integer, parameter :: most_shifts = 10
-   integer, parameter :: narrowest = 8, widest = 64
+   integer, parameter :: narrowest = 8, widest = 32
    !> Relative difference of values that count as one cluster.
    real(wp), parameter :: cluster = 1.0e-6_wp
+   !> Part of the largest entry of B up to which B does nothing to a null vector of K.
+   real(wp), parameter :: nothing = 1.0e-10_wp
 
 contains
 
@@ -62,7 +61,10 @@ contains
       real(wp), intent(out), contiguous :: y(:, :)
 
       call symmetric_times(self%b, x, y)
+      call take_out(self%null, self%null, y)
       call solve(self%pattern, self%factor, y)
+      call take_out(self%null, self%null, y)
+      call take_out(self%touched, self%without, y)
    end subroutine apply
 
    subroutine weigh(self, x, y)
@@ -73,58 +75,125 @@ contains
       call symmetric_times(self%w, x, y)
    end subroutine weigh
 
-   !> Up to `wanted` lowest values of K x = value M x, ascending, with x'M x = 1: fewer where
-   !> the rank of M is lower. K and M have the pattern's entries, in one order. Accurate: a
-   !> product with K to be used for Rayleigh quotients.
-   subroutine lowest_pairs(pattern, k, m, wanted, values, vectors, error, accurate)
+   pure subroutine take_out(vectors, products, x)
+      real(wp), intent(in) :: vectors(:, :), products(:, :)
+      real(wp), intent(inout) :: x(:, :)
+
+      if (size(vectors, 2) > 0) x = x - matmul(vectors, matmul(transpose(products), x))
+   end subroutine take_out
+
+   !> Up to `wanted` lowest values of K x = value M x, with x'M x = 1: fewer where the rank of M
+   !> is lower. K, whose factor is given, and M have their values in the same entries, of the
+   !> pattern; least as for `factorise`.
+   subroutine lowest_pairs(pattern, k, factor, m, wanted, pairs, error, least)
       type(symmetric_pattern_t), intent(in), target :: pattern
       type(sparse_t), intent(in), target :: k, m
+      type(symmetric_factor_t), intent(in) :: factor
       integer, intent(in) :: wanted
-      real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
+      type(pairs_t), intent(out) :: pairs
       type(error_t), allocatable, intent(out) :: error
-      class(product_t), intent(in), optional :: accurate
+      real(wp), intent(in), optional :: least(:)
       type(pencil_t) :: pencil
       real(wp) :: shift
       integer :: width, missing
 
-      pencil%pattern => pattern
-      pencil%b => m
-      pencil%w => m
-      call find_shift(pencil, k, m, shift, error)
-      if (allocated(error)) return
+      call make_pencil(pattern, factor, m, m, pencil, error)
+      if (.not. allocated(error)) call find_shift(pencil, k, m, shift, error, least)
+      pairs%null = pencil%touched
       width = narrowest
-      do
-         call largest_pairs(pencil, pattern%n, wanted, values, vectors, error, width)
+      do while (width <= widest .and. .not. (allocated(error) .or. pairs%is_complete))
+         call largest_pairs(pencil, pattern%n, wanted, pairs%values, pairs%vectors, error, width)
          if (allocated(error)) return
-         call purify(pencil, values, vectors)
-         call refine(k, m, vectors, values, error, accurate)
-         if (allocated(error)) return
-         call count_missing(pencil, k, m, -1.0_wp, values, pencil%factor%negative, missing, error)
-         if (allocated(error) .or. missing == 0) return
+         call purify(pencil, pairs)
+         pairs%values = 1/pairs%values - shift
+         call sort(pairs)
+         call count_missing(pencil, k, m, -1.0_wp, with_zeros(pairs%values, size(pencil%strength)), &
+                            pencil%factor%negative, missing, error, least)
+         pairs%is_complete = missing == 0
          width = 2*width
-         if (width > widest) exit
       end do
-      call fail(error_not_found, error)
    end subroutine lowest_pairs
 
-   !> Factorise A = K + shift M such that all finite values lie above -shift.
-   subroutine find_shift(pencil, k, m, shift, error)
+   !> Up to `wanted` values of K x = -value G x nearest to zero, with x'K x = 1: fewer where the
+   !> rank of G is lower. Null vectors of K are left out. The rest as above.
+   subroutine pairs_next_to_zero(pattern, k, factor, g, wanted, pairs, error, least)
+      type(symmetric_pattern_t), intent(in), target :: pattern
+      type(sparse_t), intent(in), target :: k, g
+      type(symmetric_factor_t), intent(in) :: factor
+      integer, intent(in) :: wanted
+      type(pairs_t), intent(out) :: pairs
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: least(:)
+      type(pencil_t) :: pencil
+      integer :: width, missing(2), above
+
+      call make_pencil(pattern, factor, g, k, pencil, error)
+      pairs%null = pencil%touched
+      width = narrowest
+      do while (width <= widest .and. .not. (allocated(error) .or. pairs%is_complete))
+         call largest_pairs(pencil, pattern%n, wanted, pairs%values, pairs%vectors, error, width)
+         if (allocated(error)) return
+         call purify(pencil, pairs)
+         pairs%values = -1/pairs%values
+         call sort(pairs)
+         above = count(.not. pairs%values > 0) + 1
+         call count_missing(pencil, k, g, 1.0_wp, pairs%values(above:), count(pencil%strength < 0), missing(1), error, least)
+         if (.not. allocated(error)) &
+            call count_missing(pencil, k, g, -1.0_wp, -pairs%values(above - 1:1:-1), count(pencil%strength > 0), &
+                               missing(2), error, least)
+         pairs%is_complete = all(missing == 0)
+         width = 2*width
+      end do
+   end subroutine pairs_next_to_zero
+
+   !> Find the null vectors of A, and what B does to them.
+   subroutine make_pencil(pattern, factor, b, w, pencil, error)
+      type(symmetric_pattern_t), intent(in), target :: pattern
+      type(symmetric_factor_t), intent(in) :: factor
+      type(sparse_t), intent(in), target :: b, w
+      type(pencil_t), intent(out) :: pencil
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: images(pattern%n, factor%zero), small(factor%zero, factor%zero), strength(factor%zero), most
+      integer, allocatable :: kept(:)
+      integer :: i
+
+      pencil%pattern => pattern
+      pencil%factor = factor
+      pencil%b => b
+      pencil%w => w
+      call null_vectors(pattern, factor, pencil%null, error)
+      if (allocated(error)) return
+      call symmetric_times(b, pencil%null, images)
+      small = matmul(transpose(pencil%null), images)
+      call symmetric_eigenpairs(small, strength, error)
+      most = maxval(abs(b%value))
+      kept = pack([(i, i=1, size(strength))], abs(strength) > nothing*most)
+      pencil%strength = strength(kept)
+      pencil%touched = matmul(pencil%null, small(:, kept))
+      pencil%without = matmul(images, small(:, kept))
+      do i = 1, size(kept)
+         pencil%without(:, i) = pencil%without(:, i)/strength(kept(i))
+      end do
+   end subroutine make_pencil
+
+   !> Factorise A = K + shift M such that all finite values lie above -shift: K itself, where
+   !> none is negative.
+   subroutine find_shift(pencil, k, m, shift, error, least)
       type(pencil_t), intent(inout) :: pencil
       type(sparse_t), intent(in) :: k, m
       real(wp), intent(out) :: shift
       type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: least(:)
       type(symmetric_factor_t) :: best
       real(wp) :: at
       integer :: round
 
       shift = 0.0_wp
-      call factorise(pencil%pattern, k, pencil%factor, error)
-      if (allocated(error)) return
-      if (pencil%factor%negative == 0 .and. pencil%factor%zero == 0) return
-      at = first_shift*lowest_magnitude(pencil)
       best = pencil%factor
+      if (best%negative == 0) return
+      at = first_shift*lowest_magnitude(pencil)
       do round = 1, most_shifts
-         call factorise(pencil%pattern, combined(k, m, at), pencil%factor, error)
+         call factorise(pencil%pattern, combined(k, m, at), pencil%factor, error, least)
          if (allocated(error)) return
          if (round == 1 .or. pencil%factor%negative < best%negative) then
             best = pencil%factor
@@ -165,47 +234,48 @@ contains
    end function combined
 
    !> Take out of vectors what the inner product does not see: they are images of themselves.
-   subroutine purify(pencil, theta, vectors)
+   !> Values are those of the operator.
+   subroutine purify(pencil, pairs)
       type(pencil_t), intent(in) :: pencil
-      real(wp), intent(in) :: theta(:)
-      real(wp), intent(inout), contiguous :: vectors(:, :)
-      real(wp) :: images(size(vectors, 1), size(vectors, 2))
+      type(pairs_t), intent(inout) :: pairs
+      real(wp) :: images(size(pairs%vectors, 1), size(pairs%vectors, 2))
+      integer :: i
 
-      call pencil%apply(vectors, images)
-      vectors = images/spread(theta, 1, size(vectors, 1))
+      call pencil%apply(pairs%vectors, images)
+      do i = 1, size(pairs%values)
+         pairs%vectors(:, i) = images(:, i)/pairs%values(i)
+      end do
    end subroutine purify
 
-   !> Values and vectors, x'M x = 1, by the Rayleigh-Ritz procedure in the space of the vectors.
-   subroutine refine(k, m, vectors, values, error, accurate)
-      type(sparse_t), intent(in) :: k, m
-      real(wp), intent(inout), contiguous :: vectors(:, :)
-      real(wp), intent(out) :: values(:)
-      type(error_t), allocatable, intent(out) :: error
-      class(product_t), intent(in), optional :: accurate
-      real(wp) :: images(size(vectors, 1), size(vectors, 2)), a(size(values), size(values)), b(size(values), size(values))
+   pure subroutine sort(pairs)
+      type(pairs_t), intent(inout) :: pairs
+      integer :: order(size(pairs%values))
 
-      call symmetric_times(m, vectors, images)
-      b = matmul(transpose(vectors), images)
-      if (present(accurate)) then
-         call accurate%multiply(vectors, images)
-      else
-         call symmetric_times(k, vectors, images)
-      end if
-      a = matmul(transpose(vectors), images)
-      a = (a + transpose(a))/2
-      call pencil_eigenpairs(a, b, values, error)
-      if (.not. allocated(error)) vectors = matmul(vectors, a)
-   end subroutine refine
+      order = ascending(pairs%values)
+      pairs%values = pairs%values(order)
+      pairs%vectors = pairs%vectors(:, order)
+   end subroutine sort
+
+   !> The same values and some zeros, ascending.
+   pure function with_zeros(values, zeros) result(all)
+      real(wp), intent(in) :: values(:)
+      integer, intent(in) :: zeros
+      real(wp) :: all(size(values) + zeros)
+
+      all = [values, spread(0.0_wp, 1, zeros)]
+      all = all(ascending(all))
+   end function with_zeros
 
    !> How many values below the last cluster were not found: K + sign t M has as many negative
    !> eigenvalues as there are values below t, and those that it has for all t.
-   subroutine count_missing(pencil, k, m, sign, values, always, missing, error)
+   subroutine count_missing(pencil, k, m, sign, values, always, missing, error, least)
       type(pencil_t), intent(in) :: pencil
       type(sparse_t), intent(in) :: k, m
       real(wp), intent(in) :: sign, values(:)
       integer, intent(in) :: always
       integer, intent(out) :: missing
       type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: least(:)
       type(symmetric_factor_t) :: factor
       integer :: below
 
@@ -214,45 +284,7 @@ contains
          if (values(below + 1) - values(below) > cluster*maxval(abs(values(below:below + 1)))) exit
       end do
       if (below < 1) return
-      call factorise(pencil%pattern, combined(k, m, sign*(values(below) + values(below + 1))/2), factor, error)
+      call factorise(pencil%pattern, combined(k, m, sign*(values(below) + values(below + 1))/2), factor, error, least)
       if (.not. allocated(error)) missing = max(0, factor%negative - always - below)
    end subroutine count_missing
-
-   !> Up to `wanted` values l of K x = -l G x nearest to zero, ascending, with x'K x = 1: fewer
-   !> where the rank of G is lower. K must be positive definite.
-   subroutine pairs_next_to_zero(pattern, k, g, wanted, values, vectors, error)
-      type(symmetric_pattern_t), intent(in), target :: pattern
-      type(sparse_t), intent(in), target :: k, g
-      integer, intent(in) :: wanted
-      real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
-      type(error_t), allocatable, intent(out) :: error
-      type(pencil_t) :: pencil
-      integer :: width, missing(2)
-
-      pencil%pattern => pattern
-      pencil%b => g
-      pencil%w => k
-      call factorise(pattern, k, pencil%factor, error)
-      if (allocated(error)) return
-      if (pencil%factor%negative + pencil%factor%zero > 0) call fail(error_not_definite, error)
-      if (allocated(error)) return
-      width = narrowest
-      do
-         call largest_pairs(pencil, pattern%n, wanted, values, vectors, error, width)
-         if (allocated(error)) return
-         call refine(g, k, vectors, values, error)
-         if (allocated(error)) return
-         values = -1/values
-         vectors = vectors(:, ascending(values))
-         values = values(ascending(values))
-         call count_missing(pencil, k, g, 1.0_wp, pack(values, values > 0), 0, missing(1), error)
-         if (allocated(error)) return
-         call count_missing(pencil, k, g, -1.0_wp, -pack(values(size(values):1:-1), values(size(values):1:-1) < 0), &
-                            0, missing(2), error)
-         if (allocated(error) .or. all(missing == 0)) return
-         width = 2*width
-         if (width > widest) exit
-      end do
-      call fail(error_not_found, error)
-   end subroutine pairs_next_to_zero
 end module flexact_symmetric_pencil

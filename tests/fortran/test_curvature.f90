@@ -30,9 +30,23 @@ program test_curvature
          call compare_along_a_path()
       end do
    end do
+   call test_degenerate()
    call tally%finish()
 
 contains
+
+   !> Ends that have come to coincide, and an axis turned right over, give finite numbers.
+   subroutine test_degenerate()
+      real(wp), parameter :: half_a_turn(3, 3) = real(reshape([-1, 0, 0, 0, -1, 0, 0, 0, 1], [3, 3]), wp)
+
+      do kind = 1, size(element_kinds)
+         call random_ends(kind, reference, p, q)
+         q = p
+         q%rotation = matmul(matmul(matmul(p%rotation, reference%frame), half_a_turn), transpose(reference%frame))
+         call element_curvature(kind, reference, p, q, sigma, h)
+         call tally%check(all(abs(h) <= huge(h)), 'curvature of a collapsed '//element_kinds(kind)%keyword)
+      end do
+   end subroutine test_degenerate
 
    !> sigma' e and its gradient sigma' D, at p and q moved by a change.
    subroutine evaluate(change, value, gradient)

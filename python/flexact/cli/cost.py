@@ -110,7 +110,10 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             points=chosen.points,
         )
     except AskedError as error:
-        raise BatchError(str(error)) from None
+        *others, last = error.messages
+        for each in others:
+            complain(f"flexact: error: {harmless(each)}")
+        raise BatchError(last) from None
     for target in chosen.output:
         plan_file(deck, target)
         with unwinding():
@@ -136,6 +139,9 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
         for target in chosen.output:
             text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
             complain(text) if chosen.json else say(text)
+        if made.stroke is not None and made.stroke.why:
+            complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
+            return Outcome(deck.name, ExitCode.OTHER, "costed in part", "stroke beyond reach")
         return Outcome(deck.name, ExitCode.ANALYSED, "costed")
 
     return take([deck], step, as_json=chosen.json)

@@ -113,6 +113,8 @@ class RawModes(NamedTuple):
     then those of the rest."""
     negative: int
     """How many stiffnesses are negative, of the same."""
+    is_complete: bool
+    """Whether it is confirmed that no value is missing between those given."""
 
 
 class RawErrors(NamedTuple):
@@ -123,9 +125,9 @@ class RawErrors(NamedTuple):
     above: FloatArray
     """(k,)."""
     loose: int
-    """Motions without stiffness."""
+    """Motions of K - square M without stiffness."""
     negative: int
-    """How many stiffnesses of K - square M are negative: with one nothing was looked for."""
+    """How many stiffnesses of it are negative: with one, or one without, nothing was looked for."""
 
 
 class RawMatrices(NamedTuple):
@@ -350,7 +352,9 @@ def _modes(
     answer, facts = _studied(model, arrays, state, gravity, task, count, given, room)
     k = int(facts[0])
     modes = answer[: 3 * nodes, :k].reshape((3, nodes, k), order="F")
-    return RawModes(answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]))
+    return RawModes(
+        answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]), facts[3] == 1
+    )
 
 
 def _studied(

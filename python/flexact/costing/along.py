@@ -60,7 +60,7 @@ def follow(elastic: Elastic, asked: Asked) -> Along:
         why += [reason] if reason else []
     values = np.array(sorted(found))
     return Along(
-        tuple(found[v] for v in values.tolist()), values, (ends[0], ends[1]), " ".join(why)
+        tuple(found[v] for v in values.tolist()), values, (ends[0], ends[1]), "; ".join(why)
     )
 
 

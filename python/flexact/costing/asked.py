@@ -96,7 +96,7 @@ class Asked:
         if made.points < 2 and not wrong:
             wrong.append("a stroke has 2 places at least")
         if wrong:
-            raise AskedError("; ".join(wrong))
+            raise AskedError(*wrong)
         return made
 
 

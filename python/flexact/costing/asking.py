@@ -5,20 +5,20 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
 from typing import NamedTuple
 
+from ..base.errors import FlexactError
 from ..base.plain_text import in_short
 
-_UNITS: dict[str, tuple[float, str]] = {
-    **dict.fromkeys(("m",), (1.0, "m")),
-    "mm": (1e-3, "m"),
-    **dict.fromkeys(("um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"), (1e-6, "m")),
-    "nm": (1e-9, "m"),
-    "rad": (1.0, "rad"),
-    "mrad": (1e-3, "rad"),
-    **dict.fromkeys(("urad", "\N{MICRO SIGN}rad", "\N{GREEK SMALL LETTER MU}rad"), (1e-6, "rad")),
-    **dict.fromkeys(("deg", "\N{DEGREE SIGN}"), (math.pi / 180.0, "rad")),
+#: Powers of ten, so that 5um is the number that 5e-6 is.
+_PREFIXES = {
+    "": 0,
+    "m": -3,
+    **dict.fromkeys(("u", "\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}"), -6),
+    "n": -9,
 }
+_DEGREES = ("deg", "\N{DEGREE SIGN}")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 _COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
 _RELEASE = re.compile(r"\s*(\d{1,9})\s*:\s*(\d{1,9})\s*(?:=(.*))?")
@@ -29,8 +29,21 @@ _NOTCH_UNITS = ("", "Nm/rad", "N*m/rad", "N/m")
 NONE = "none"
 
 
-class AskedError(ValueError):
-    """What was asked for is not understood; its text says what is wanted."""
+class AskedError(FlexactError, ValueError):
+    """What was asked for is not understood; its text says what is wanted.
+
+    Attributes:
+        messages: What is wrong, one by one.
+    """
+
+    def __init__(self, *messages: str) -> None:
+        """Keep what is wrong."""
+        super().__init__("; ".join(messages))
+        self.messages = messages
+
+    def __reduce__(self) -> tuple[type[AskedError], tuple[str, ...]]:
+        """What makes it anew, as a worker of a sweep does."""
+        return type(self), self.messages
 
 
 class PointText(NamedTuple):
@@ -76,12 +89,16 @@ def quantity(text: str, unit: str) -> float:
         AskedError: it is none, or of another unit.
     """
     found = _NUMBER.fullmatch(text)
-    factor, of = _UNITS.get(found[2], (0.0, "")) if found and found[2] else (1.0, unit)
-    if found is None or of != unit:
+    value = math.nan
+    if found is not None and found[2] in _DEGREES and unit == "rad":
+        value = math.radians(float(found[1]))
+    elif found is not None and (found[2] or unit).endswith(unit):
+        power = _PREFIXES.get((found[2] or unit)[: -len(unit)])
+        value = math.nan if power is None else float(Decimal(found[1]).scaleb(power))
+    if math.isnan(value):
         example = "50um, 0.1mm or 5e-5" if unit == "m" else "50urad, 1mrad, 2deg or 1e-3"
         kind = "a length [m]" if unit == "m" else "an angle [rad]"
         raise AskedError(f"{kind} is wanted, such as {example}, not {in_short(text.strip())}")
-    value = float(found[1]) * factor
     if not math.isfinite(value):
         raise AskedError(f"{in_short(text.strip())} is too large")
     return value

@@ -173,13 +173,17 @@ class Level:
         at = self.solution
         model = at.solver.model(at.held)
         raw = core.errors(model, at.solver.arrays, at.raw, at.way.gravity, stresses, square)
-        if raw.negative:
-            raise ElasticError("the undeformed state is unstable")
+        if raw.negative or raw.loose:
+            raise ElasticError("the undeformed state has a motion without stiffness, or is unstable")
         return np.stack([raw.below, raw.above], axis=1)
 
     def measure(self, stress: FloatArray) -> float:
         """First frequency [Hz] under a stress, 0 where it is unstable; or the lowest stiffness."""
-        square = float(self._stressed(stress).squares.values[0])
+        at = self.solution
+        raw = at.raw._replace(stress=np.asfortranarray(stress))
+        model = at.solver.model(at.held)
+        found = core.frequencies(model, at.solver.arrays, raw, at.way.gravity, 1)
+        square = float(found.values[0])
         return max(square, 0.0) if not self.bench.has_masses else frequency_of(square)
 
     def buckled(self, each: Misalignment, sense: float) -> FloatArray | None:

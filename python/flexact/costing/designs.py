@@ -64,7 +64,8 @@ class MisalignmentCurve(Frozen):
         misalignment: Of which clamp, in which direction: the one that matters most as built.
         values: (n,) error [m, rad], ascending through 0; a design that never buckles is followed
             as far as the one as built.
-        measure: (n,) first frequency [Hz], or without masses the drive stiffness [N/m, N m/rad];
+        measure: (n,) first frequency [Hz], or without masses the lowest stiffness of the driven
+            point [N/m, N m/rad];
             0 where it buckles.
     """
 
@@ -227,6 +228,17 @@ class Stroke(Frozen):
         """Of its values: m or rad."""
         return unit_of_direction(self.coordinate)
 
+    @property
+    def beyond(self) -> str:
+        """How far it went, where that is not all the way; empty otherwise."""
+        if not self.why:
+            return ""
+        asked, reached = (f"{a:.6g} to {b:.6g} {self.unit}" for a, b in (self.asked, self.reached))
+        return (
+            f"the stroke of {self.words} was asked from {asked} and reached from {reached}: "
+            f"{self.why}"
+        )
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CostValues(Frozen):
@@ -239,7 +251,7 @@ class CostValues(Frozen):
         point: Where stiffness is measured.
         directions: Those of the point: six, three in the plane, or three displacements.
         clamps: The supports that may be misaligned.
-        measure: What `shift` is of: "first frequency", or without masses "drive stiffness".
+        measure: What `shift` is of: "first frequency", or without masses "lowest stiffness".
         shift: Relative, such as -0.05: a fall of 5 %.
         held: "elastic" or "rigid": what was made of held deformations.
         drive: "free" or "locked".

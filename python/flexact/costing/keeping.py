@@ -13,6 +13,8 @@ from .values import Kept, Numbers, unit_of_direction, words_of_direction
 
 #: Compliances below this part of the largest, lengths by the size, are of directions that are held.
 _HELD = 1.0e-12
+#: The same of what moves after that did not move before.
+_NEW = 1.0e-9
 #: mu that differ by less than this part are equal.
 _EQUAL = 1.0e-6
 #: Parts of the energy from which a direction is named, and how many are.
@@ -38,7 +40,8 @@ def scales_of(directions: Sequence[str], size: float) -> FloatArray:
 def able(compliance: FloatArray, scale: FloatArray) -> BoolArray:
     """(d,) directions that are not held."""
     own = np.diag(compliance) * scale**2
-    made: BoolArray = own > _HELD * own.max(initial=0.0)
+    there = np.isfinite(own)
+    made: BoolArray = there & (own > _HELD * own[there].max(initial=0.0))
     return made
 
 
@@ -53,24 +56,55 @@ def ratios(before: FloatArray, after: FloatArray, scale: FloatArray) -> Ratios:
         after: (d, d) likewise.
         scale: (d,) see `scales_of`.
     """
+    lost = np.isinf(np.diag(after)) & ~np.isinf(np.diag(before))
+    if lost.any():
+        return _nothing_left(before, after, scale, lost)
     free = np.flatnonzero(able(before, scale) & able(after, scale))
-    loads, shares = (np.zeros((scale.size, free.size)) for _ in range(2))
     if not free.size:
-        return Ratios(np.zeros(0), loads, shares)
+        none = np.zeros((scale.size, 0))
+        return Ratios(np.zeros(0), none, none)
     one, two = ((each * np.outer(scale, scale))[np.ix_(free, free)] for each in (before, after))
-    # Of mu^-1, so that only the compliance before need be positive: C_after v = mu^-1 C_before v.
-    lower = np.linalg.cholesky((one + one.T) / 2.0)
-    inner = np.linalg.solve(lower, np.linalg.solve(lower, (two + two.T) / 2.0).T)
-    inverse, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
-    with np.errstate(divide="ignore"):
-        mu = np.where(inverse > 0.0, 1.0 / np.where(inverse > 0.0, inverse, 1.0), 0.0)
-    order = np.argsort(mu, kind="stable")
-    mu = mu[order]
-    vectors = _aligned(np.linalg.solve(lower.T, vectors[:, order]), mu)
+    mu, vectors = _pairs((one + one.T) / 2.0, (two + two.T) / 2.0)
+    loads, shares = (np.zeros((scale.size, mu.size)) for _ in range(2))
+    vectors = _aligned(vectors, mu)
     done = vectors * (two @ vectors)
     loads[free] = vectors / np.abs(vectors).max(axis=0)
-    shares[free] = done / done.sum(axis=0)
+    shares[free] = done / np.where(done.sum(axis=0) != 0.0, done.sum(axis=0), 1.0)
     return Ratios(mu, loads, shares)
+
+
+def _pairs(one: FloatArray, two: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Values mu of one v = mu two v, ascending, and v, where something moves.
+
+    By those of its inverse, so that only the first matrix need be positive; what moves in the
+    second alone keeps nothing.
+    """
+    values, axes = np.linalg.eigh(one)
+    some = values > _HELD * values.max()
+    root = axes[:, some] / np.sqrt(values[some])
+    inverse, turned = np.linalg.eigh(root.T @ two @ root)
+    mu = np.where(inverse > 0.0, 1.0 / np.where(inverse > 0.0, inverse, 1.0), 0.0)
+    rest = axes[:, ~some]
+    left, new = np.linalg.eigh(rest.T @ two @ rest)
+    moves = left > _NEW * max(np.trace(two), 0.0)
+    mu = np.concatenate([np.zeros(int(moves.sum())), mu])
+    vectors = np.hstack([rest @ new[:, moves], root @ turned])
+    order = np.argsort(mu, kind="stable")
+    return mu[order], vectors[:, order]
+
+
+def _nothing_left(
+    before: FloatArray, after: FloatArray, scale: FloatArray, lost: BoolArray
+) -> Ratios:
+    """The ratios where a motion without stiffness is new: 0 along it, then those of the rest."""
+    inner = np.where(lost[:, None] | lost, 0.0, after)
+    rest = ratios(before, np.where(np.isfinite(inner), inner, 0.0), scale)
+    first = lost.astype(np.float64)[:, None]
+    return Ratios(
+        np.concatenate([[0.0], rest.mu]),
+        np.hstack([first, rest.loads]),
+        np.hstack([first / first.sum(), rest.shares]),
+    )
 
 
 def _aligned(vectors: FloatArray, mu: FloatArray) -> FloatArray:
@@ -80,7 +114,8 @@ def _aligned(vectors: FloatArray, mu: FloatArray) -> FloatArray:
     if count < 2:
         return vectors
     base = np.linalg.qr(vectors[:, :count])[0]
-    row = int(np.argmax(np.linalg.norm(base, axis=1)))
+    # The last digits do not decide which of equal directions it is.
+    row = int(np.argmax(np.round(np.linalg.norm(base, axis=1), 6)))
     made = vectors.copy()
     made[:, 0] = base @ base[row]
     return made

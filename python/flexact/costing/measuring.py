@@ -50,7 +50,7 @@ class Measures:
     def stiffness(self, state: State) -> FloatArray:
         """(d,) inverse of each compliance along its direction; infinite where it is held."""
         compliance = self.compliance(state)
-        free = able(compliance, self.scale)
+        free = able(compliance, self.scale) | np.isinf(np.diag(compliance))
         own = np.where(free, np.diag(compliance), 1.0)
         return np.where(free, 1.0 / own, np.inf)
 

@@ -17,8 +17,8 @@ _PREFIXES: dict[str, tuple[tuple[float, str], ...]] = {
     "J": ((1.0, "J"), (1e-3, "mJ"), (1e-6, "uJ"), (1e-9, "nJ")),
     "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
 }
-#: Digits of a number without uncertainty, and at most.
-_DIGITS, _MOST_DIGITS = 4, 6
+#: Digits of a number whose uncertainty is below this part of it.
+_DIGITS, _CERTAIN = 4, 0.5e-4
 #: Decimals of a number that stand before it is written with an exponent.
 _MOST_DECIMALS = 8
 
@@ -49,12 +49,11 @@ def scale_of(value: float, unit: str) -> tuple[float, str]:
 
 
 def _rounded(value: float, off: float) -> str:
-    if not off > abs(value) * 10.0**-_MOST_DIGITS:
-        return f"{value:.{_DIGITS}g}" if off == 0.0 else f"{value:.{_MOST_DIGITS}g}"
-    # Two digits of an uncertainty that begins with 1, else one.
+    if not off > _CERTAIN * abs(value):
+        return f"{value:.{_DIGITS}g}"
+    # One digit of the uncertainty, rounded up.
     digits = -math.floor(math.log10(off))
-    if off * 10.0**digits < 2.0:
-        digits += 1
+    off = math.ceil(off * 10.0**digits - 1.0e-9) / 10.0**digits
     if digits > _MOST_DECIMALS or digits < 0:
         return f"{value:.{_DIGITS}g} +- {off:.1g}"
     return f"{value:.{digits}f} +- {off:.{digits}f}"

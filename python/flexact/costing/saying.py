@@ -14,6 +14,12 @@ from .measuring import Measures
 from .places import Places
 from .values import words_of_direction
 
+#: From so many beams a sheet on, tolerances are right to some percent (stiffness of thin sheets to
+#: lateral buckling hangs on what happens between elements).
+ENOUGH = 8
+#: How far off one beam a sheet was found to be.
+_OPTIMISTIC = 80
+
 
 def stroke_in_words(
     places: Places, values: StrokeValues | None, asked: Asked, ways: Sequence[Along]
@@ -40,6 +46,12 @@ def left_out(
 ) -> tuple[str, ...]:
     """What the deck's data do not allow, and what was not looked at."""
     made = []
+    if isinstance(asked.beams, int) and asked.beams < ENOUGH:
+        made.append(
+            f"with so few beams a sheet tolerances come out too large, with one up to "
+            f'{_OPTIMISTIC} times: --beams auto (beams="auto") refines by itself and shows what is '
+            "left open"
+        )
     if not measures.has_masses:
         made.append(
             "no masses are given (EM, XM): there are no frequencies, and tolerances are those for "
@@ -52,9 +64,10 @@ def left_out(
         )
     if result.over_constrained and asked.release is None and len(designs) == 1:
         made.append("no proven release was found; name one with --release (release=)")
-    if result.under_constrained:
+    whole = result.with_internal_declared or result
+    if whole.under_constrained:
         made.append(
-            f"under-constrained by {result.under_constrained} as declared; what is elastic may "
+            f"under-constrained by {whole.under_constrained} as declared; what is elastic may "
             "hold these motions all the same"
         )
     return tuple(made)

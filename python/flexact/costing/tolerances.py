@@ -21,6 +21,8 @@ from .values import Misalignment, Number, Numbers, Tolerance
 
 #: Errors of so many sizes of the model, or radians, are none that anybody makes.
 _FAR = 10.0
+#: A design that buckles within so many times the reach is followed until it does.
+_NEAR = 1.5
 #: Places of a curve on each side of zero, closer where it falls steeply.
 _PLACES = 9
 
@@ -93,10 +95,12 @@ def curve_against(bench: Bench, tolerance: Tolerance, reach: float) -> Misalignm
     Args:
         bench: The design.
         tolerance: Of that misalignment.
-        reach: How far it is followed where it does not buckle [m, rad].
+        reach: How far it is followed where it does not buckle before, about [m, rad].
     """
     low, high = tolerance.critical_negative.value, tolerance.critical_positive.value
-    first, last = max(low, -reach), min(high, reach)
+    first, last = (
+        end if abs(end) <= _NEAR * reach else math.copysign(reach, end) for end in (low, high)
+    )
     bend = np.sin(np.linspace(0.0, math.pi / 2.0, _PLACES + 1)[1:])
     values = np.concatenate([first * bend[::-1], [0.0], last * bend])
     rows = []

@@ -17,7 +17,7 @@ from ..core.arrays import FloatArray
 DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 PLANAR = ("x", "y", "rz")
 #: What the first frequency is called where the deck has no masses.
-FREQUENCY, STIFFNESS = "first frequency", "drive stiffness"
+FREQUENCY, STIFFNESS = "first frequency", "lowest stiffness"
 
 
 def unit_of_direction(direction: str) -> str:

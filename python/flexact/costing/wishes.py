@@ -45,10 +45,9 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
             clamp = places.clamp_of(places.node(each.clamp))
             held = places.directions(clamp)
             if each.coordinate not in held:
-                what = f"it holds {', '.join(held)}" if held else "it holds nothing"
-                raise model_error(
-                    "not-held", f"{clamp.words} does not hold {each.coordinate}", what
-                )
+                what = f"it holds {', '.join(held)}" if held else "it is free: no clamp"
+                words = f"node {clamp.node} does not hold {each.coordinate}"
+                raise model_error("not-held", words, what)
             about = None if each.about is None else _pivot(places, each.about)
             made.append((Misalignment(clamp, each.coordinate, about), each.value))
         except ModelError as error:

@@ -9,12 +9,16 @@ from collections.abc import Iterator
 from ..base.plain_text import harmless
 from .designs import CostValues, Design
 from .quantities import in_words, percent
-from .values import FREQUENCY, Tolerance, words_of_direction
+from .values import FREQUENCY, Number, Tolerance, words_of_direction
 from .words_of_paths import effects, stroke
 
 _WIDTH = 80
 _HEADINGS = ("design", "worst stiffness", "first parasitic", "tightest", "buckles at")
 _SECOND = ("", "kept", "frequency", "tolerance", "")
+#: A part of a stiffness from which all of it is kept.
+_ALL = 0.9999
+#: The longest label of a design, and behind which column "none" is an answer.
+_LONGEST, _KNOWN = 16, 2
 #: Between columns.
 _GAP = 2
 
@@ -71,7 +75,9 @@ def _choices(cost: CostValues) -> Iterator[str]:
     beams = (
         "8 and 16 beams a sheet, extrapolated"
         if cost.beams == "auto"
-        else f"{cost.beams} beam{'s' * (cost.beams != 1)} a sheet, uncertainty not known"
+        else "the deck's own elements, uncertainty not known"
+        if cost.beams == 1
+        else f"{cost.beams} beams a sheet, uncertainty not known"
     )
     yield _filled(
         f"At {harmless(cost.point.words)}, {cost.point.reason}. Held deformations {cost.held}, "
@@ -80,8 +86,12 @@ def _choices(cost: CostValues) -> Iterator[str]:
 
 
 def _table(cost: CostValues) -> Iterator[str]:
-    rows = [_HEADINGS, _SECOND, *map(_row, cost.designs)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
+    """The designs, with as many uncertainties as there is room for: the last columns first."""
+    for first in range(len(_HEADINGS) + 1):
+        rows = [_HEADINGS, _SECOND, *(_row(design, first) for design in cost.designs)]
+        widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
+        if sum(widths) + _GAP * (len(widths) - 1) <= _WIDTH:
+            break
     for row in rows:
         cells = (
             cell.ljust(width) if k == 0 else cell.rjust(width)
@@ -90,19 +100,26 @@ def _table(cost: CostValues) -> Iterator[str]:
         yield (" " * _GAP).join(cells).rstrip()
 
 
-def _row(design: Design) -> tuple[str, ...]:
+def _row(design: Design, first: int) -> tuple[str, ...]:
+    """A row, with uncertainties from a column on."""
     label = design.label
-    if len(label) > 20:
-        label = f"{label[:17]}..."
-    kept = "" if design.kept is None else in_words(design.kept.smallest)
-    parasitic = design.first_parasitic
-    tolerances = [(design.tightest, "tightest"), (design.buckles_at, "critical")]
-    cells = [
-        "none" if each is None else in_words(getattr(each, name), each.misalignment.unit)
-        for each, name in tolerances
-    ]
-    known = cells if design.tolerances else ["", ""]
-    return label, kept, "" if parasitic is None else in_words(parasitic, "Hz"), *known
+    if len(label) > _LONGEST:
+        label = f"{label[: _LONGEST - 3]}..."
+    kept = None if design.kept is None else design.kept.smallest
+    tightest, buckles = design.tightest, design.buckles_at
+    columns: tuple[tuple[Number | None, str], ...] = (
+        (kept, ""),
+        (design.first_parasitic, "Hz"),
+        (tightest and tightest.tightest, tightest.misalignment.unit if tightest else ""),
+        (buckles and buckles.critical, buckles.misalignment.unit if buckles else ""),
+    )
+    cells = [label]
+    for k, (number, unit) in enumerate(columns, start=1):
+        if number is None:
+            cells.append("none" if k > _KNOWN and design.tolerances else "")
+        else:
+            cells.append(in_words(number if k >= first else Number(number.value), unit))
+    return tuple(cells)
 
 
 def _where(cost: CostValues) -> Iterator[str]:
@@ -110,7 +127,8 @@ def _where(cost: CostValues) -> Iterator[str]:
     for design in cost.designs:
         told = []
         if design.kept is not None:
-            told.append(f"weakest {design.kept.words}")
+            is_all = design.kept.smallest.value > _ALL
+            told.append("keeps all stiffness" if is_all else f"weakest {design.kept.words}")
         tightest, buckles = design.tightest, design.buckles_at
         if tightest is not None:
             told.append(f"tightest {harmless(tightest.misalignment.words)}")
@@ -131,7 +149,7 @@ def _legend(cost: CostValues) -> Iterator[str]:
     kept = "worst stiffness kept: the smallest mu of C_before v = mu C_after v at the point; "
     shift = percent(abs(cost.shift))
     way = "fall" if cost.shift < 0 else "rise"
-    what = "first frequency" if cost.measure == FREQUENCY else "stiffness of the drive"
+    what = FREQUENCY if cost.measure == FREQUENCY else "lowest stiffness of that point"
     yield _filled(
         f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
         f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "

@@ -27,7 +27,7 @@ def stroke(cost: CostValues) -> Iterator[str]:
     rest = f"{asked.rest / factor:.6g} {unit}"
     yield _filled(f"{words}; it rests at {rest}.")
     if asked.why:
-        yield _filled(asked.why)
+        yield _filled(f"{asked.beyond[:1].upper()}{asked.beyond[1:]}.")
     rows: list[Sequence[str]] = [
         ("design", "stiffness kept", "at", "lowest parasitic", "drive force"),
     ]
@@ -85,7 +85,7 @@ def effects(cost: CostValues) -> Iterator[str]:
     )
     yield _filled(f"With {given}, all of the nonlinearity:")
     rows: list[Sequence[str]] = [
-        ("design", "first frequency", "stiffness kept", "normal force", "moment", "stress"),
+        ("design", "first frequency", "stiffness kept", "moment", "stress"),
     ]
     for design in cost.designs:
         if design.effect is not None:
@@ -98,10 +98,9 @@ def effects(cost: CostValues) -> Iterator[str]:
 def _effect(effect: Effect) -> tuple[str, ...]:
     first = effect.frequencies
     frequency = "" if first is None else f"{first.value[0, 0]:.4g} -> {first.value[1, 0]:.4g} Hz"
-    normal = in_words(_at(effect.resultants, 1, 0), "N")
     moment = f"{float(np.max(effect.resultants.value[1, 1:])):.3g} N m"
-    peak = "" if effect.peak is None else in_words(_at(effect.peak, 1), "Pa")
-    return frequency, in_words(effect.kept), normal, moment, peak
+    peak = "" if effect.peak is None else in_words(Number(float(effect.peak.value[1])), "Pa")
+    return frequency, in_words(effect.kept), moment, peak
 
 
 def _state(design: Design) -> Iterator[str]:

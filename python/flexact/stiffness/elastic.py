@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core.elements import Class
+from ..core.elements import Class, NodeKind
 from ..deck.models import read
 from ..model.model import Model
 from . import paths
@@ -80,14 +80,15 @@ class Elastic(Tolerated):
                 f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
             )
         given = values if isinstance(values, (list, tuple, np.ndarray)) else list(values)
-        there = paths.strokes_given(given, coordinate.startswith("r"))
+        turns = self.points.kinds[drive.node] == NodeKind.ORIENTATION
+        there = paths.strokes_given(given, bool(turns))
         ways = [
             paths.driven(at, self.points, drive, there, self.drive == "locked")
             for at in self._assembled()
         ]
         words = self.points.words(drive)
         return tuple(
-            State(self, f"{words} at {value:g}", drive, states)
+            State(self, f"driven to {words} = {value:g}", drive, states)
             for value, states in zip(there, zip(*ways, strict=True), strict=True)
         )
 

@@ -13,7 +13,7 @@ from ..core.arrays import FloatArray
 
 #: The uncertainty of an extrapolated value, as a part of what the extrapolation adds to the finer
 #: one; docs/stiffness.md says what was measured.
-SAFETY = 0.5
+SAFETY = 1.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,8 +44,8 @@ class Imperfection(Frozen):
 
     @property
     def label(self) -> str:
-        """Such as "x of clamp 11 off by 5e-05"."""
-        return f"{self.words} off by {self.value:g}"
+        """Such as "off: x of clamp 11 by 5e-05"."""
+        return f"off: {self.words} by {self.value:g}"
 
     def shift(self, data: ModelData) -> FloatArray:
         """(3, nodes) velocity of the supports for each unit."""

@@ -69,7 +69,8 @@ class OnMeshes(Frozen):
         """Numbers of the state of a mesh, extrapolated from those of both."""
         values = [np.asarray(of(each), np.float64) for each in self.meshes]
         made = values[0] if len(values) == 1 else Estimate.of(*values).value
-        return np.array(made)
+        # A zero has no sign.
+        return np.array(made) + 0.0
 
     def eigenvalues(
         self,

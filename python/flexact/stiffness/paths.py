@@ -17,6 +17,7 @@ from .errors import ElasticError, StrokeError
 from .imperfections import Imperfection
 from .mesh import Mesh
 from .points import Coordinate, Points
+from .rotations import dual_to_parameters
 from .solution import Solution
 from .solver import Held, Solver
 
@@ -101,9 +102,20 @@ def driven(
         raw = _go(solver, held, here.raw, before, way)
         if raw.status != DONE:
             raise _stopped(solver.mesh, raw, last, there, points.words(drive))
-        here, last = Solution(solver, raw.state, way, held if locked else start.held), there
-        found[k] = here
+        here, last = Solution(solver, raw.state, way, held), there
+        found[k] = here if locked else _freed(here, start.held, drive)
     return tuple(found[k] for k in range(len(values)))
+
+
+def _freed(at: Solution, held: Held, drive: Coordinate) -> Solution:
+    """The state with the drive free: its force stays as a dead load."""
+    raw = at.raw
+    if at.is_whole(drive.node):
+        reaction = raw.reaction.copy(order="F")
+        here = raw.configuration[:, drive.node]
+        reaction[:, drive.node] = dual_to_parameters(here, reaction[:, drive.node])
+        raw = raw._replace(reaction=reaction)
+    return Solution(at.solver, raw, at.way, held)
 
 
 def order_of(values: Sequence[float], start: float) -> list[int | None]:
@@ -137,14 +149,22 @@ def value_at(at: Solution, drive: Coordinate) -> float:
 def force_of(at: Solution, drive: Coordinate) -> float:
     """Force of a drive on the mechanism [N], or moment on its angle [N m]."""
     node, axis = drive
-    force = float(at.raw.reaction[axis, node])
-    if at.solver.mesh.own.arrays.node_kind[node] == NodeKind.ORIENTATION:
-        return force * math.cos(value_at(at, drive) / 2.0)
-    return force
+    reaction = at.raw.reaction[:, node]
+    if at.solver.mesh.own.arrays.node_kind[node] != NodeKind.ORIENTATION:
+        return float(reaction[axis])
+    if at.is_whole(node):
+        reaction = dual_to_parameters(at.raw.configuration[:, node], reaction)
+    return float(reaction[axis]) * math.cos(value_at(at, drive) / 2.0)
+
+
+def reaction_of(at: Solution, held: Coordinate) -> float:
+    """Force [N] or moment [N m] of what holds a coordinate; about an axis of a whole clamp."""
+    node, axis = held
+    return float(at.raw.reaction[axis, node]) if at.is_whole(node) else force_of(at, held)
 
 
 def strokes_given(values: object, is_turn: bool) -> list[float]:
-    """The values of a stroke.
+    """The values of a stroke; `is_turn`: of an Euler parameter.
 
     Raises:
         ElasticError: one is no finite number, or an angle of more than half a turn.
@@ -168,6 +188,9 @@ def _with_drive(solver: Solver, target: FloatArray, drive: Coordinate, value: fl
         made[0, node] = value
     elif kind == NodeKind.ORIENTATION:
         made[1 + axis, node] = math.sin(value / 2.0)
+        # Where all of them are held, lambda0 follows.
+        rest = math.sqrt(max(0.0, 1.0 - float(np.sum(made[1:, node] ** 2))))
+        made[0, node] = math.copysign(rest, made[0, node])
     else:
         made[axis, node] = value
     return made

@@ -49,7 +49,7 @@ def releases_given(points: Points, given: object) -> Releases:
     if isinstance(given, Mapping):
         pairs = list(given.items())
     elif isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
-        pairs = [(pair, 0.0) for pair in given]
+        pairs = [_with_stiffness(pair) for pair in given]
     else:
         raise TypeError(_WANTED + in_short(given))
     made: Releases = {}
@@ -64,6 +64,13 @@ def releases_given(points: Points, given: object) -> Releases:
             )
         made[points.deformation(*pair)] = float(number)
     return made
+
+
+def _with_stiffness(given: object) -> tuple[object, object]:
+    """A pair without a stiffness, or a pair with its own."""
+    if isinstance(given, (tuple, list)) and given and isinstance(given[0], (tuple, list)):
+        return (given[0], given[1]) if len(given) == 2 else (given, 0.0)
+    return given, 0.0
 
 
 _WANTED = "releases are pairs of an element and a deformation, or a mapping of them, not "

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 #: The level is met to this part of it.
-_MET = 1.0e-9
+_MET = 1.0e-8
 #: At most so many evaluations.
 _MOST = 60
 
@@ -87,7 +87,7 @@ def _root(
     guess: float | None,
 ) -> float:
     """Where a function less a level changes its sign: by parabolas within a bracket."""
-    known = [low, high]
+    third: tuple[float, float] | None = None
     here = guess if guess is not None else _secant(low, high)
     for _ in range(_MOST):
         if not low[0] < here < high[0]:
@@ -95,14 +95,13 @@ def _root(
         there = (here, function(here) - level)
         if abs(there[1]) <= _MET * abs(level):
             return here
-        known = sorted([*known, there], key=lambda each: abs(each[1]))[:3]
         if (there[1] > 0.0) == (low[1] > 0.0):
-            low = there
+            low, third = there, low
         else:
-            high = there
+            high, third = there, high
         if high[0] - low[0] <= 1.0e-13 * high[0]:
             break
-        here = _parabola(known, low, high)
+        here = _parabola(low, high, third)
     return here
 
 
@@ -111,19 +110,19 @@ def _secant(low: tuple[float, float], high: tuple[float, float]) -> float:
 
 
 def _parabola(
-    known: list[tuple[float, float]], low: tuple[float, float], high: tuple[float, float]
+    low: tuple[float, float], high: tuple[float, float], third: tuple[float, float]
 ) -> float:
-    """The root in the bracket of the parabola through three places; else that of a line."""
-    (a, fa), (b, fb), (c, fc) = known
-    if len({a, b, c}) < 3:
-        return _secant(low, high)
+    """The root between low and high of the parabola through three places, as of a concave one."""
+    (a, fa), (b, fb), (c, fc) = low, high, third
     first = (fb - fa) / (b - a)
     second = ((fc - fb) / (c - b) - first) / (c - a)
     slope = first + second * (a - b)
     inner = slope * slope - 4.0 * second * fa
-    if inner < 0.0 or slope == 0.0:
+    if inner <= 0.0:
         return _secant(low, high)
-    # Of both roots the one next to a, without cancellation.
-    step = -2.0 * fa / (slope + math.copysign(math.sqrt(inner), slope))
-    here = a + step
-    return here if low[0] < here < high[0] else _secant(low, high)
+    root = math.copysign(math.sqrt(inner), slope)
+    # Without cancellation.
+    for step in (-2.0 * fa / (slope + root), -(slope + root) / (2.0 * second or math.inf)):
+        if low[0] < a + step < high[0]:
+            return a + step
+    return _secant(low, high)

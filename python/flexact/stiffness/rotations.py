@@ -4,10 +4,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from ..core.arrays import FloatArray
+
+
+class Angle(float):
+    """An angle [rad]: a number, and a vector of one where positions are gone through alike."""
+
+    def __getitem__(self, index: int) -> float:
+        """The number."""
+        return (float(self),)[index]
+
+    def __iter__(self) -> Iterator[float]:
+        """The number, once."""
+        yield float(self)
+
+    def __len__(self) -> int:
+        """One."""
+        return 1
 
 
 def vector_of(euler: FloatArray) -> FloatArray:
@@ -17,6 +34,19 @@ def vector_of(euler: FloatArray) -> FloatArray:
     if sine == 0.0:
         return np.zeros(3)
     made: FloatArray = unit[1:] * (2.0 * math.atan2(sine, unit[0]) / sine)
+    return made
+
+
+def dual_to_parameters(euler: FloatArray, moment: FloatArray) -> FloatArray:
+    """(3,) what does work on twice the changes of lambda1..3, of a moment (3,) on the spin.
+
+    The spin is 2 (l0 dl - dl0 l - dl x l) with dl0 = -(l . dl)/l0.
+    """
+    unit = euler / np.linalg.norm(euler)
+    scalar, vector = unit[0], unit[1:]
+    made: FloatArray = (
+        scalar * moment + (vector @ moment) / scalar * vector - np.cross(vector, moment)
+    )
     return made
 
 

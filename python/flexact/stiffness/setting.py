@@ -139,17 +139,23 @@ class Setting(Frozen):
 
     def notes_of(self, at: Solution) -> tuple[str, ...]:
         """What is to be known about the numbers of a state."""
+        made = []
         if self.held == "rigid" and at.is_stressed and self.verdicts.over_constrained:
-            return (
+            made.append(
                 f"over-constrained by {self.verdicts.over_constrained} and held rigid: of all "
-                "stresses in equilibrium with the loads those of least norm are taken",
+                "stresses in equilibrium with the loads those of least norm are taken"
             )
-        return ()
+        if not at.is_confirmed:
+            made.append("it is not confirmed that no frequency or multiplier is missing in between")
+        return tuple(made)
 
     @property
     def words(self) -> str:
-        """The choices, such as "held elastic, drive free, 8 and 16 beams a sheet"."""
-        beams = {"auto": "8 and 16 beams a sheet, extrapolated", 1: "the deck's own elements"}
+        """The choices, such as "held elastic, drive free, 8 beams a sheet"."""
+        beams = {
+            "auto": "8 and 16 beams a sheet or more, extrapolated",
+            1: "the deck's own elements",
+        }
         many = beams.get(self.beams, f"{self.beams} beams a sheet")
         released = ", ".join(
             f"{e}:{k}" + (f" with {stiffness:g} N m/rad" if stiffness else "")

@@ -19,6 +19,8 @@ from .solver import Held, Solver
 
 #: How many frequencies and multipliers are computed.
 FREQUENCIES, MULTIPLIERS = 10, 20
+#: Multipliers so many times the nearest are those of stresses that are rounding.
+_ROUNDING = 1.0e10
 
 
 class Solution:
@@ -92,6 +94,12 @@ class Solution:
         fixed = self.solver.mesh.data.arrays.coordinate_class[axis, node] == Class.FIXED
         return bool(fixed) or coordinate in self.held
 
+    def is_whole(self, node: int) -> bool:
+        """Whether all of an orientation is held, so that its reaction is a moment on the spin."""
+        if self.solver.mesh.data.arrays.node_kind[node] != NodeKind.ORIENTATION:
+            return False
+        return all(self.is_held(Coordinate(node, axis)) for axis in range(3))
+
     @cached_property
     def size(self) -> float:
         """A length of the model [m]: the root of the mean square of those of its elements."""
@@ -113,6 +121,12 @@ class Solution:
         )
 
     @property
+    def is_confirmed(self) -> bool:
+        """Whether none is missing among the frequencies and multipliers that were asked for."""
+        asked = (self.__dict__.get(name) for name in ("squares", "buckling"))
+        return all(raw.is_complete for raw in asked if raw is not None)
+
+    @property
     def frequencies(self) -> FloatArray:
         """The lowest frequencies [Hz], ascending; negative where the square is: unstable."""
         values = self.squares.values
@@ -121,12 +135,17 @@ class Solution:
     @cached_property
     def buckling(self) -> RawModes:
         """Multipliers of the stresses nearest to zero, of both signs, with their modes."""
+        return self.multipliers(MULTIPLIERS)
+
+    def multipliers(self, count: int) -> RawModes:
+        """So many of them."""
         s = self.solver
         if not self.is_stressed:
-            return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0)
-        return elastic.multipliers(
-            s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
-        )
+            return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0, True)
+        found = elastic.multipliers(s.model(self.held), s.arrays, self.raw, self.way.gravity, count)
+        size = np.abs(found.values)
+        some = size < _ROUNDING * size.min(initial=math.inf)
+        return found._replace(values=found.values[some], modes=found.modes[:, :, some])
 
     @cached_property
     def deformation(self) -> FloatArray:

@@ -11,11 +11,11 @@ from ..core.elements import NodeKind
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from .estimate import Estimate
-from .paths import force_of, value_at
+from .paths import force_of, reaction_of, value_at
 from .reduced import Reduced
 from .response import Response
 from .resultants import Resultants, peak_stress, resultants_of
-from .rotations import vector_of
+from .rotations import Angle, vector_of
 from .solution import Solution
 from .verdicts import Verdict
 from .words import describe
@@ -49,12 +49,12 @@ class State(Response):
         kinds = self.data.arrays.node_kind
         return Configuration(kinds, self.finest.raw.configuration.T)
 
-    def position(self, node: object) -> FloatArray | float:
+    def position(self, node: object) -> FloatArray | Angle:
         """Where a node is.
 
         Returns:
             (3,) position [m], planar (2,); of an orientation its rotation vector (3,) [rad],
-            planar its angle, a number.
+            planar its angle, a number (which also is a vector of one).
 
         Raises:
             UnknownError: there is no such node.
@@ -62,7 +62,7 @@ class State(Response):
         index = self.model.points.node(node)
         kind = self.model.points.kinds[index]
         if kind == NodeKind.ANGLE:
-            return float(self.best(lambda at: at.raw.configuration[0, index]))
+            return Angle(self.best(lambda at: at.raw.configuration[0, index]))
         if kind == NodeKind.ORIENTATION:
             return self.best(lambda at: vector_of(at.raw.configuration[:, index]))
         axes = 2 if kind == NodeKind.PLANAR_POSITION else 3
@@ -131,7 +131,7 @@ class State(Response):
             UnknownError: there is no such coordinate.
         """
         where = self.model.points.coordinate(node, coordinate)
-        return float(self.best(lambda at: force_of(at, where)))
+        return float(self.best(lambda at: reaction_of(at, where)))
 
     @property
     def stroke(self) -> float:
@@ -188,7 +188,7 @@ class State(Response):
         """The smallest singular value of D(c) itself here, in the deck's units."""
         return self._verdict.smallest_singular_value
 
-    @cached_property
+    @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known about the numbers of this state."""
         return self.model.notes_of(self.finest)

@@ -21,7 +21,7 @@ from .errors import ElasticError
 from .imperfections import Imperfection
 from .paths import at_rest
 from .roots import falls_to, rises_to
-from .solution import Solution
+from .solution import MULTIPLIERS, Solution
 from .solver import Held, Solver
 
 #: Errors larger than so many lengths of the model, or radians, are none that a design meets.
@@ -30,6 +30,12 @@ _FAR = 1.0e3
 _MISMATCH = 1.0e-8
 #: Multipliers beyond so many times the nearest are rounding.
 _ROUNDING = 1.0e6
+#: The part of the nearest critical error with which a rise is looked for.
+_BEGIN = 1.0e-2
+#: So many multipliers are looked at first; mostly there are both signs among them.
+_FEW = 4
+#: Critical errors of both signs are alike up to this part.
+_ALIKE = 1.0e-6
 
 Pair = tuple[float, float]
 
@@ -68,14 +74,19 @@ class Linear:
     @cached_property
     def critical(self) -> Pair:
         """The errors of both signs at which it buckles; infinite where it does not."""
-        values = self.stressed.buckling.values
-        size = self._rest.size * _FAR if not self._off.is_turn else _FAR
-        nearest = float(np.abs(values).min(initial=math.inf))
-        there = values[(np.abs(values) < size) & (np.abs(values) < _ROUNDING * nearest)]
-        return (
-            float(there[there < 0.0].max(initial=-math.inf)),
-            float(there[there > 0.0].min(initial=math.inf)),
-        )
+        for count in (_FEW, MULTIPLIERS):
+            values = self.stressed.multipliers(count).values
+            nearest = float(np.abs(values).min(initial=math.inf))
+            there = values[np.abs(values) < min(self._far, _ROUNDING * nearest)]
+            low = float(there[there < 0.0].max(initial=-math.inf))
+            high = float(there[there > 0.0].min(initial=math.inf))
+            if values.size < count or math.isfinite(low) == math.isfinite(high):
+                break
+        return low, high
+
+    @property
+    def _far(self) -> float:
+        return _FAR if self._off.is_turn else _FAR * self._rest.size
 
     def square(self, value: float) -> float:
         """The square of the first angular frequency at an error."""
@@ -112,22 +123,24 @@ class Linear:
         """
         if shift not in self._shifted:
             wanted = self.first * (1.0 + shift) ** 2
-            self._shifted[shift] = (
-                self._one_way(-1.0, wanted, near),
-                self._one_way(1.0, wanted, near),
-            )
+            low = self._one_way(-1.0, wanted, None if near is None else near[0])
+            part = None if near is None else near[1]
+            if abs(sum(self.critical)) <= _ALIKE * abs(self.critical[0]):
+                part = self.parts((low, low))[0]
+            self._shifted[shift] = low, self._one_way(1.0, wanted, part)
         return self._shifted[shift]
 
-    def _one_way(self, sign: float, wanted: float, near: Pair | None) -> float:
+    def _one_way(self, sign: float, wanted: float, near: float | None) -> float:
         limit = abs(self.critical[0 if sign < 0.0 else 1])
         square: Callable[[float], float] = lambda d: self.square(sign * d)  # noqa: E731
-        part = None if near is None else near[0 if sign < 0.0 else 1]
         if wanted < self.first:
-            return sign * falls_to(square, wanted, self.first, limit, part)
-        far = self._rest.size * _FAR if not self._off.is_turn else _FAR
-        other = abs(self.critical[1 if sign < 0.0 else 0])
-        begin = min(limit, other, far) * 1.0e-2
-        return sign * rises_to(square, wanted, self.first, begin, min(limit, far))
+            return sign * falls_to(square, wanted, self.first, limit, near)
+        nearest = min(map(abs, self.critical))
+        if math.isinf(nearest):
+            # It falls on neither side, and is concave: it does not change.
+            return sign * math.inf
+        far = min(limit, self._far)
+        return sign * rises_to(square, wanted, self.first, _BEGIN * nearest, far)
 
     def parts(self, errors: Pair) -> Pair:
         """Errors as parts of the critical ones; NaN where there is none."""
