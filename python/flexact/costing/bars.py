@@ -7,18 +7,22 @@ import math
 from collections.abc import Sequence
 
 from ..drawing.charts.scale import log_scale
+from ..drawing.charts.units import told
 from ..drawing.charts.values import Bar, BarChart, Group, Row
 from .designs import CostValues
 from .values import Clamp, Misalignment, Tolerance
 
 #: Clamps that are shown; of more those that bear least.
 MOST_CLAMPS = 6
+#: Errors beyond this part of the mechanism's size, or this angle [rad], are drawn without an end:
+#: stress that is in proportion to the error means nothing there, and no workshop is that far off.
+_MOST = 0.1
 #: Room behind the longest bar for its value, as a part of the axis.
 _BEYOND = 0.12
 
 
 def bars_of(cost: CostValues) -> tuple[BarChart, ...]:
-    """Tolerances of displacements and of rotations, where there is any that is finite."""
+    """Tolerances of displacements and of rotations, where there are any that matter."""
     made = (_bars(cost, "m"), _bars(cost, "rad"))
     return tuple(chart for chart in made if chart is not None)
 
@@ -28,11 +32,12 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
         for design in cost.designs
     ]
+    limit = _MOST * (cost.as_built.size if unit == "m" else 1.0)
     finite = [
         each.tightest.value
         for design in found
         for each in design.values()
-        if each.tightest.is_finite
+        if each.tightest.value <= limit
     ]
     if not finite:
         return None
@@ -41,7 +46,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         Group(
             clamp.label,
             tuple(
-                Row(misalignment.direction.removeprefix("r"), _row(misalignment, found))
+                Row(misalignment.direction.removeprefix("r"), _row(misalignment, found, limit))
                 for misalignment in found[0]
                 if misalignment.clamp == clamp
             ),
@@ -52,19 +57,22 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
     title = f"Tolerance of a clamp for {what} ({shift})"
     many = "clamp bears" if left_out == 1 else "clamps bear"
-    note = f"{left_out} more {many} more" if left_out else ""
-    return BarChart(name, title, log_scale(finite, unit, _BEYOND), tuple(groups), note)
+    more = f"; {left_out} more {many} more" if left_out else ""
+    note = f"Arrows: more than {told(limit, unit, 2)}{more}"
+    scale = log_scale(finite, unit, _BEYOND, limit)
+    return BarChart(name, title, scale, tuple(groups), note)
 
 
 def _row(
-    misalignment: Misalignment, found: Sequence[dict[Misalignment, Tolerance]]
+    misalignment: Misalignment, found: Sequence[dict[Misalignment, Tolerance]], limit: float
 ) -> tuple[Bar, ...]:
     made = []
     for series, tolerances in enumerate(found):
         each = tolerances.get(misalignment)
         if each is not None:
             value, uncertainty = each.tightest
-            made.append(Bar(series, value, uncertainty if math.isfinite(value) else 0.0))
+            is_open = value > limit
+            made.append(Bar(series, *((math.inf, 0.0) if is_open else (value, uncertainty))))
     return tuple(made)
 
 

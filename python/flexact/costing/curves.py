@@ -10,13 +10,15 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..drawing.charts.scale import Scale, exact_scale, linear_scale, log_scale
 from ..drawing.charts.values import Chart, Curve
-from .designs import CostValues, StrokeCurve
+from .designs import CostValues, MisalignmentCurve, StrokeCurve
 from .marks import marks_of
 from .names import short_labels
 from .values import FREQUENCY, Numbers, unit_of_direction, words_of_direction
 
 #: Stiffnesses that differ by more than so many times are drawn on a logarithmic axis.
 _WIDE = 30.0
+#: Points of a curve against an error; a frequency below this part of the largest is one of none.
+_POINTS, _BUCKLED = 201, 0.1
 #: Room above the highest curve, as a part of the axis.
 _ABOVE = 1.08
 
@@ -94,7 +96,7 @@ def _misaligned(cost: CostValues) -> Chart | None:
     """The measure against the misalignment that matters most, to both sides."""
     labels = short_labels(cost)
     curves = tuple(
-        Curve(series, labels[series], each.curve.values, *_told(each.curve.measure))
+        Curve(series, labels[series], *_smooth(each.curve, cost.measure == FREQUENCY))
         for series, each in enumerate(cost.designs)
         if each.curve is not None and each.curve.values.size > 1
     )
@@ -118,6 +120,21 @@ def _misaligned(cost: CostValues) -> Chart | None:
         curves,
         tuple(marks_of(cost, curves[0])),
     )
+
+
+def _smooth(
+    curve: MisalignmentCurve, is_frequency: bool
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Errors, the measure and its uncertainty; between errors a frequency by its square.
+
+    The square is a stiffness, which falls straight to zero where the design buckles.
+    """
+    x, (y, spread) = curve.values, _told(curve.measure)
+    if not is_frequency or not np.isfinite(y).all():
+        return x, y, spread
+    square = np.where(y < _BUCKLED * y.max(), 0.0, y**2)
+    fine = np.unique(np.concatenate([x, np.linspace(x[0], x[-1], _POINTS)]))
+    return fine, np.sqrt(np.interp(fine, x, square)), np.interp(fine, x, spread)
 
 
 def _strokes(cost: CostValues) -> list[tuple[int, StrokeCurve]]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..base.plain_text import harmless
+from ..base.plain_text import file_name, harmless
 from .designs import CostValues, Design
 from .names import short_labels
 from .quantities import in_words, percent
@@ -53,6 +53,9 @@ def key_of(cost: CostValues) -> Key:
         "lowest parasitic": [_parasitic(each) for each in cost.designs],
     }
     shown = {head: cells for head, cells in columns.items() if any(cells[1:] or cells)}
+    if len(cost.designs) > 1 and len(set(shown.get("frequency", "12"))) == 1:
+        # The same of all: it is told once, and tells nothing here.
+        del shown["frequency"]
     rows = (
         KeyRow(
             series,
@@ -69,11 +72,12 @@ def choices_of(cost: CostValues) -> tuple[str, ...]:
     """What was asked for, in parts: of what, where, and how."""
     beams = "8 and 16 beams a sheet" if cost.beams == "auto" else f"{cost.beams} beams a sheet"
     told = (
-        cost.name,
+        file_name(cost.name),
         f"at {cost.point.words}",
         f"held deformations {cost.held}",
         f"drive {cost.drive}",
         beams,
+        f"lowest frequency {_frequency(cost.as_built)}" if _frequency(cost.as_built) else "",
     )
     return tuple(harmless(each) for each in told if each)
 
@@ -106,9 +110,12 @@ def _tightest(design: Design, place: Misalignment | None) -> str:
 
 
 def _buckles(design: Design, place: Misalignment | None) -> str:
+    """Where it buckles; the place is told if no other column tells it."""
     found = design.buckles_at
     if found is None:
         return NEVER if design.tolerances else ""
+    if design.tightest is not None and design.tightest.misalignment == found.misalignment:
+        place = found.misalignment
     return _with_place(found.critical, found, place)
 
 

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from ..base.plain_text import harmless
+from ..base.plain_text import file_name, harmless
 from ..page import Compared, Side, Told, designs_page
 from ..page.bars_part import bars_svg
 from ..page.charts_part import chart_svg
-from ..page.page import file_name
 from ..page.shapes_data import Shape as Played
 from ..page.shapes_data import Shaped
 from ..picture import has_packages, shape_bytes
@@ -62,7 +61,13 @@ def _side(series: int, design: Design, key: Key) -> Side:
         f"{head}: {cell}" for head, cell in zip(key.heads, row.cells, strict=True) if cell
     )
     played = tuple(
-        Played(each.kind, _label(design, each), each.words, each.configuration, each.displacement)
+        Played(
+            each.kind,
+            _label(design, each),
+            typeset(each.words),
+            each.configuration,
+            each.displacement,
+        )
         for each in shapes
     )
     return Side(series, title, words, Shaped(shapes[0].data, played), _still(shapes[0]))
@@ -75,13 +80,13 @@ def _label(design: Design, shape: Shape) -> str:
         sizes = {each.critical.value: each.misalignment.unit for each in design.tolerances}
         near = min(sizes, key=lambda size: abs(size - abs(shape.value)), default=0.0)
         unit = sizes.get(near, "m")
-    return typeset(in_words(Number(float(f"{shape.value:.3g}")), unit))
+    return typeset(in_words(Number(abs(float(f"{shape.value:.3g}"))), unit))
 
 
 def _still(shape: Shape) -> bytes | None:
     if not has_packages():
         return None
-    return shape_bytes(shape.data, shape.configuration, shape.displacement, shape.words)
+    return shape_bytes(shape.data, shape.configuration, shape.displacement, typeset(shape.words))
 
 
 def _notes(cost: CostValues) -> list[str]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 from typing import Any
 
+from ..base.plain_text import file_name
 from ..drawing.charts.values import BarChart, Chart
 from ..picture.bar_charts import bars_height, draw_bars
 from ..picture.charts import draw_chart
@@ -16,7 +17,8 @@ from .bars import bars_of
 from .curves import charts_of
 from .designs import CostValues
 from .key import key_of, typeset
-from .plot_head import HEAD, draw_head, head_height
+from .plot_head import draw_head, head_height
+from .plot_table import HEAD, table_of
 from .words import first_line
 
 #: Suffixes of pictures.
@@ -25,7 +27,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 _WIDTH, _DPI = 12.0, 100
 #: Heights of what stands below each other [inch].
 _CHART, _ROW, _ABOVE, _BELOW = 2.3, 0.156, 0.32, 0.54
-_END = 0.4
+_END = 0.58
 #: Room beside charts and bars for what stands there [inch].
 _LEFT, _NAMES, _GROUPS, _RIGHT = 0.62, 0.82, 1.05, 0.35
 
@@ -45,9 +47,12 @@ def plot_of(cost: CostValues) -> Any:
         def _repr_png_(self) -> bytes:
             return png_bytes(self)
 
-    charts, bars, key = charts_of(cost), bars_of(cost), key_of(cost)
+    charts, bars = charts_of(cost), bars_of(cost)
+    measure: Any = Figure(dpi=_DPI)
+    FigureCanvasAgg(measure)
+    table = table_of(measure, key_of(cost))
     rows = max((bars_height(each) for each in bars), default=0.0)
-    head = head_height(cost, key)
+    head = head_height(cost, table)
     heights = (
         head,
         (_ABOVE + _CHART + _BELOW) * bool(charts),
@@ -55,7 +60,7 @@ def plot_of(cost: CostValues) -> Any:
     )
     figure: Any = Shown(figsize=(_WIDTH, sum(heights)), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    draw_head(figure, cost, key)
+    draw_head(figure, cost, table)
     _draw_charts(figure, charts, heights[0])
     _draw_bars(figure, bars, heights[0] + heights[1])
     return figure
@@ -69,7 +74,7 @@ def plot_bytes(cost: CostValues, suffix: str = ".png") -> bytes:
     """
     figure = plot_of(cost)
     if suffix == ".svg":
-        return svg_bytes(figure, cost.name or "cost", typeset(first_line(cost)))
+        return svg_bytes(figure, file_name(cost.name) or "cost", typeset(first_line(cost)))
     if suffix == ".pdf":
         buffer = io.BytesIO()
         figure.savefig(

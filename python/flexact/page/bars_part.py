@@ -53,7 +53,8 @@ def _parts(chart: BarChart, left: float, bottom: float) -> Iterator[str]:
         place += high
     yield from grounds
     ticks = left + (right - left) * chart.x.share(chart.x.ticks)
-    for x, label in zip(np.asarray(ticks).tolist(), chart.x.labels, strict=True):
+    labels = chart.x.labels_for((right - left) / (LETTER * LETTERS))
+    for x, label in zip(np.asarray(ticks).tolist(), labels, strict=True):
         yield line((x, _TOP), (x, bottom), "grid")
         yield words(x, bottom + 17.0, label, "soft middle")
     yield line((left, _TOP), (left, bottom), "axis")

@@ -13,9 +13,9 @@ from ..drawing.charts.series import STYLES
 from ..drawing.charts.values import Chart, Curve, Mark, apart
 from .markup import text
 
-#: Width and height of a chart, its margins left, above and below, and the size of its letters.
+#: Width of a chart and size of its letters; its height, and margins above and below.
 WIDTH, LETTERS = 380.0, 13.0
-_HEIGHT, _LEFT, _TOP, _BOTTOM = 262.0, 42.0, 28.0, 44.0
+_HEIGHT, _TOP, _BOTTOM = 262.0, 28.0, 44.0
 #: Width of a letter and height of a line, times the size of letters; room before a name.
 LETTER, _LINE, _BESIDE = 0.58, 1.2, 12.0
 _RADIUS = 4.0
@@ -25,7 +25,9 @@ def chart_svg(chart: Chart) -> str:
     """A chart, in words for those who do not see it."""
     names = max((len(curve.label) for curve in chart.curves), default=0)
     right = WIDTH - names * LETTER * LETTERS - _BESIDE - 2.0
-    place = Places(chart.x, chart.y, (_LEFT, right), (_HEIGHT - _BOTTOM, _TOP))
+    ticks = max(map(len, chart.y.labels), default=0)
+    left = 10.0 + max(3, ticks) * LETTER * LETTERS
+    place = Places(chart.x, chart.y, (left, right), (_HEIGHT - _BOTTOM, _TOP))
     title = f"{chart.title}{chart.y.heading}"
     body = (
         words(0.0, 14.0, title, "chart-title"),
@@ -34,7 +36,7 @@ def chart_svg(chart: Chart) -> str:
         *(part for mark in chart.marks for part in _mark(place, mark)),
         *_names(place, chart.curves),
         words(
-            (_LEFT + right) / 2, _HEIGHT - 8.0, f"{chart.x_title}{chart.x.heading}", "soft middle"
+            (left + right) / 2, _HEIGHT - 8.0, f"{chart.x_title}{chart.x.heading}", "soft middle"
         ),
     )
     return svg(chart.name, _HEIGHT, _told(chart), body)
@@ -106,7 +108,8 @@ def _grid(place: Places) -> Iterator[str]:
     for y, label in zip(place.above(place.y.ticks).tolist(), place.y.labels, strict=True):
         yield line((left, y), (right, y), "grid")
         yield words(left - 6.0, y + 4.5, label, "soft end")
-    for x, label in zip(place.along(place.x.ticks).tolist(), place.x.labels, strict=True):
+    labels = place.x.labels_for((right - left) / (LETTER * LETTERS))
+    for x, label in zip(place.along(place.x.ticks).tolist(), labels, strict=True):
         yield line((x, bottom), (x, top), "grid")
         yield words(x, bottom + 16.0, label, "soft middle")
     yield line((left, bottom), (right, bottom), "axis")

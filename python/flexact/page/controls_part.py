@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from typing import Any
 
 from ..drawing import QUANTITIES
@@ -138,13 +138,13 @@ def _chip(about: str, value: str, words: str, more: str, checked: bool) -> str:
     )
 
 
-def layers(*drawings: dict[str, Any]) -> str:
-    """What else is drawn, of what some drawings have."""
+def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
+    """What else is drawn, of what some drawings have; some are not drawn at first."""
     moves, stressed = (any(each[name] for each in drawings) for name in ("movements", "stresses"))
     lacking = {"ghost": not moves, "arrows": not moves, "diagram": not stressed}
     made = "".join(
         f'<label class="check"><input type="checkbox" data-layer="{layer}"'
-        f"{' checked' if on else ''}>{words}</label>"
+        f"{' checked' if on and layer not in off else ''}>{words}</label>"
         for layer, words, on in _LAYERS
         if not lacking.get(layer)
     )

@@ -18,6 +18,8 @@ from .verdict_part import SWITCH
 
 #: Of the page's styles, those of charts come behind those of all pages.
 STYLES = ("style.css", "charts.css")
+#: A divided sheet has so many nodes that arrows of them all hide it.
+_OFF = ("arrows",)
 
 
 class Told(NamedTuple):
@@ -129,7 +131,7 @@ def _drawn(sides: Sequence[Side]) -> str:
         '<section class="shared" aria-label="The drawings" hidden>'
         f"{toolbar(*every)}</section>{''.join(halves)}"
         '<section class="shared" aria-label="In the drawings" hidden>'
-        f"{layers(*every)}{keys(every[0])}</section>"
+        f"{layers(*every, off=_OFF)}{keys(every[0])}</section>"
     )
 
 

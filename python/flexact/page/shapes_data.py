@@ -17,6 +17,8 @@ from .tracks import Tracks
 
 #: Kinds of shapes, by which the page groups them.
 KINDS = ("vibrating", "buckled")
+#: Pieces of a bent member, which mostly is a part of a divided sheet.
+_PIECES = 4
 
 
 class Shape(NamedTuple):
@@ -47,7 +49,7 @@ class Shaped(NamedTuple):
 
 def shapes_data(shaped: Shaped, frame: Frame) -> dict[str, Any]:
     """What a viewer draws of shapes; as many of them as fit."""
-    tracks = Tracks(frame)
+    tracks = Tracks(frame, _PIECES)
     return {
         **static_data(Parts(shaped.data), frame),
         "reference": tracks.data(),

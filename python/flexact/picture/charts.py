@@ -17,6 +17,8 @@ INK, SOFT, GRID = "#18212d", "#566273", "#dfe4ea"
 TITLE, WORDS, SMALL = 11.5, 10.0, 9.0
 #: Height of a line of letters, times their size, and room between a curve's end and its name [pt].
 LINE, _BESIDE = 1.25, 7.0
+#: Width of a letter, times its size.
+LETTER = 0.62
 _HALO = 2.5
 #: How far below or above its place a mark is told [pt].
 _UNDER, _OVER = 13.0, 5.0
@@ -68,7 +70,11 @@ def draw_axis(axes: Any, which: str, scale: Scale) -> None:
     getattr(axes, f"set_{which}scale")("log" if scale.is_log else "linear")
     getattr(axes, f"set_{which}lim")(scale.low, scale.high)
     axis = getattr(axes, f"{which}axis")
-    axis.set_ticks(scale.ticks, [written(label) for label in scale.labels])
+    labels = scale.labels
+    if which == "x":
+        wide = axes.get_window_extent().width * 72.0 / axes.get_figure().dpi
+        labels = scale.labels_for(wide / (LETTER * WORDS))
+    axis.set_ticks(scale.ticks, [written(label) for label in labels])
     axis.set_ticks([], minor=True)
     axes.tick_params(axis=which, labelsize=WORDS, colors=SOFT, length=0, pad=3)
     axes.grid(True, axis=which, which="major", color=GRID, lw=0.8)

@@ -16,6 +16,8 @@ from .units import Unit, number, told, unit_for
 #: About how many ticks an axis has; up to how many decades there are ticks within them.
 _TICKS = 5
 _STEPS = ((1.2, (1.0, 2.0, 5.0)), (2.4, (1.0, 3.0)), (math.inf, (1.0,)))
+#: Between words at ticks, in letters.
+_APART = 1.0
 #: Room beyond the values: as a part of their range, and as a factor.
 _ROOM, _LOG_ROOM = 0.04, 1.8
 
@@ -27,10 +29,11 @@ class Scale(Frozen):
     Attributes:
         low: Where it begins, in the SI unit.
         high: Where it ends.
-        unit: In which its ticks are written; on a logarithmic axis each has its own.
+        unit: In which its ticks are written, unless each has its own.
         is_log: Whether it is logarithmic.
         ticks: (t,) in the SI unit.
         si: That unit.
+        each_its_own: Whether each tick has a unit of its own.
     """
 
     low: float
@@ -39,6 +42,7 @@ class Scale(Frozen):
     is_log: bool
     ticks: FloatArray
     si: str
+    each_its_own: bool = False
 
     def share(self, values: ArrayLike) -> FloatArray:
         """Where values are, from 0 at the beginning to 1 at the end."""
@@ -52,14 +56,23 @@ class Scale(Frozen):
     @property
     def labels(self) -> tuple[str, ...]:
         """What stands at the ticks."""
-        if self.is_log:
+        if self.each_its_own:
             return tuple(told(tick, self.si) for tick in self.ticks.tolist())
         return tuple(number(tick / self.unit.size, 6) for tick in self.ticks.tolist())
+
+    def labels_for(self, letters: float) -> tuple[str, ...]:
+        """What stands at the ticks of an axis that is so many letters long; "" without room."""
+        made, free = [], -math.inf
+        for place, label in zip(self.share(self.ticks).tolist(), self.labels, strict=True):
+            start = place * letters - len(label) / 2
+            made.append(label if start >= free else "")
+            free = max(free, start + len(label) + _APART) if start >= free else free
+        return tuple(made)
 
     @property
     def heading(self) -> str:
         """The unit behind a title, such as " [mm]"; nothing where each tick has its own."""
-        return "" if self.is_log else f" [{self.unit.name}]"
+        return "" if self.each_its_own else f" [{self.unit.name}]"
 
 
 def linear_scale(values: ArrayLike, unit: str, *, from_zero: bool = False) -> Scale:
@@ -91,13 +104,16 @@ def exact_scale(low: float, high: float, unit: str) -> Scale:
     return Scale(low, high, written, False, _round_ticks(low, high, written), unit)
 
 
-def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0) -> Scale:
+def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0, most: float = math.inf) -> Scale:
     """A logarithmic scale for the positive finite values; at least a decade.
+
+    Each tick has a unit of its own where there is further room, as bars have it.
 
     Args:
         values: In the SI unit.
         unit: The SI unit.
         beyond: Further room behind the largest, as a part of the whole.
+        most: Where it ends at most, if there are values below.
     """
     found = _finite(values)
     found = found[found > 0.0]
@@ -106,8 +122,8 @@ def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0) -> Scale:
     if high < 10.0 * low:
         middle = math.sqrt(low * high)
         low, high = middle / math.sqrt(10.0), middle * math.sqrt(10.0)
-    high *= (high / low) ** beyond
-    written = unit_for([math.sqrt(low * high)], unit)
+    high = max(min(high * (high / low) ** beyond, most), 10.0 * low)
+    written = unit_for([high], unit)
     wide = math.log10(high / low)
     steps = next(steps for most, steps in _STEPS if wide < most)
     decades = range(
@@ -116,7 +132,7 @@ def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0) -> Scale:
     every = max(1, math.ceil(len(decades) / (_TICKS + 2)))
     ticks = [step * 10.0**decade * written.size for decade in decades[::every] for step in steps]
     inside = [tick for tick in ticks if low <= tick * (1 + 1e-9) and tick <= high * (1 + 1e-9)]
-    return Scale(low, high, written, True, np.array(inside), unit)
+    return Scale(low, high, written, True, np.array(inside), unit, beyond > 0.0)
 
 
 def _finite(values: ArrayLike) -> FloatArray:
