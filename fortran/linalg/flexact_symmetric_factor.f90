@@ -221,6 +221,10 @@ contains
       real(wp) :: block(lanes, pattern%n), part(lanes, size(factor%slack))
       integer :: first, last, i, k
 
+      if (size(x, 2) == 1 .and. size(factor%slack) == factor%zero) then
+         call solve_one(pattern, factor, x(:, 1))
+         return
+      end if
       block = 0.0_wp
       do first = 1, size(x, 2), lanes
          last = min(first + lanes - 1, size(x, 2))
@@ -230,8 +234,7 @@ contains
             end do
          end do
          if (size(factor%slack) > factor%zero) part = matmul(block, factor%response)
-         if (last == first) call solve_one(pattern, factor, block)
-         if (last > first) call solve_lanes(pattern, factor, block)
+         call solve_lanes(pattern, factor, block)
          if (size(factor%slack) > factor%zero) call add_response(factor, part, block)
          do k = 1, pattern%n
             do i = first, last
@@ -280,15 +283,15 @@ contains
       end do
    end subroutine solve_lanes
 
-   !> The same for the first lane alone.
-   pure subroutine solve_one(pattern, factor, block)
+   !> Solve F x = b in place for one right-hand side as given.
+   pure subroutine solve_one(pattern, factor, given)
       type(symmetric_pattern_t), intent(in) :: pattern
       type(symmetric_factor_t), intent(in) :: factor
-      real(wp), intent(inout) :: block(:, :)
+      real(wp), intent(inout) :: given(:)
       real(wp) :: x(pattern%n), total
       integer :: j, p
 
-      x = block(1, :)
+      x = given(pattern%order)*factor%unit
       do j = 1, pattern%n
          total = x(j)
          do p = pattern%start(j), pattern%start(j + 1) - 1
@@ -302,7 +305,7 @@ contains
          end do
          x(j) = total
       end do
-      block(1, :) = x
+      given(pattern%order) = x*factor%unit
    end subroutine solve_one
 
    !> The same with this many rounds of refinement by the residual of the matrix.
