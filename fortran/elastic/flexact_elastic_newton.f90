@@ -6,11 +6,12 @@
 module flexact_elastic_newton
    use flexact_elastic_model, only: elastic_model_t, gathered
    use flexact_elastic_operator, only: operator_t, make_operator, solved
+   use flexact_elastic_products, only: strains, stiffness_times, forces, hessian_times
    use flexact_elastic_residual, only: left_t, balance
    use flexact_elastic_rows, only: rows_t, make_rows, rows_times, errors_of, keep_multipliers
    use flexact_elastic_space, only: space_t, make_space, reduced, expanded, answer, multipliers_of
    use flexact_elastic_state, only: state_t, waypoint_t, moved, put_supports, increment_between
-   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian, strains, stiffness_times, forces, hessian_times
+   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian
    use flexact_kinds, only: wp
    implicit none
    private

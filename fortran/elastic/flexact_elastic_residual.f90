@@ -2,10 +2,11 @@
 !> Whether forces are in balance, up to what rounding of the coordinates makes of them.
 module flexact_elastic_residual
    use flexact_elastic_model, only: elastic_model_t
+   use flexact_elastic_products, only: forces
    use flexact_elastic_rows, only: rows_t, keep_multipliers
    use flexact_elastic_space, only: space_t, multipliers_of, reduced, reduced_sizes
    use flexact_elastic_state, only: state_t
-   use flexact_elastic_tangent, only: tangent_t, forces
+   use flexact_elastic_tangent, only: tangent_t
    use flexact_kinds, only: wp
    use flexact_slots, only: axes
    implicit none

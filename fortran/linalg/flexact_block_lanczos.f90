@@ -45,6 +45,7 @@ module flexact_block_lanczos
    !> Op V = V H + next times coupling, for the first `used` vectors V.
    type :: process_t
       integer :: used = 0, fresh = 0, seed = 0
+      real(wp) :: accuracy = 0.0_wp
       real(wp), allocatable :: space(:, :), weighed(:, :), h(:, :), coupling(:, :)
       !> Of which the first `fresh` vectors are there.
       real(wp), allocatable :: next(:, :), next_weighed(:, :)
@@ -68,19 +69,23 @@ contains
 
    !> Up to `wanted` eigenvalues of largest magnitude, which descends, with vectors (n, :) of
    !> norm 1 in the inner product: fewer where the operator has no more that are not zero.
-   !> Block: how many vectors are sent through the operator at a time, usually 8.
-   subroutine largest_pairs(operator, n, wanted, values, vectors, error, block)
+   !> Block: how many vectors are sent through the operator at a time, usually 8. Accuracy: of
+   !> the residuals, relative to the value, usually 1e-10; values have the square of it.
+   subroutine largest_pairs(operator, n, wanted, values, vectors, error, block, accuracy)
       class(self_adjoint_t), intent(in) :: operator
       integer, intent(in) :: n, wanted
       real(wp), allocatable, intent(out) :: values(:), vectors(:, :)
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in), optional :: block
+      real(wp), intent(in), optional :: accuracy
       type(process_t) :: process
       real(wp), allocatable :: theta(:), turn(:, :)
       integer :: restarts, found, width
 
       width = min(n, usual_width)
       if (present(block)) width = min(n, block)
+      process%accuracy = converged
+      if (present(accuracy)) process%accuracy = accuracy
       allocate (values(0), vectors(n, 0))
       if (n == 0 .or. wanted < 1) return
       call begin(operator, n, width, min(n, 4*wanted + reserve*width), process, error)
@@ -109,7 +114,7 @@ contains
    subroutine begin(operator, n, width, most, process, error)
       class(self_adjoint_t), intent(in) :: operator
       integer, intent(in) :: n, width, most
-      type(process_t), intent(out) :: process
+      type(process_t), intent(inout) :: process
       type(error_t), allocatable, intent(out) :: error
       integer :: info
 
@@ -268,7 +273,7 @@ contains
       are_converged = size(theta) >= wanted
       if (.not. are_converged) return
       residual = matmul(process%coupling(:, :process%used), turn(:, :wanted))
-      are_converged = all(norm2(residual, 1) <= max(converged*abs(theta(:wanted)), noise*abs(theta(1))))
+      are_converged = all(norm2(residual, 1) <= max(process%accuracy*abs(theta(:wanted)), noise*abs(theta(1))))
    end function are_converged
 
    !> Keep the Ritz vectors of the largest values alone.

@@ -120,15 +120,16 @@ contains
    end subroutine lowest_pairs
 
    !> Up to `wanted` values of K x = -value G x nearest to zero, with x'K x = 1: fewer where the
-   !> rank of G is lower. Null vectors of K are left out. The rest as above.
-   subroutine pairs_next_to_zero(pattern, k, factor, g, wanted, pairs, error, least)
+   !> rank of G is lower. Null vectors of K are left out. accuracy: of the vectors, as for
+   !> `largest_pairs`; values have the square of it. The rest as above.
+   subroutine pairs_next_to_zero(pattern, k, factor, g, wanted, pairs, error, least, accuracy)
       type(symmetric_pattern_t), intent(in), target :: pattern
       type(sparse_t), intent(in), target :: k, g
       type(symmetric_factor_t), intent(in) :: factor
       integer, intent(in) :: wanted
       type(pairs_t), intent(out) :: pairs
       type(error_t), allocatable, intent(out) :: error
-      real(wp), intent(in), optional :: least(:)
+      real(wp), intent(in), optional :: least(:), accuracy
       type(pencil_t) :: pencil
       integer :: width, missing(2), above
 
@@ -136,7 +137,7 @@ contains
       pairs%null = pencil%touched
       width = narrowest
       do while (width <= widest .and. .not. (allocated(error) .or. pairs%is_complete))
-         call largest_pairs(pencil, pattern%n, wanted, pairs%values, pairs%vectors, error, width)
+         call largest_pairs(pencil, pattern%n, wanted, pairs%values, pairs%vectors, error, width, accuracy)
          if (allocated(error)) return
          call purify(pencil, pairs)
          pairs%values = -1/pairs%values
