@@ -35,7 +35,8 @@ contains
       real(wp), intent(in) :: load(:)
       type(state_t), intent(inout) :: state
       type(left_t), intent(out) :: left
-      real(wp), allocatable :: f(:), m(:), noise(:), most(:)
+      real(wp), allocatable :: noise(:), most(:)
+      real(wp) :: f(size(load)), m(rows%count)
       integer :: i
 
       m = multipliers_of(space, elastic, load - forces(elastic, tangent, state%stress))
