@@ -212,3 +212,15 @@ def test_an_exactly_constrained_mechanism_held_rigid_follows_a_clamp_that_is_off
     state = elastic(text, held="rigid").misaligned(1, "y", 0.01)
     assert state.position(2) == pytest.approx([-1 + math.sqrt(1 - 0.01**2), 1.01], abs=1e-4)
     assert state.stress(1, 1) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_rigid_deformation_that_is_released_leaves_the_sheet_divided() -> None:
+    """Torsion that has no stiffness is rigid; released it is free, and the rest is as before."""
+    text = cantilever().replace("RLSE 1 2 3 4", "RLSE 1 3 4")
+    text = text.replace(SHEET, SHEET.replace(SHEET.split()[1], "0"))
+    kept = elastic(text).kept(3, {(1, 2): 5.0})
+    assert kept == pytest.approx([0, 1, 1, 1, 1, 1], abs=1e-9)
+    state = elastic(text, release={(1, 2): 5.0}).undeformed()
+    assert state.data.arrays.element_number.size == 16
+    assert state.compliance(3)[5, 5] == pytest.approx(1 / 5.0, rel=1e-9)
+    assert state.compliance(3)[0, 0] == pytest.approx(LENGTH**3 / (3 * EI), rel=1e-9)

@@ -62,7 +62,7 @@ class Setting(Frozen):
     @cached_property
     def solvers(self) -> tuple[Solver, ...]:
         """One of each mesh, the coarser first."""
-        which = divisible(self.data, self.policy.stiff, self.policy.rigid & ~self.policy.notched)
+        which = divisible(self.data, self.policy.stiff, self.policy.rigid)
         made = divisions(self.data, self.beams, which)
         if self.only is not None:
             made = (made[self.only],)
