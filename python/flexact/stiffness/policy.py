@@ -73,6 +73,10 @@ def _with_stiffness(given: object) -> tuple[object, object]:
     return given, 0.0
 
 
+NO_STIFFNESS = (
+    "no element has a stiffness: give ESTIFF in the deck's dynamics block, or a material with a "
+    "section"
+)
 _WANTED = "releases are pairs of an element and a deformation, or a mapping of them, not "
 
 

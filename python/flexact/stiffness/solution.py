@@ -15,6 +15,7 @@ from ..core.elements import Class, NodeKind
 from .compliance import Compliance, compliance_at
 from .errors import ElasticError
 from .points import Coordinate, Point
+from .policy import NO_STIFFNESS
 from .solver import Held, Solver
 
 #: How many frequencies and multipliers are computed.
@@ -176,7 +177,4 @@ class Solution:
             ElasticError: There is none, and no stress either.
         """
         if not (self.solver.policy.has_stiffness or self.is_stressed):
-            raise ElasticError(
-                "no element has a stiffness: give ESTIFF in the deck's dynamics block, or a "
-                "material with a section"
-            )
+            raise ElasticError(NO_STIFFNESS)

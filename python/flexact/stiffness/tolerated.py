@@ -88,6 +88,7 @@ class Tolerated(Setting):
         of: Callable[[Linear, tuple[Linear, Pair] | None], Pair],
     ) -> Pair:
         off = misalignment(self.points, node, coordinate, 1.0, about)
+        self.require_stiffness()
         self.require_determined()
         before: tuple[Linear, Pair] | None = None
         found = []
@@ -127,6 +128,7 @@ class Tolerated(Setting):
             ElasticError: nothing has a stiffness.
         """
         both = {**self.release, **numbered(self.data, releases_given(self.points, release))}
+        self.require_stiffness()
         other = replace(self, release=both)
         point = self.points.of(node)
         coordinates = self.points.coordinates(point)
@@ -136,7 +138,6 @@ class Tolerated(Setting):
                 paths.at_rest(each, self.locked).compliance(point, coordinates)
                 for each in (mine, its)
             )
-            paths.at_rest(mine, self.locked).require_stiffness()
             found.append(kept(before, after))
         if len(found) == 1 or found[0].shape != found[1].shape:
             return found[-1]
