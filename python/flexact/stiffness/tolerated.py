@@ -42,7 +42,7 @@ class Tolerated(Setting):
             UnknownError: there is no such coordinate.
             ElasticError: it is not fixed; or it is over-constrained, and held rigid.
         """
-        return self._tolerated(node, coordinate, about, lambda each, _: each.critical)
+        return self._tolerated(node, coordinate, about, lambda each: each.critical)
 
     def misalignment_for(
         self, shift: float, node: object, coordinate: str, about: object = None
@@ -73,29 +73,20 @@ class Tolerated(Setting):
                 f"a shift is above -1 and not 0 (-0.05: -5 %), not {in_short(shift)}"
             )
         self.require_mass()
-
-        def shifted(each: Linear, before: tuple[Linear, Pair] | None) -> Pair:
-            near = None if before is None else before[0].parts(before[1])
-            return each.shifted(part, near)
-
-        return self._tolerated(node, coordinate, about, shifted)
+        return self._tolerated(node, coordinate, about, lambda each: each.shifted(part))
 
     def _tolerated(
         self,
         node: object,
         coordinate: str,
         about: object,
-        of: Callable[[Linear, tuple[Linear, Pair] | None], Pair],
+        of: Callable[[Linear], Pair],
     ) -> Pair:
         off = misalignment(self.points, node, coordinate, 1.0, about)
         self.require_stiffness()
         self.require_determined()
-        before: tuple[Linear, Pair] | None = None
-        found = []
-        for solver in self.solvers:
-            linear = self._linear(solver, off, (self.points.coordinate(node, coordinate), about))
-            found.append(of(linear, before))
-            before = linear, found[-1]
+        what = self.points.coordinate(node, coordinate), about
+        found = [of(self._linear(solver, off, what)) for solver in self.solvers]
         return found[0] if len(found) == 1 else finite(Estimate.of(*found).value)
 
     def _linear(self, solver: Solver, off: Imperfection, what: tuple[object, object]) -> Linear:
