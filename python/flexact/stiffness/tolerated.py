@@ -15,6 +15,7 @@ from ..base.plain_text import in_short
 from ..core.arrays import FloatArray
 from . import paths
 from .compliance import kept
+from .drives import strokes_given
 from .errors import ElasticError
 from .estimate import Estimate
 from .imperfections import Imperfection, misalignment
@@ -67,7 +68,7 @@ class Tolerated(Setting):
             ElasticError: it is not fixed; nothing has a mass; the first frequency is 0; the shift
                 is none; or it is over-constrained, and held rigid.
         """
-        part = paths.strokes_given(shift, False)[0]
+        part = strokes_given(shift, False)[0]
         if not part > -1.0 or part == 0.0:
             raise ElasticError(
                 f"a shift is above -1 and not 0 (-0.05: -5 %), not {in_short(shift)}"
