@@ -5,6 +5,7 @@
 !> of_nodes: rows 1 to 6 XM; then likewise.
 module flexact_elastic_exchange
    use flexact_blas, only: blas_work_t, blas_begin, blas_end
+   use flexact_elastic_errors, only: errors_t, find_errors
    use flexact_elastic_model, only: elastic_model_t, properties_t, make_elastic_model
    use flexact_elastic_operator, only: operator_t, make_operator
    use flexact_elastic_path, only: path_t, follow
@@ -20,7 +21,8 @@ module flexact_elastic_exchange
    private
    public :: give_stiffness, run_path, run_task, task_names
 
-   character(len=24), parameter :: task_names(*) = [character(len=24) :: 'linear', 'frequencies', 'multipliers', 'matrices']
+   character(len=24), parameter :: task_names(*) = &
+                                   [character(len=24) :: 'linear', 'frequencies', 'multipliers', 'matrices', 'errors']
 
 contains
 
@@ -89,7 +91,8 @@ contains
    !> wishes: task, count, gravity (3). given, answer: columns of force (3 nodes), misfit (6
    !> elements) and shift (3 nodes), of displacement, stress and reaction; modes are
    !> displacements alone, and of matrices given(1, :) has the coordinates and answer(:q, :3q)
-   !> three matrices. Behind answers stand motions without stiffness, as many as there is room
+   !> three matrices. For errors given(1, 1) has the square and the rows of misfits have stresses;
+   !> answer(:2, :) the errors below and above zero. Behind answers stand motions without stiffness, as many as there is room
    !> for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
    !> negative stiffnesses, 1 where coordinates determine all others or
    !> no mode is missing, 1 where the arithmetic fails.
@@ -113,6 +116,7 @@ contains
       case (1); call run_linear(elastic, base, given, answer, values, facts)
       case (2, 3); call run_modes(elastic, state, base, wishes, answer, values, facts)
       case (4); call run_matrices(elastic, state, base, nint(given(1, :)), answer, facts)
+      case (5); call run_errors(elastic, state, wishes(3:5), base, given, answer, facts)
       end select
       call blas_end(work)
    end subroutine run_task
@@ -184,4 +188,25 @@ contains
       facts(1) = q
       facts(4) = merge(1.0_wp, 0.0_wp, matrices%is_determined)
    end subroutine run_matrices
+
+   subroutine run_errors(elastic, state, gravity, base, given, answer, facts)
+      type(elastic_model_t), intent(in) :: elastic
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gravity(3), given(:, :)
+      type(base_t), intent(inout) :: base
+      real(wp), intent(inout) :: answer(:, :), facts(:)
+      type(errors_t) :: errors
+      integer :: first, k
+
+      first = size(elastic%scale)
+      k = 6*elastic%model%elements
+      call find_errors(elastic, state, gravity, base, given(1, 1), &
+                       reshape(given(first + 1:first + k, :), [6, k/6, size(given, 2)]), errors)
+      facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. errors%failed)
+      if (facts(5) > 0) return
+      facts(:3) = [size(given, 2), errors%loose, errors%negative]
+      if (errors%negative + errors%loose > 0) return
+      answer(1, :size(given, 2)) = errors%below
+      answer(2, :size(given, 2)) = errors%above
+   end subroutine run_errors
 end module flexact_elastic_exchange

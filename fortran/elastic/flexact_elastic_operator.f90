@@ -13,7 +13,7 @@ module flexact_elastic_operator
    use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors
    implicit none
    private
-   public :: operator_t, make_operator, solved
+   public :: operator_t, make_operator, shift_operator, solved
 
    type :: operator_t
       integer :: negative = 0
@@ -60,6 +60,24 @@ contains
       op%negative = op%factor%negative
       op%failed = .false.
    end subroutine make_operator
+
+   !> Z'(K + H - square M)Z, of the operator that was made.
+   subroutine shift_operator(space, mass, square, op)
+      type(space_t), intent(in) :: space
+      type(sparse_t), intent(in) :: mass
+      real(wp), intent(in) :: square
+      type(operator_t), intent(inout) :: op
+      type(error_t), allocatable :: error
+
+      op%matrix%value = op%matrix%value - square*mass%value
+      call factorise(space%projection%pattern, op%matrix, op%factor, error, op%least)
+      op%failed = allocated(error)
+      if (op%failed) return
+      if (allocated(op%loose)) deallocate (op%loose)
+      call null_vectors(space%projection%pattern, op%factor, op%loose, error)
+      op%failed = allocated(error)
+      op%negative = op%factor%negative
+   end subroutine shift_operator
 
    !> The motions that answer to forces, in their place; nothing determined along motions
    !> without stiffness, to which forces must be orthogonal.

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .advising import Advice, Step
     from .analysis import Analysis, analyse
     from .base.errors import FlexactError
+    from .costing.cost import Cost, cost
     from .deck.models import read, read_text
     from .diagnostics.diagnostic import Diagnostic, Place, Severity
     from .diagnostics.errors import DeckError, ModelError
@@ -72,6 +73,7 @@ _HOMES = {
     "advising": ("Advice", "Step"),
     "analysis": ("Analysis", "analyse"),
     "base.errors": ("FlexactError",),
+    "costing.cost": ("Cost", "cost"),
     "deck.models": ("read", "read_text"),
     "diagnostics.diagnostic": ("Diagnostic", "Place", "Severity"),
     "diagnostics.errors": ("DeckError", "ModelError"),
@@ -113,6 +115,7 @@ __all__ = [
     "Certainty",
     "ClassCounts",
     "Configuration",
+    "Cost",
     "Counts",
     "Crossing",
     "Crossings",
@@ -151,6 +154,7 @@ __all__ = [
     "Wire",
     "__version__",
     "analyse",
+    "cost",
     "deformations",
     "elastic",
     "grid",

@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("advising", "saving", "tracing", "variants"),
+    ("advising", "costing", "saving", "tracing", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )

@@ -196,3 +196,19 @@ def test_everything_of_a_state_of_a_cross_hinge_is_said() -> None:
     assert "held elastic, drive free" in text
     assert "Force of the drive" in text
     assert "Over-constrained by" in text
+
+
+def test_what_is_rigid_and_locked_is_infinitely_stiff() -> None:
+    text = deck("PLTRUSS 1 1 2\nX 2 1 0\nFIX 1\nDYNX 2 2\nPLTRUSS 2 2 3\nX 3 2 0", "ESTIFF 2 5")
+    state = elastic(text, held="rigid", drive="locked").equilibrium()
+    assert not state.compliance(2).any()
+    np.testing.assert_array_equal(state.stiffness(2), np.diag([math.inf, math.inf]))
+    assert "without loads" in state.label
+
+
+def test_an_exactly_constrained_mechanism_held_rigid_follows_a_clamp_that_is_off() -> None:
+    """Two rigid bars at right angles: the top moves along with the clamp of the bar below it."""
+    text = deck("PLTRUSS 1 1 2\nPLTRUSS 2 3 2\nX 1 0 0\nX 2 0 1\nX 3 -1 1\nFIX 1\nFIX 3")
+    state = elastic(text, held="rigid").misaligned(1, "y", 0.01)
+    assert state.position(2) == pytest.approx([-1 + math.sqrt(1 - 0.01**2), 1.01], abs=1e-4)
+    assert state.stress(1, 1) == pytest.approx(0.0, abs=1e-12)

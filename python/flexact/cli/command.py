@@ -32,6 +32,7 @@ DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
 VERBS = {
     "analyse": "verdict, counts, motions and self-stresses of decks",
     "advise": "what is wrong with decks and why, and steps that mend it",
+    "cost": "what over-constraint costs: tolerances of clamps, and what each release keeps",
     "check": "the diagnostics of decks, without analysing them",
     "batch": "a table of many decks, by all processors",
     "declare": "a deck in which every divided sheet or wire counts as one beam",

@@ -9,6 +9,7 @@ that of a planar angle is the third. All arrays are in SI units.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -115,6 +116,19 @@ class RawModes(NamedTuple):
     """How many stiffnesses are negative, of the same."""
     is_complete: bool
     """Whether it is confirmed that no value is missing between those given."""
+
+
+class RawErrors(NamedTuple):
+    """Errors on both sides of zero, infinite where there is none; all of k columns."""
+
+    below: FloatArray
+    """(k,)."""
+    above: FloatArray
+    """(k,)."""
+    loose: int
+    """Motions of K - square M without stiffness."""
+    negative: int
+    """How many stiffnesses of it are negative: with one, or one without, nothing was looked for."""
 
 
 class RawMatrices(NamedTuple):
@@ -250,6 +264,48 @@ def multipliers(
 ) -> RawModes:
     """The buckling multipliers nearest to zero: det(K + multiplier H(stress)) = 0."""
     return _modes(model, arrays, state, gravity, "multipliers", count)
+
+
+def errors(
+    model: PackedModel,
+    arrays: ElasticArrays,
+    state: ElasticState,
+    gravity: FloatArray,
+    stresses: FloatArray,
+    square: float = 0.0,
+) -> RawErrors:
+    """The values d nearest to zero with det(K - square M + d H(stress)) = 0, for each stress.
+
+    For square 0 these are the errors at which it buckles; for another one those at which a
+    frequency has this square [rad^2/s^2]. All use one factor of K - square M.
+
+    Args:
+        model: the model.
+        arrays: its stiffness and mass.
+        state: a state without stress.
+        gravity: (3,) that acts in it.
+        stresses: (6, ne, k) of a unit error each.
+        square: below that of the lowest frequency.
+
+    Raises:
+        ValueError: a shape does not fit, or a number is not finite.
+    """
+    nodes, elements, k = model.nodes.shape[1], model.elements.shape[1], stresses.shape[-1]
+    if stresses.shape != (6, elements, k) or not (
+        np.isfinite(stresses).all() and math.isfinite(square)
+    ):
+        raise ValueError("stresses must be finite, and of the model's elements")
+    if not k:
+        return RawErrors(np.zeros(0), np.zeros(0), 0, 0)
+    given = np.zeros((6 * (nodes + elements), k))
+    given[3 * nodes : 3 * nodes + 6 * elements] = _columns(stresses)
+    given[0, 0] = square
+    answer, facts = _studied(model, arrays, state, gravity, "errors", 0, given, k)
+    limit = np.finfo(float).max
+    below, above = (
+        np.where(np.abs(row) >= limit, np.copysign(np.inf, row), row) for row in answer[:2]
+    )
+    return RawErrors(below, above, int(facts[1]), int(facts[2]))
 
 
 def matrices(

@@ -53,7 +53,10 @@ class Elastic(Tolerated):
         """
         factor = paths.strokes_given(load, False)[0]
         made = tuple(paths.loaded(at, factor) for at in self._assembled())
-        return State(self, f"equilibrium under {factor:g} times the loads", None, made)
+        under = (
+            f"under {factor:g} times the loads" if self.data.loads else "without loads in the deck"
+        )
+        return State(self, f"equilibrium {under}", None, made)
 
     def along(self, node: object, coordinate: str, values: Iterable[float]) -> tuple[State, ...]:
         """Equilibria along the stroke of a drive, without the deck's loads.

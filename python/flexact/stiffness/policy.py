@@ -95,8 +95,8 @@ class Policy(Frozen):
 
     @property
     def has_stiffness(self) -> bool:
-        """Whether there is any stiffness at all."""
-        return bool((self.stiff & ~self.rigid).any() or np.nan_to_num(self.arrays.notch).any())
+        """Whether any stiffness is given at all."""
+        return bool(self.stiff.any() or np.nan_to_num(self.arrays.notch).any())
 
 
 def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:

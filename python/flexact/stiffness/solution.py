@@ -67,9 +67,9 @@ class Solution:
             self._at[point] = compliance_at(
                 np.asarray(answer.displacement[axes, nodes]),
                 np.asarray(self.unit_motions(answer.loose)[axes, nodes]),
-                np.asarray(self._is_turn[nodes]),
+                np.asarray(self.scale[nodes]),
                 np.array([self.is_held(each) for each in coordinates]),
-                self.size,
+                self.solver.least_compliance,
             )
         return self._at[point]
 

@@ -1,0 +1,124 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Which errors, each with stresses in proportion, take the lowest frequency to a given one, or the
+!> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
+!> singular. K with its factor serves all stresses.
+module flexact_elastic_errors
+   use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
+   use flexact_elastic_model, only: elastic_model_t
+   use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
+   use flexact_elastic_projection, only: project
+   use flexact_elastic_response, only: base_t
+   use flexact_elastic_space, only: expanded
+   use flexact_elastic_state, only: state_t
+   use flexact_elastic_tangent, only: add_hessian, add_mass, hessian_times, mass_times, strains, stiffness_times
+   use flexact_error, only: error_t
+   use flexact_kinds, only: wp
+   use flexact_sparse, only: sparse_t
+   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
+   implicit none
+   private
+   public :: errors_t, find_errors
+
+   !> below, above: (stresses) the values nearest to zero on either side, infinite without one.
+   type :: errors_t
+      real(wp), allocatable :: below(:), above(:)
+      integer :: negative = 0, loose = 0
+      logical :: failed = .false.
+   end type errors_t
+
+   !> Pairs that are looked for at first, and at most, until there is one on either side.
+   integer, parameter :: few = 2, many = 24
+   !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
+   real(wp), parameter :: accuracy = 1.0e-5_wp
+   !> Values so many times the nearest are rounding.
+   real(wp), parameter :: rounding = 1.0e6_wp
+
+contains
+
+   !> The base is that of a state without stress. No errors are found where K - square M has
+   !> something negative, or K a motion without stiffness beside a square.
+   subroutine find_errors(elastic, state, gravity, base, square, stress, errors)
+      type(elastic_model_t), intent(in) :: elastic
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gravity(3), square, stress(:, :, :)
+      type(base_t), target, intent(inout) :: base
+      type(errors_t), intent(out) :: errors
+      type(operator_t), target :: op
+      type(sparse_t), target :: hessian
+      type(sparse_t) :: mass, whole
+      type(state_t) :: stressed
+      integer :: i
+
+      allocate (errors%below(size(stress, 3)), errors%above(size(stress, 3)))
+      call make_operator(elastic, base%tangent, base%space, .true., op)
+      errors%failed = op%failed
+      if (op%failed) return
+      if (.not. allocated(base%tangent%mass)) call add_mass(elastic, state%configuration, base%tangent)
+      errors%loose = size(op%loose, 2)
+      if (abs(square) > 0) then
+         call assemble_mass(elastic, base%tangent, base%space%layout, whole)
+         call project(base%space%projection, whole, mass)
+         call shift_operator(base%space, mass, square, op)
+      end if
+      errors%failed = op%failed
+      errors%negative = op%negative
+      if (op%failed .or. op%negative > 0) return
+      stressed = state
+      do i = 1, size(stress, 3)
+         stressed%stress = stress(:, :, i)
+         call add_hessian(elastic, stressed, gravity, base%tangent)
+         call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
+         call project(base%space%projection, whole, hessian)
+         call find_nearest(elastic, base, op, hessian, square, errors%below(i), errors%above(i), errors%failed)
+         if (errors%failed) return
+      end do
+   end subroutine find_errors
+
+   !> Values d of (K - square M) v = -d H v on both sides of zero.
+   subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)
+      type(elastic_model_t), intent(in) :: elastic
+      type(base_t), target, intent(in) :: base
+      type(operator_t), target, intent(in) :: op
+      type(sparse_t), target, intent(in) :: hessian
+      real(wp), intent(in) :: square
+      real(wp), intent(out) :: below, above
+      logical, intent(out) :: failed
+      type(pairs_t) :: pairs
+      type(error_t), allocatable :: error
+      integer :: wanted, i
+
+      below = -huge(1.0_wp)
+      above = huge(1.0_wp)
+      failed = .false.
+      if (.not. any(abs(hessian%value) > 0)) return
+      wanted = few
+      do
+         call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, wanted, pairs, error, op%least, &
+                                 accuracy)
+         failed = allocated(error)
+         if (failed) return
+         if (any(pairs%values > 0) .and. any(pairs%values < 0)) exit
+         if (size(pairs%values) < wanted .or. wanted >= many) exit
+         wanted = 3*wanted
+      end do
+      if (size(pairs%values) == 0) return
+      do i = 1, size(pairs%values)
+         if (abs(pairs%values(i)) > rounding*minval(abs(pairs%values))) cycle
+         if (pairs%values(i) < 0) below = max(below, settled(elastic, base, square, pairs%vectors(:, i)))
+         if (pairs%values(i) > 0) above = min(above, settled(elastic, base, square, pairs%vectors(:, i)))
+      end do
+   end subroutine find_nearest
+
+   !> The error of a vector by the elements' own products, which lose fewer digits.
+   function settled(elastic, base, square, y) result(value)
+      type(elastic_model_t), intent(in) :: elastic
+      type(base_t), intent(in) :: base
+      real(wp), intent(in) :: square, y(:)
+      real(wp) :: value, v(size(elastic%scale)), strain(6, elastic%model%elements)
+
+      v = expanded(base%space, elastic, y)
+      strain = strains(elastic, base%tangent, v)
+      value = sum(strain*stiffness_times(elastic, strain)) - square*dot_product(v, mass_times(elastic, base%tangent, v))
+      value = -value/dot_product(v, hessian_times(elastic, base%tangent, v))
+   end function settled
+end module flexact_elastic_errors

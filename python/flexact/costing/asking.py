@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is asked for, as people write it: "1:5+2:5=3.5", "1:z=25mm..35mm", "11:x=50um@13", "-5%"."""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+from typing import NamedTuple
+
+from ..base.errors import FlexactError
+from ..base.plain_text import in_short
+
+#: Powers of ten, so that 5um is the number that 5e-6 is.
+_PREFIXES = {
+    "": 0,
+    "m": -3,
+    **dict.fromkeys(("u", "\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}"), -6),
+    "n": -9,
+}
+_DEGREES = ("deg", "\N{DEGREE SIGN}")
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
+_COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
+_RELEASE = re.compile(r"\s*(\d{1,9})\s*:\s*(\d{1,9})\s*(?:=(.*))?")
+_NAMES = ("x", "y", "z", "rx", "ry", "rz")
+#: Units of the stiffness of a notch, without blanks; all are SI, so that nothing is converted.
+_NOTCH_UNITS = ("", "Nm/rad", "N*m/rad", "N/m")
+#: That only the design as built is looked at.
+NONE = "none"
+
+
+class AskedError(FlexactError, ValueError):
+    """What was asked for is not understood; its text says what is wanted.
+
+    Attributes:
+        messages: What is wrong, one by one.
+    """
+
+    def __init__(self, *messages: str) -> None:
+        """Keep what is wrong."""
+        super().__init__("; ".join(messages))
+        self.messages = messages
+
+    def __reduce__(self) -> tuple[type[AskedError], tuple[str, ...]]:
+        """What makes it anew, as a worker of a sweep does."""
+        return type(self), self.messages
+
+
+class PointText(NamedTuple):
+    """A point by its number, or by its name."""
+
+    text: str
+
+    @property
+    def target(self) -> int | str:
+        """As a number where it is one."""
+        text = self.text.strip()
+        return int(text) if re.fullmatch(r"\d{1,9}", text) else text
+
+
+class StrokeAsked(NamedTuple):
+    """A stroke: of which point, along what, from where to where."""
+
+    point: object
+    coordinate: str
+    start: float
+    stop: float
+    is_offset: bool = False
+    """Whether the values count from where the point is in the deck."""
+
+
+class MisalignmentAsked(NamedTuple):
+    """A misalignment: of which clamp, along what, by how much, and about which point."""
+
+    clamp: object
+    coordinate: str
+    value: float
+    about: object = None
+
+
+#: Deformations that are released, with the stiffness of each one's notch; 0: ideal.
+ReleaseAsked = dict[tuple[int, int], float]
+
+
+def quantity(text: str, unit: str) -> float:
+    """A length or an angle in m or rad, such as "50um", "0.1 mm", "1mrad" or "5e-5".
+
+    Raises:
+        AskedError: it is none, or of another unit.
+    """
+    found = _NUMBER.fullmatch(text)
+    value = math.nan
+    if found is not None and found[2] in _DEGREES and unit == "rad":
+        value = math.radians(float(found[1]))
+    elif found is not None and (found[2] or unit).endswith(unit):
+        power = _PREFIXES.get((found[2] or unit)[: -len(unit)])
+        value = math.nan if power is None else float(Decimal(found[1]).scaleb(power))
+    if math.isnan(value):
+        example = "50um, 0.1mm or 5e-5" if unit == "m" else "50urad, 1mrad, 2deg or 1e-3"
+        kind = "a length [m]" if unit == "m" else "an angle [rad]"
+        raise AskedError(f"{kind} is wanted, such as {example}, not {in_short(text.strip())}")
+    if not math.isfinite(value):
+        raise AskedError(f"{in_short(text.strip())} is too large")
+    return value
+
+
+def shift_of(text: str | float) -> float:
+    """A shift of a frequency, such as "-5%" or -0.05.
+
+    Raises:
+        AskedError: it is none, 0, or a fall by all or more.
+    """
+    wanted = "a shift is wanted, such as -5% (or -0.05): more than -100%, at most 100%, not 0"
+    if isinstance(text, str):
+        found = _NUMBER.fullmatch(text)
+        if found is None or found[2] not in ("", "%"):
+            raise AskedError(f"{wanted}; {in_short(text.strip())} is none")
+        value = float(found[1]) / (100.0 if found[2] else 1.0)
+    else:
+        value = float(text)
+    if not (-1.0 < value <= 1.0) or value == 0.0:
+        raise AskedError(f"{wanted}; {in_short(text)} is none")
+    return value
+
+
+def release_of(text: str) -> ReleaseAsked:
+    """What is released together: "1:5", "1:5=3.5" with a notch, "1:5+2:5"; "none": nothing.
+
+    Raises:
+        AskedError: it is not written so.
+    """
+    if text.strip() == NONE:
+        return {}
+    made: ReleaseAsked = {}
+    for part in _parts(text):
+        found = _RELEASE.fullmatch(part)
+        if found is None:
+            raise AskedError(
+                "a release is written ELEMENT:DEFORMATION, such as 1:5; with the stiffness of its "
+                f"notch 1:5=3.5 [N m/rad]; several together 1:5+2:5; not {in_short(text)}"
+            )
+        made[int(found[1]), int(found[2])] = _notch(found[3])
+    return made
+
+
+def _parts(text: str) -> list[str]:
+    """Between plus signs, but not those of exponents, such as in 1e+3."""
+    return re.split(r"(?<![eE])\+", text)
+
+
+def _notch(text: str | None) -> float:
+    if text is None:
+        return 0.0
+    found = _NUMBER.fullmatch(re.sub(r"\s", "", text))
+    value = float(found[1]) if found and found[2] in _NOTCH_UNITS else -1.0
+    if not (math.isfinite(value) and value >= 0.0):
+        raise AskedError(
+            "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
+            f"not {in_short(text.strip())}"
+        )
+    return value
+
+
+def stroke_of(text: str) -> StrokeAsked:
+    """A stroke: "1:z=25mm..35mm", or counted from the deck's place "1:z+=-5mm..5mm".
+
+    Raises:
+        AskedError: it is not written so.
+    """
+    found = _COORDINATE.fullmatch(text)
+    start, dots, stop = found["value"].partition("..") if found else ("", "", "")
+    if found is None or not dots:
+        raise AskedError(
+            "a stroke is written POINT:COORDINATE=FROM..TO, such as 1:z=25mm..35mm, or counted "
+            f"from the place in the deck 1:z+=-5mm..5mm; not {in_short(text)}"
+        )
+    name, unit = _coordinate(found["name"])
+    first, last = quantity(start, unit), quantity(stop, unit)
+    if first == last:
+        raise AskedError(f"the stroke {in_short(text)} ends where it begins")
+    point = PointText(found["point"]).target
+    return StrokeAsked(point, name, first, last, bool(found["by"]))
+
+
+def misalignment_of(text: str) -> MisalignmentAsked:
+    """A misalignment: "11:x=50um", or turned about a point "11:rx=1mrad@13".
+
+    Raises:
+        AskedError: it is not written so.
+    """
+    found = _COORDINATE.fullmatch(text)
+    if found is None or found["by"]:
+        raise AskedError(
+            "a misalignment is written CLAMP:COORDINATE=VALUE, such as 11:x=50um, and turned "
+            f"about a point 11:rx=1mrad@13; not {in_short(text)}"
+        )
+    value, _, about = found["value"].partition("@")
+    name, unit = _coordinate(found["name"])
+    if about and unit == "m":
+        raise AskedError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
+    return MisalignmentAsked(
+        PointText(found["point"]).target,
+        name,
+        quantity(value, unit),
+        PointText(about).target if about else None,
+    )
+
+
+def _coordinate(name: str) -> tuple[str, str]:
+    if name not in _NAMES:
+        raise AskedError(f"a coordinate is one of {', '.join(_NAMES)}, not {in_short(name)}")
+    return name, "rad" if name.startswith("r") else "m"

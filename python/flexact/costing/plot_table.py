@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the table of the designs stands in the picture: columns as wide as what is in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from ..picture.charts import width_of
+from .key import Key, KeyRow
+
+
+class Head(NamedTuple):
+    """Measures of the head [inch], and sizes of its letters [pt]."""
+
+    left: float = 0.3
+    label: float = 0.8
+    end: float = 11.8
+    top: float = 0.2
+    line: float = 0.31
+    row: float = 0.245
+    second: float = 0.17
+    room: float = 0.2
+    headline: float = 16.0
+    words: float = 10.5
+
+
+HEAD = Head()
+#: Least and most room between columns [inch]; what is released takes at most so many lines.
+_GAP, _MOST_GAP, _LINES = 0.2, 0.4, 2
+
+
+class Table(NamedTuple):
+    """The table as it is drawn.
+
+    Attributes:
+        heads: Of the columns.
+        rows: The designs.
+        words: What each releases, in lines.
+        place: Where these begin [inch].
+        cells: Where the columns begin [inch].
+        row: Height of a row [inch].
+    """
+
+    heads: tuple[str, ...]
+    rows: tuple[KeyRow, ...]
+    words: tuple[list[str], ...]
+    place: float
+    cells: list[float]
+    row: float
+
+
+def table_of(figure: Any, key: Key) -> Table:
+    """The table as wide as the figure; what is released has the room that is left.
+
+    Args:
+        figure: Any figure, with which letters are measured.
+        key: What it says.
+    """
+
+    def width(words: Iterable[str], weight: str = "normal") -> float:
+        return max((width_of(figure, each, HEAD.words, weight) for each in words), default=0.0)
+
+    first = HEAD.label + width((row.label for row in key.rows), "bold") + _GAP
+    wide = [
+        max(
+            width([head]),
+            width([key.rows[0].cells[k]], "bold"),
+            width(row.cells[k] for row in key.rows[1:]),
+        )
+        for k, head in enumerate(key.heads)
+    ]
+    told = [row.words if row.words != row.label else "" for row in key.rows]
+    left = max(HEAD.end - first - sum(wide) - _GAP * (len(wide) + 1), 1.0)
+    words = tuple(_wrapped(figure, each, left) for each in told)
+    needed = width(line for lines in words for line in lines)
+    # What is not needed goes between the columns.
+    gap = _GAP + max(0.0, min((left - needed) / (len(wide) + 1), _MOST_GAP - _GAP))
+    place, cells = first + needed + gap * (needed > 0.0), []
+    for each in wide:
+        cells.append(place)
+        place += each + gap
+    row = HEAD.row + HEAD.second * (max(map(len, words), default=1) > 1)
+    return Table(key.heads, key.rows, words, first, cells, row)
+
+
+def _wrapped(figure: Any, text: str, room: float) -> list[str]:
+    """Words in lines that fit; what does not fit into the last is cut."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and (len(lines) == _LINES or width_of(figure, longer, HEAD.words) <= room + 0.02):
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return [_cut(figure, line, room) for line in lines]
+
+
+def _cut(figure: Any, line: str, room: float) -> str:
+    told = line
+    while len(line) > 1 and width_of(figure, told, HEAD.words) > room + 0.02:
+        line = line[:-1].rstrip(" ;:,-")
+        told = f"{line}\N{HORIZONTAL ELLIPSIS}"
+    return told

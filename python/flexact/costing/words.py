@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a design costs in plain English: what matters most first, then a table of the designs."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+
+from ..base.plain_text import harmless
+from .designs import CostValues, Design
+from .quantities import in_words, percent
+from .values import FREQUENCY, Number, Tolerance, words_of_direction
+from .words_of_paths import effects, stroke
+
+_WIDTH = 80
+_HEADINGS = ("design", "worst stiffness", "first parasitic", "tightest", "buckles at")
+_SECOND = ("", "kept", "frequency", "tolerance", "")
+#: A part of a stiffness from which all of it is kept.
+_ALL = 0.9999
+#: The longest label of a design, and behind which column "none" is an answer.
+_LONGEST, _KNOWN = 16, 2
+#: Between columns.
+_GAP = 2
+
+
+def describe(cost: CostValues) -> str:
+    """The cost for people, in lines of at most 80 characters."""
+    blocks = (
+        _first(cost),
+        _choices(cost),
+        _table(cost),
+        _where(cost),
+        _legend(cost),
+        stroke(cost),
+        effects(cost),
+        _left_out(cost),
+    )
+    return "\n\n".join("\n".join(block) for block in map(list, blocks) if block)
+
+
+def first_line(cost: CostValues) -> str:
+    """What the tightest clamp costs, such as "It costs: clamp 11 off by 50 um along x ..."."""
+    tightest = cost.tightest
+    fall = f"{'lowers' if cost.shift < 0 else 'raises'} the {cost.measure}"
+    part = percent(abs(cost.shift))
+    if tightest is not None:
+        lead = "It costs" if cost.as_built.over_constrained else "It costs little"
+        return f"{lead}: {_off(tightest)} {fall} by {part}."
+    if cost.as_built.tolerances:
+        return f"It costs nothing: no clamp that is off {fall} by {part}, to first order."
+    if not cost.clamps:
+        return "It costs nothing: no clamp is there that could be off."
+    return "What a clamp that is off costs has no answer here; the reasons stand below."
+
+
+def _off(each: Tolerance) -> str:
+    """Such as "clamp 11 off by 50 um along x"."""
+    where = each.misalignment
+    turn = "turned" if where.unit == "rad" else "off"
+    pivot = "" if where.about is None else f" through node {where.about}"
+    size = in_words(each.tightest, where.unit)
+    direction = words_of_direction(where.direction)
+    return f"{harmless(where.clamp.words)} {turn} by {size} {direction}{pivot}"
+
+
+def _first(cost: CostValues) -> Iterator[str]:
+    if cost.name:
+        yield harmless(cost.name)
+    yield _filled(first_line(cost))
+    if cost.tightest is not None and not cost.as_built.over_constrained:
+        yield _filled("It is not over-constrained: only what is compliant is stressed.")
+
+
+def _choices(cost: CostValues) -> Iterator[str]:
+    beams = (
+        "8 and 16 beams a sheet, extrapolated"
+        if cost.beams == "auto"
+        else "the deck's own elements, uncertainty not known"
+        if cost.beams == 1
+        else f"{cost.beams} beams a sheet, uncertainty not known"
+    )
+    yield _filled(
+        f"At {harmless(cost.point.words)}, {cost.point.reason}. Held deformations {cost.held}, "
+        f"drive {cost.drive}, {beams}."
+    )
+
+
+def _table(cost: CostValues) -> Iterator[str]:
+    """The designs, with as many uncertainties as there is room for: the last columns first."""
+    for first in range(len(_HEADINGS) + 1):
+        rows = [_HEADINGS, _SECOND, *(_row(design, first) for design in cost.designs)]
+        widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
+        if sum(widths) + _GAP * (len(widths) - 1) <= _WIDTH:
+            break
+    for row in rows:
+        cells = (
+            cell.ljust(width) if k == 0 else cell.rjust(width)
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        yield (" " * _GAP).join(cells).rstrip()
+
+
+def _row(design: Design, first: int) -> tuple[str, ...]:
+    """A row, with uncertainties from a column on."""
+    label = design.label
+    if len(label) > _LONGEST:
+        label = f"{label[: _LONGEST - 3]}..."
+    kept = None if design.kept is None else design.kept.smallest
+    tightest, buckles = design.tightest, design.buckles_at
+    columns: tuple[tuple[Number | None, str], ...] = (
+        (kept, ""),
+        (design.first_parasitic, "Hz"),
+        (tightest and tightest.tightest, tightest.misalignment.unit if tightest else ""),
+        (buckles and buckles.critical, buckles.misalignment.unit if buckles else ""),
+    )
+    cells = [label]
+    for k, (number, unit) in enumerate(columns, start=1):
+        if number is None:
+            cells.append("none" if k > _KNOWN and design.tolerances else "")
+        else:
+            cells.append(in_words(number if k >= first else Number(number.value), unit))
+    return tuple(cells)
+
+
+def _where(cost: CostValues) -> Iterator[str]:
+    """Which clamp and direction, which weakest direction, and what is alike."""
+    for design in cost.designs:
+        told = []
+        if design.kept is not None:
+            is_all = design.kept.smallest.value > _ALL
+            told.append("keeps all stiffness" if is_all else f"weakest {design.kept.words}")
+        tightest, buckles = design.tightest, design.buckles_at
+        if tightest is not None:
+            told.append(f"tightest {harmless(tightest.misalignment.words)}")
+        if buckles is not None and (
+            tightest is None or buckles.misalignment != tightest.misalignment
+        ):
+            told.append(f"buckles by {harmless(buckles.misalignment.words)}")
+        if design.alike:
+            shown = ", ".join(design.alike[:4])
+            more = f" and {len(design.alike) - 4} more" if len(design.alike) > 4 else ""
+            told.append(f"the same by symmetry: {shown}{more}")
+        what = "" if not design.released else f" ({harmless(design.words)})"
+        text = f"{design.label}{what}: {'; '.join(told)}." if told else f"{design.label}{what}."
+        yield _filled(" ".join((text, *design.remarks)), "  ")
+
+
+def _legend(cost: CostValues) -> Iterator[str]:
+    kept = "worst stiffness kept: the smallest mu of C_before v = mu C_after v at the point; "
+    shift = percent(abs(cost.shift))
+    way = "fall" if cost.shift < 0 else "rise"
+    what = FREQUENCY if cost.measure == FREQUENCY else "lowest stiffness of that point"
+    yield _filled(
+        f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
+        f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "
+        "a stiffness is lost. Stress is taken in proportion to the error, about the undeformed "
+        "state."
+    )
+
+
+def _left_out(cost: CostValues) -> Iterator[str]:
+    for sentence in cost.left_out:
+        yield _filled(f"Note: {sentence}")
+
+
+def _filled(text: str, indent: str = "") -> str:
+    return textwrap.fill(
+        text,
+        _WIDTH,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
