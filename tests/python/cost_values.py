@@ -20,10 +20,10 @@ from flexact.costing.designs import (
     CostValues,
     Design,
     MisalignmentCurve,
-    Shape,
     Stroke,
     StrokeCurve,
 )
+from flexact.costing.shape import Shape
 from flexact.costing.values import (
     DIRECTIONS,
     FREQUENCY,

@@ -12,9 +12,10 @@ from ..page.shapes_data import Shaped
 from ..picture import has_packages, shape_bytes
 from .bars import bars_of
 from .curves import charts_of
-from .designs import CostValues, Design, Shape
+from .designs import CostValues, Design
 from .key import Key, choices_of, key_of, typeset
 from .quantities import in_words
+from .shape import Shape
 from .values import Number
 from .words import first_line
 

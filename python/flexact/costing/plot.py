@@ -26,7 +26,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 #: Width [inch] and pixels an inch: 1200 pixels wide.
 _WIDTH, _DPI = 12.0, 100
 #: Heights of what stands below each other [inch].
-_CHART, _ROW, _ABOVE, _BELOW = 2.3, 0.156, 0.32, 0.54
+_CHART, _ROW, _ABOVE, _BELOW = 2.25, 0.152, 0.32, 0.5
 _END = 0.58
 #: Room beside charts and bars for what stands there [inch].
 _LEFT, _NAMES, _GROUPS, _RIGHT = 0.62, 0.82, 1.05, 0.35

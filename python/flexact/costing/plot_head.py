@@ -20,7 +20,7 @@ _LETTERS, _LINES = 96, 2
 def head_height(cost: CostValues, table: Table) -> float:
     """How high the head is [inch]."""
     lines = HEAD.line * len(_headline(cost))
-    return HEAD.top + lines + 2 * HEAD.row + table.row * len(table.rows) + HEAD.room
+    return HEAD.top + lines + 2 * HEAD.row + sum(table.heights) + HEAD.room
 
 
 def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
@@ -35,9 +35,9 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
     for place, head in zip(table.cells, table.heads, strict=True):
         _text(figure, place, top, head, HEAD.words - 0.5, SOFT)
     top += HEAD.row
-    for row, told in zip(table.rows, table.words, strict=True):
+    for row, told, height in zip(table.rows, table.words, table.heights, strict=True):
         _draw_row(figure, table, row, told, top)
-        top += table.row
+        top += height
 
 
 def _headline(cost: CostValues) -> list[str]:

@@ -39,7 +39,7 @@ class Table(NamedTuple):
         words: What each releases, in lines.
         place: Where these begin [inch].
         cells: Where the columns begin [inch].
-        row: Height of a row [inch].
+        heights: Of the rows [inch].
     """
 
     heads: tuple[str, ...]
@@ -47,7 +47,7 @@ class Table(NamedTuple):
     words: tuple[list[str], ...]
     place: float
     cells: list[float]
-    row: float
+    heights: tuple[float, ...]
 
 
 def table_of(figure: Any, key: Key) -> Table:
@@ -80,8 +80,8 @@ def table_of(figure: Any, key: Key) -> Table:
     for each in wide:
         cells.append(place)
         place += each + gap
-    row = HEAD.row + HEAD.second * (max(map(len, words), default=1) > 1)
-    return Table(key.heads, key.rows, words, first, cells, row)
+    heights = (HEAD.row + HEAD.second * max(len(lines) - 1, 0) for lines in words)
+    return Table(key.heads, key.rows, words, first, cells, tuple(heights))
 
 
 def _wrapped(figure: Any, text: str, room: float) -> list[str]:
