@@ -16,6 +16,7 @@ import pytest
 from cost_values import CRITICAL, made_up_cost, numbers, without_masses, without_stroke
 
 import flexact
+from flexact.core.elements import NodeKind
 from flexact.costing.bars import MOST_CLAMPS, bars_of
 from flexact.costing.curves import charts_of
 from flexact.costing.designs import CostValues
@@ -213,12 +214,14 @@ def test_the_table_says_what_each_design_bears_and_keeps(cost: CostValues) -> No
 def test_shapes_of_a_state_are_pictures(tmp_path: Path) -> None:
     """A clamped-guided sheet: it vibrates across, and pushed at its end it buckles."""
     guide = flexact.Model()
-    guide.sheet((0, 0, 0), (0.1, 0, 0), width=(0, 0, 1), breadth=0.05, thickness=5e-4, material="steel")
+    guide.sheet(
+        (0, 0, 0), (0.1, 0, 0), width=(0, 0, 1), breadth=0.05, thickness=5e-4, material="steel"
+    )
     guide.fix((0, 0, 0))
     guide.fix((0.1, 0, 0))
     state = flexact.elastic(guide, beams=4).misaligned(3, "x", -1e-6)
     buckled = flexact.shape(state, buckled=True)
-    across = np.abs(buckled.displacement[buckled.data.arrays.node_kind <= 1])
+    across = np.abs(buckled.displacement[buckled.data.arrays.node_kind <= NodeKind.POSITION])
     assert across[:, 1].max() == pytest.approx(1.0) and across[:, [0, 2]].max() < 1e-3
     # 4 pi^2 EI / (EA L), with t^2 / 12 of I / A; four beams are within 5 percent.
     critical = 4 * np.pi**2 * (5e-4) ** 2 / 12 / 0.1
