@@ -21,8 +21,8 @@ module flexact_elastic_exchange
    private
    public :: give_stiffness, run_path, run_task, task_names
 
-   character(len=24), parameter :: task_names(*) = [character(len=24) :: 'linear', 'frequencies', 'multipliers', 'matrices', &
-                                                               'errors']
+   character(len=24), parameter :: task_names(*) = &
+                                   [character(len=24) :: 'linear', 'frequencies', 'multipliers', 'matrices', 'errors']
 
 contains
 

@@ -352,9 +352,7 @@ def _modes(
     answer, facts = _studied(model, arrays, state, gravity, task, count, given, room)
     k = int(facts[0])
     modes = answer[: 3 * nodes, :k].reshape((3, nodes, k), order="F")
-    return RawModes(
-        answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]), facts[3] == 1
-    )
+    return RawModes(answer[-1, :k].copy(), modes, int(facts[1]), int(facts[2]), facts[3] == 1)
 
 
 def _studied(

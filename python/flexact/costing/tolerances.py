@@ -50,13 +50,14 @@ def tolerances_of(
     """
     found, able = [], np.ones(len(misalignments), bool)
     for k, level in enumerate(bench.levels):
+        square = level.first_square * (1.0 + shift) ** 2
         stresses = level.stresses(misalignments)
         able &= np.isfinite(stresses).all(axis=(0, 1))
         stresses = np.asfortranarray(stresses[:, :, able])
         critical = level.errors(stresses, 0.0)
         progress((k + 0.5) / len(bench.levels))
         if shift < 0.0:
-            aimed = level.errors(stresses, level.first_square * (1.0 + shift) ** 2)
+            aimed = level.errors(stresses, square)
         else:
             some = [each for each, fits in zip(misalignments, able, strict=True) if fits]
             aimed = np.array([_rising(level, each, shift) for each in some]).reshape(-1, 2)
