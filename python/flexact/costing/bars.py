@@ -16,7 +16,7 @@ from .values import Clamp, Misalignment, Tolerance
 MOST_CLAMPS = 6
 #: Errors beyond this part of the mechanism's size, or this angle [rad], are drawn without an end:
 #: stress that is in proportion to the error means nothing there, and no workshop is that far off.
-_MOST = 0.1
+LARGEST = 0.1
 #: Room behind the longest bar for its value, as a part of the axis.
 _BEYOND = 0.2
 
@@ -32,7 +32,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
         for design in cost.designs
     ]
-    limit = _MOST * (cost.as_built.size if unit == "m" else 1.0)
+    limit = LARGEST * (cost.as_built.size if unit == "m" else 1.0)
     finite = [
         each.tightest.value
         for design in found
