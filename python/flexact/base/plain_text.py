@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+
 #: Bits of a number, and letters of what is given, beyond which a message leaves them out.
 _LONG_NUMBER, _LONG_TEXT = 64, 60
 
@@ -25,6 +27,11 @@ def _harmless(c: str, keep_tabs: bool) -> str:
     if ord(c) < 0x20:
         return chr(0x2400 + ord(c))
     return "\u2421" if c == "\x7f" else "\ufffd"
+
+
+def file_name(name: str) -> str:
+    """The last part of a path: where a deck lies is nobody's concern."""
+    return os.path.basename(name.replace("\\", "/"))
 
 
 def in_short(given: object) -> str:

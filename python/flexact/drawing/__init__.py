@@ -19,6 +19,7 @@ from .shapes import Field, Strip, field_along, stations
 from .solids import axes_of, cylinders, solid
 from .spaces import SpaceShape, dashes, shape_of_space
 from .supports import Arrows, Support, Supports
+from .swing import swing
 
 __all__ = [
     "BENDING",
@@ -56,4 +57,5 @@ __all__ = [
     "sides_in",
     "solid",
     "stations",
+    "swing",
 ]

@@ -42,14 +42,16 @@ class Movement(Frozen):
         deviation: The largest deformation in the poses that the motion holds, as a part of the
             drawing's size; infinite where there is no such path near, NaN where the model is too
             large to look for it. Then rigid bodies move on the screws of the motion.
-        phases: (17,) from -1 to 1; 0 is the reference.
+        phases: (17,) from -1 to 1, fewer of a shape that is elastic; 0 is the reference.
         poses: One a phase.
+        about: What is to be said of them where that is no path; may be empty.
     """
 
     scale: float
     deviation: float
     phases: FloatArray
     poses: tuple[Pose, ...]
+    about: str = ""
 
     @property
     def true_path(self) -> bool:
@@ -59,6 +61,8 @@ class Movement(Frozen):
     @property
     def remark(self) -> str:
         """What is to be said of the poses, a sentence."""
+        if self.about:
+            return self.about
         if self.true_path:
             return "On its path: no held deformation changes."
         if np.isnan(self.deviation):

@@ -92,25 +92,40 @@ def moved_by_screws(motion: Velocities, shares: Iterable[float]) -> tuple[Pose, 
     Every node of a rigid body moves on the body's screw, so that the body keeps its shape. A
     node of no body moves straight and turns about its own axis.
     """
-    reference, bodies = reference_pose(motion.data.arrays), _bodies(motion.data.arrays)
-    return tuple(_moved(motion, share, reference, *bodies) for share in shares)
+    reference, moves = reference_pose(motion.data.arrays), BodyMoves(motion.data.arrays)
+    return tuple(_moved(motion, share, reference, moves) for share in shares)
 
 
-def _moved(
-    motion: Velocities, share: float, reference: Pose, centre: np.ndarray, turn: np.ndarray
-) -> Pose:
+def _moved(motion: Velocities, share: float, reference: Pose, moves: BodyMoves) -> Pose:
     moved, turned = share * motion.displacement, share * motion.rotation
-    position = reference.position + moved
     rotation = matrix_of(turned)
-    body = np.flatnonzero(centre >= 0)
-    arm = reference.position[body] - reference.position[centre[body]]
-    about = turned[turn[body]]
-    carried = np.einsum("kxy,ky->kx", screw_matrix(about), moved[centre[body]])
-    position[body] = (
-        reference.position[centre[body]] + carried + np.einsum("kxy,ky->kx", matrix_of(about), arm)
-    )
+    position = moves.carried(reference.position, reference.position + moved, turned)
     rotation[motion.data.arrays.node_kind <= NodeKind.POSITION] = np.eye(3)
     return Pose(position, rotation)
+
+
+class BodyMoves:
+    """How the position nodes of rigid bodies move with them."""
+
+    def __init__(self, arrays: ModelArrays) -> None:
+        """Find the bodies."""
+        self._centre, self._turn = _bodies(arrays)
+
+    def carried(self, start: FloatArray, moved: FloatArray, turned: FloatArray) -> FloatArray:
+        """Positions (nodes, 3) after velocities that last for a time of one.
+
+        Args:
+            start: (nodes, 3) where they were [m].
+            moved: (nodes, 3) where they would be, had all gone straight [m].
+            turned: (nodes, 3) rotation vectors of orientations [rad].
+        """
+        made = moved.copy()
+        body = np.flatnonzero(self._centre >= 0)
+        centre, about = self._centre[body], turned[self._turn[body]]
+        gone = np.einsum("kxy,ky->kx", screw_matrix(about), (moved - start)[centre])
+        arm = np.einsum("kxy,ky->kx", matrix_of(about), start[body] - start[centre])
+        made[body] = start[centre] + gone + arm
+        return made
 
 
 def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:

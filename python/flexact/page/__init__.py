@@ -2,15 +2,20 @@
 """A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
 
 from .before_and_after import before_and_after
+from .designs_page import Compared, Side, Told, designs_page
 from .index_page import Entry, index_page, index_pieces
 from .page import broken_page, page, reason_in_words
 from .verdict_part import BROKEN, kind_of
 
 __all__ = [
     "BROKEN",
+    "Compared",
     "Entry",
+    "Side",
+    "Told",
     "before_and_after",
     "broken_page",
+    "designs_page",
     "index_page",
     "index_pieces",
     "kind_of",

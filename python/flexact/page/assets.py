@@ -63,30 +63,40 @@ def three_version() -> str:
 
 
 @cache
-def policy(names: tuple[str, ...]) -> str:
-    """A content security policy: these scripts and the styles, and nothing from a network."""
+def policy(names: tuple[str, ...], style: str) -> str:
+    """A content security policy: these scripts and styles, and nothing from a network."""
     scripts = " ".join(_hashed(script(name)) for name in names)
     return (
-        f"default-src 'none'; script-src {scripts}; style-src {_hashed(style())}; "
+        f"default-src 'none'; script-src {scripts}; style-src {_hashed(style)}; "
         "img-src data:; base-uri 'none'; form-action 'none'"
     )
 
 
-def filled(title: str, body: str, scripts: tuple[str, ...]) -> str:
-    """A whole page; all but the title is HTML."""
+def filled(
+    title: str,
+    body: str,
+    scripts: tuple[str, ...],
+    styles: tuple[str, ...] = ("style.css",),
+    further: str = "",
+) -> str:
+    """A whole page; all but the title is HTML.
+
+    Args:
+        title: As text.
+        body: The page.
+        scripts: Names of files.
+        styles: Names of files, later ones behind earlier ones.
+        further: Styles behind them.
+    """
+    style = "".join(map(asset, styles)) + further
     return Template(asset("template.html")).substitute(
         title=escape(harmless(title)),
         version=VERSION,
-        policy=escape(policy(scripts)),
-        style=style(),
+        policy=escape(policy(scripts, style)),
+        style=style,
         body=body,
         scripts="\n".join(f"<script>{script(name)}</script>" for name in scripts),
     )
-
-
-def style() -> str:
-    """The styles."""
-    return asset("style.css")
 
 
 def _hashed(content: str) -> str:

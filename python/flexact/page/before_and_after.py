@@ -8,6 +8,7 @@ from typing import Any
 
 from ..advice.spaces.spaces import Spaces
 from ..base.errors import require_kind
+from ..base.plain_text import file_name
 from ..drawing import drawing_of
 from ..result.result import Result
 from ..text.describe import verdict_in_words
@@ -17,7 +18,6 @@ from .controls_part import choices_part, keys, layers, toolbar
 from .drawing_data import frames_of
 from .drawing_part import drawing_part
 from .markup import linked, paragraphs, section, text
-from .page import file_name
 from .verdict_part import SWITCH, verdict_of_side
 from .viewer_data import left_out, stuck_in, viewer_data
 

@@ -57,6 +57,9 @@ const Controls = (() => {
       [this.play, this.amplitude, this.speed, this.fit] = ["play", "amplitude", "speed", "fit"].map(
         (name) => document.querySelector(`.toolbar .${name}`));
       this.layers = Array.from(document.querySelectorAll("input[data-layer]"));
+      for (const { dataset, checked } of this.layers) {
+        for (const viewer of viewers) viewer.layers[dataset.layer] = checked;
+      }
       this.listenToPlayer();
       this.listenToView();
       for (const viewer of viewers) this.listenToKeys(viewer);

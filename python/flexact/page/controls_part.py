@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from typing import Any
 
 from ..drawing import QUANTITIES
@@ -20,6 +20,10 @@ _LAYERS = (
     ("diagram", "bending diagram", False),
     ("elements", "element numbers", False),
     ("nodes", "node numbers", False),
+)
+_MOVEMENTS = (
+    *(("motion", "Motions"), ("freedom", "Declared degrees of freedom")),
+    *(("vibrating", "Vibrates"), ("buckled", "Buckles")),
 )
 _MORE_KEYS = "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses."
 KEYS = f"Drag or arrow keys turn the drawing, with Shift they move it; the wheel or {_MORE_KEYS}"
@@ -82,9 +86,9 @@ def choices_part(
 
 
 def _movements(movements: Sequence[dict[str, Any]], mark: str) -> str:
-    """Motions and declared degrees of freedom: one choice, under two headings."""
+    """Motions, declared degrees of freedom and elastic shapes: one choice, under headings."""
     none, made = "None", ""
-    for kind, legend in (("motion", "Motions"), ("freedom", "Declared degrees of freedom")):
+    for kind, legend in _MOVEMENTS:
         chosen = [
             _choice(index, movement)
             for index, movement in enumerate(movements)
@@ -134,13 +138,13 @@ def _chip(about: str, value: str, words: str, more: str, checked: bool) -> str:
     )
 
 
-def layers(*drawings: dict[str, Any]) -> str:
-    """What else is drawn, of what some drawings have."""
+def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
+    """What else is drawn, of what some drawings have; some are not drawn at first."""
     moves, stressed = (any(each[name] for each in drawings) for name in ("movements", "stresses"))
     lacking = {"ghost": not moves, "arrows": not moves, "diagram": not stressed}
     made = "".join(
         f'<label class="check"><input type="checkbox" data-layer="{layer}"'
-        f"{' checked' if on else ''}>{words}</label>"
+        f"{' checked' if on and layer not in off else ''}>{words}</label>"
         for layer, words, on in _LAYERS
         if not lacking.get(layer)
     )

@@ -32,7 +32,7 @@ from ..drawing import (
 from ..drawing.places import turned_at
 from ..drawing.rotations import euler_of
 from ..drawing.view import ISO, view_of
-from ..result.result import Result
+from ..model.parts.parts import Parts
 from .limits import MOST_MEMBERS
 from .packing import flags, floats, integers
 
@@ -95,7 +95,7 @@ def _kept(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
     return np.flatnonzero(used), new
 
 
-def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
+def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
     """All that does not depend on motions and self-stresses."""
     drawing = frame.drawing
     return {
@@ -118,9 +118,9 @@ def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
         "meaning": meanings_in(drawing),
         "sides": sides_in(drawing),
         "forms": {int(form): form.name.lower() for form in Form},
-        "nodes": _nodes(analysis, frame),
+        "nodes": _nodes(frame),
         "members": _members(frame),
-        "bodies": _bodies(analysis, frame),
+        "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
         "supports": _supports(frame),
         "joints": _joints(frame),
@@ -128,8 +128,8 @@ def static_data(analysis: Result, frame: Frame) -> dict[str, Any]:
     }
 
 
-def _nodes(analysis: Result, frame: Frame) -> dict[str, Any]:
-    arrays, kept = analysis.given.arrays, frame.kept
+def _nodes(frame: Frame) -> dict[str, Any]:
+    arrays, kept = frame.drawing.data.arrays, frame.kept
     placed = arrays.node_kind <= NodeKind.POSITION
     place = np.where(placed, np.arange(placed.size), -1)
     pairs = turned_at(arrays)
@@ -138,13 +138,13 @@ def _nodes(analysis: Result, frame: Frame) -> dict[str, Any]:
         "number": integers(arrays.node_number[kept]),
         "placed": integers(np.flatnonzero(placed[kept])),
         "place": integers(frame.nodes(place[kept])),
-        "held": _held(analysis, frame, pairs),
+        "held": _held(frame, pairs),
     }
 
 
-def _held(analysis: Result, frame: Frame, pairs: np.ndarray) -> dict[int, str]:
+def _held(frame: Frame, pairs: np.ndarray) -> dict[int, str]:
     """What is fixed at position nodes, by their index in the page."""
-    arrays = analysis.given.arrays
+    arrays = frame.drawing.data.arrays
     fixed = (arrays.coordinate_class == Class.FIXED).T
     placed = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
     names: dict[int, list[str]] = defaultdict(list)
@@ -180,7 +180,7 @@ def _members(frame: Frame) -> dict[str, Any]:
     }
 
 
-def _bodies(analysis: Result, frame: Frame) -> dict[str, Any]:
+def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
     """Bodies that are solids: corners in the frame of the member with which each moves."""
     drawing, members = frame.drawing, frame.drawing.members
     solids = drawing.solids
@@ -198,7 +198,7 @@ def _bodies(analysis: Result, frame: Frame) -> dict[str, Any]:
     edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
     elements = [int(members.index[solid.rows[0]]) for solid in solids]
     return {
-        "names": [analysis.parts.of_element(i).name for i in elements],
+        "names": [parts.of_element(i).name for i in elements],
         "rows": [solid.rows.tolist() for solid in solids],
         "corner": floats(np.concatenate(corners)),
         "count": integers([len(solid.corners) for solid in solids]),

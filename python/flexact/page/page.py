@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 from ..advice.spaces.spaces import Spaces
 from ..base.errors import require_kind
+from ..base.plain_text import file_name
 from ..diagnostics.errors import ProblemsError
 from ..drawing import drawing_of
 from ..result.result import Result
@@ -106,8 +106,3 @@ def reason_in_words(error: Exception) -> str:
 def _note(item: Any) -> str:
     hint = f" {text(item.help)}" if item.help else ""
     return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
-
-
-def file_name(name: str) -> str:
-    """The last part of a path: where the deck lies is nobody's concern."""
-    return os.path.basename(name.replace("\\", "/")) if name else ""

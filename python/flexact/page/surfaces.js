@@ -55,6 +55,8 @@ const Surfaces = (() => {
   function ends(plan, m, index) {
     const c = plan.corners[m];
     for (const s of [0, plan.stations[m] - 1]) {
+      // Within a divided sheet nothing ends.
+      if (plan.joined[2 * m + (s ? 1 : 0)]) continue;
       const at = plan.vertex[m] + s * c;
       for (let j = 2; j < c; j++) {
         index.push(at, ...(s ? [at + j - 1, at + j] : [at + j, at + j - 1]));

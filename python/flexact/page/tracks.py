@@ -33,14 +33,14 @@ State = dict[str, FloatArray]
 class Tracks:
     """The shapes of a drawing in its poses."""
 
-    def __init__(self, frame: Frame) -> None:
-        """The shapes in the reference."""
+    def __init__(self, frame: Frame, most: int = 16) -> None:
+        """The shapes in the reference; bent members in at most so many pieces."""
         self.frame = frame
         self.members = frame.drawing.members
         self.chosen = np.arange(len(self.members)) < MOST_MEMBERS
         bends = self.members.bends[:MOST_MEMBERS]
         count = int(np.count_nonzero(bends))
-        self.segments = next(pieces for most, pieces in _SEGMENTS if count <= most)
+        self.segments = min(most, next(pieces for up_to, pieces in _SEGMENTS if count <= up_to))
         #: Of each member the first station, and the first cross-section: straight ones have one.
         counts = np.where(bends[:, None], self.segments + 1, (2, 1))
         self.station, self.section = (np.cumsum(counts, axis=0) - counts).T

@@ -20,7 +20,7 @@ def viewer_data(analysis: Result, frame: Frame, spaces: Spaces | None = None) ->
     """All that is drawn of a result, with spaces of a body, and the first choices."""
     tracks = Tracks(frame)
     data = {
-        **static_data(analysis, frame),
+        **static_data(analysis.parts, frame),
         "reference": tracks.data(),
         "segments": tracks.segments,
         "movements": movements(analysis, tracks),

@@ -14,6 +14,7 @@ from .make import (
     has_packages,
     picture_bytes,
 )
+from .shape import shape_bytes
 from .subject import SubjectError
 
 __all__ = [
@@ -27,4 +28,5 @@ __all__ = [
     "draw",
     "has_packages",
     "picture_bytes",
+    "shape_bytes",
 ]

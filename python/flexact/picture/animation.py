@@ -33,7 +33,7 @@ Told = Callable[[float], None]
 
 
 def gif_bytes(
-    analysis: Result,
+    analysis: Result | None,
     drawing: Drawing,
     subject: Subject,
     view: View,

@@ -53,7 +53,7 @@ _APART = np.array((52.0, 16.0))
 
 
 def compose(
-    analysis: Result,
+    analysis: Result | None,
     drawing: Drawing,
     subjects: list[Subject],
     view: View,
@@ -66,7 +66,7 @@ def compose(
     """The figure of some subjects side by side.
 
     Args:
-        analysis: The result, of which the verdict is the title.
+        analysis: The result, of which the verdict is the title; None without one.
         drawing: Its drawing.
         subjects: What is shown, a panel each.
         view: From where.
@@ -81,7 +81,9 @@ def compose(
     figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI, facecolor="white")
     scale = float(np.clip(width / len(subjects) / PANEL[0], 0.3, 2.0))
     frame = _Frame(figure, width, height, scale)
-    top = 0.0 if plain else _add_verdict(frame, analysis)
+    top = 0.0 if plain else 14.0 * scale
+    if not plain and analysis is not None:
+        top = _add_verdict(frame, analysis)
     fineness = 0.2 + 0.6 * scale if plain else scale
     panels = [paint(drawing, subject, view, phase, fineness) for subject in subjects]
     if box is None and all(subject.space is not None for subject in subjects):

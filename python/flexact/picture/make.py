@@ -139,11 +139,17 @@ def _figure(
     drawing = drawing_of(analysis.given)
     subjects = subjects_of(analysis, drawing, chosen)
     seen = view_of(view, drawing)
-    size = None if size is None else _checked(size)
+    size = None if size is None else checked_size(size)
     return compose(analysis, drawing, subjects, seen, phase=phase, size=size, plain=plain)
 
 
-def _checked(size: object) -> tuple[int, int]:
+def checked_size(size: object) -> tuple[int, int]:
+    """Width and height of a picture, if they can be.
+
+    Raises:
+        TypeError: They are no whole numbers.
+        ValueError: They are out of range.
+    """
     try:
         width, height = (index(side) for side in size)  # type: ignore[attr-defined]
     except (TypeError, ValueError):
@@ -180,7 +186,7 @@ def picture_bytes(
     kind = check_suffix(suffix)
     check_packages()
     asked = Chosen(**chosen)
-    with _quiet():
+    with quiet():
         load_matplotlib()
         if kind == ".gif":
             drawing = drawing_of(analysis.given)
@@ -200,7 +206,7 @@ def _words(analysis: Result) -> tuple[str, str]:
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
+def quiet() -> Iterator[None]:
     """Letters that the font lacks are boxes, caches may be anywhere: nothing to warn of."""
     logger = logging.getLogger("matplotlib")
     level = logger.level
