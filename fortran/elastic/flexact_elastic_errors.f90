@@ -39,9 +39,9 @@ module flexact_elastic_errors
    end type definite_t
 
    !> Pairs that are looked for at first, and at most, until there is one on either side.
-   integer, parameter :: few = 2, many = 24, block = 4
+   integer, parameter :: few = 2, many = 24, block = 2
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
-   real(wp), parameter :: accuracy = 1.0e-5_wp
+   real(wp), parameter :: accuracy = 1.0e-4_wp
    !> Values so many times the nearest are rounding.
    real(wp), parameter :: rounding = 1.0e6_wp
 

@@ -172,7 +172,9 @@ class Design(Frozen):
 
     def _smallest(self, of: Callable[[Tolerance], Number]) -> Tolerance | None:
         def size(each: Tolerance) -> float:
-            return of(each).value * (self.size if each.misalignment.unit == "rad" else 1.0)
+            value = of(each).value * (self.size if each.misalignment.unit == "rad" else 1.0)
+            # Of those that symmetry makes equal it is the first.
+            return float(f"{value:.5g}")
 
         found = min(self.tolerances, key=size, default=None)
         return None if found is None or not of(found).is_finite else found
