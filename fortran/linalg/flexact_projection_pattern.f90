@@ -6,6 +6,7 @@
 !> them. So Z'A Z consists of full blocks, one for each two groups that an entry of A joins.
 module flexact_projection_pattern
    use flexact_kinds, only: wp
+   use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
    use flexact_symmetric_pattern, only: symmetric_pattern_t, analyse_pattern
    implicit none
@@ -102,6 +103,11 @@ contains
          end do
          projection%start(projection%groups + 1) = found + 1
          if (round == 1) projection%joined = spread(0, 1, found)
+      end do
+      do g = 1, projection%groups
+         associate (joined => projection%joined(projection%start(g):projection%start(g + 1) - 1))
+            joined = joined(ascending(real(joined, wp)))
+         end associate
       end do
    end subroutine join_groups
 
