@@ -2,11 +2,12 @@
 !> Mass, stiffness and geometric stiffness in independent coordinates.
 module flexact_elastic_reduced
    use flexact_elastic_model, only: elastic_model_t
+   use flexact_elastic_products, only: mass_times, strains, stiffness_times, hessian_times
    use flexact_elastic_response, only: base_t
    use flexact_elastic_rows, only: rows_t
    use flexact_elastic_space, only: space_t, make_space, answer
    use flexact_elastic_state, only: state_t, unit_parameters
-   use flexact_elastic_tangent, only: add_mass, mass_times, strains, stiffness_times, hessian_times, component_row
+   use flexact_elastic_tangent, only: add_mass, component_row
    use flexact_kinds, only: wp
    use flexact_slots, only: axes, node_orientation
    implicit none

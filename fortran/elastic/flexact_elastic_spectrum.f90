@@ -5,12 +5,13 @@ module flexact_elastic_spectrum
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator
-   use flexact_elastic_projection, only: project
+   use flexact_elastic_products, only: mass_times, hessian_times, strains, stiffness_times
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
-   use flexact_elastic_tangent, only: add_mass, mass_times, hessian_times, strains, stiffness_times
+   use flexact_elastic_tangent, only: add_mass
    use flexact_error, only: error_t, is_kind, error_not_found
    use flexact_kinds, only: wp
+   use flexact_projection, only: project
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
    use flexact_symmetric_pencil, only: pairs_t, lowest_pairs, pairs_next_to_zero

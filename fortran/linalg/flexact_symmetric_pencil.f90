@@ -15,7 +15,8 @@ module flexact_symmetric_pencil
    use flexact_orthonormal, only: fill_at_random
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors, symmetric_times
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors
+   use flexact_symmetric_lanes, only: symmetric_times
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from .analysis import Analysis, analyse
     from .base.errors import FlexactError
     from .costing.cost import Cost, cost
+    from .costing.shape import Shape
+    from .costing.state_shape import shape
     from .deck.models import read, read_text
     from .diagnostics.diagnostic import Diagnostic, Place, Severity
     from .diagnostics.errors import DeckError, ModelError
@@ -74,6 +76,8 @@ _HOMES = {
     "analysis": ("Analysis", "analyse"),
     "base.errors": ("FlexactError",),
     "costing.cost": ("Cost", "cost"),
+    "costing.shape": ("Shape",),
+    "costing.state_shape": ("shape",),
     "deck.models": ("read", "read_text"),
     "diagnostics.diagnostic": ("Diagnostic", "Place", "Severity"),
     "diagnostics.errors": ("DeckError", "ModelError"),
@@ -142,6 +146,7 @@ __all__ = [
     "Proof",
     "SelfStress",
     "Severity",
+    "Shape",
     "Sheet",
     "State",
     "Step",
@@ -161,6 +166,7 @@ __all__ = [
     "jacobian",
     "read",
     "read_text",
+    "shape",
     "sweep",
     "tolerances",
     "trace",

@@ -130,8 +130,15 @@ class Analysis(Result):
         return made
 
     def describe(self) -> str:
-        """The result in plain English: verdict, counts, decision, motions and self-stresses."""
-        return describe(self, most=MOST_MODES)
+        """The result in plain English: verdict, counts, decision, motions and self-stresses.
+
+        Where stiffness is given (ESTIFF), also what over-constraint costs, in a sentence.
+        """
+        words = describe(self, most=MOST_MODES)
+        if self.over_constrained and self.given.properties is not None:
+            # It takes a while to load.
+            words = load("flexact.costing.glance").with_glance(words, self)
+        return words
 
     def __repr__(self) -> str:
         """Verdict, margin and size in a line."""

@@ -16,14 +16,15 @@ import numpy as np
 from reference_decks import ROOT
 
 import flexact
+from flexact.core.elements import NodeKind
 from flexact.costing.designs import (
     CostValues,
     Design,
     MisalignmentCurve,
-    Shape,
     Stroke,
     StrokeCurve,
 )
+from flexact.costing.shape import Shape
 from flexact.costing.values import (
     DIRECTIONS,
     FREQUENCY,
@@ -134,7 +135,7 @@ def _shapes(buckles: bool) -> tuple[Shape, ...]:
     place = data.arrays.node_value.T
     start = Configuration(data.arrays.node_kind, place)
     turned = np.where(np.abs(guided.displacement).sum(1, keepdims=True) > 0, 1.0, 0.0)
-    placed = data.arrays.node_kind[:, None] <= 1
+    placed = data.arrays.node_kind[:, None] <= NodeKind.POSITION
     turning = np.where(placed, np.cross([0.0, 0.0, 1.0], place[:, :3]) * turned, 0.0)
     fields = [
         ("vibrating", "first frequency, 9.92 Hz", 9.92, guided.displacement + guided.rotation),

@@ -306,3 +306,25 @@ def test_shapes_are_of_the_refined_model() -> None:
         assert shape.displacement.shape == (shape.data.arrays.node_number.size, 3)
         places = shape.data.arrays.node_kind <= 2
         assert np.linalg.norm(shape.displacement[places], axis=1).max() == pytest.approx(1.0)
+
+
+# At a glance
+
+
+def test_analyse_tells_the_energy_and_moment_of_the_worst_error() -> None:
+    """Six folded sheets: 1.95 mJ for 0.1 mm at clamp 11 along x (stiffness.md, section 2).
+
+    Of the guide M = phi EI_in/2L with 1 mrad, and the energy M phi/2.
+    """
+    told = flexact.analyse(SIX).describe().split("\n\n")[-1]
+    assert "clamp 11" in told and "100 um along x" in told.replace("\n", " ")
+    assert "1.95 mJ" in told
+    told = flexact.analyse(model("A03")).describe().split("\n\n")[-1]
+    assert "1 mrad about x" in told and "5.47 N m" in told.replace("\n", " ")
+    assert "2.73" in told
+
+
+def test_analyse_tells_nothing_where_nothing_is_known_or_wrong() -> None:
+    for name in ("five_folded_sheets", "six_folded_sheets_released"):
+        told = flexact.analyse(ROOT / "input_decks" / "paper" / f"{name}.dat").describe()
+        assert "It costs" not in told

@@ -119,4 +119,8 @@ class _Work:
             log: str = load("flexact.text.spacar_log").spacar_log(analysis)
             return log
         # What concerns the deck stands on stderr already.
-        return f"{describe(analysis, about_model=False, most=MOST_MODES)}\n"
+        words = describe(analysis, about_model=False, most=MOST_MODES)
+        if analysis.over_constrained and analysis.given.properties is not None:
+            # It takes a while to load.
+            words = load("flexact.costing.glance").with_glance(words, analysis)
+        return f"{words}\n"

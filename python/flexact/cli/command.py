@@ -45,7 +45,7 @@ VERBS = {
 }
 EPILOG = """\
 exit codes:
-  0  analysed (or advised, traced, checked, compared, stored, drawn, written)
+  0  analysed (or advised, costed, traced, checked, compared, stored, drawn, written)
   1  anything that is not below: wrong usage, output that cannot be written, ...
   2  a deck has errors, or cannot be read
   3  the verdict is not the expected one, or an answer differs from the stored one

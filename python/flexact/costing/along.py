@@ -113,7 +113,7 @@ def curve_of(
         Numbers(force.value[:, 0], force.uncertainty[:, 0]),
         frequencies,
         parasitic,
-        tuple(bool(state.alone[-1].is_stable) for state in along.states),
+        tuple(_is_stable(measures, state) for state in along.states),
         tuple(state.under_constrained for state in along.states),
         tuple(state.over_constrained for state in along.states),
     )
@@ -144,6 +144,11 @@ def _own(state: State, drive: tuple[int, str], is_locked: bool) -> FloatArray:
     order = ("x", "y", "rz") if names == "xy" else ("x", "y", "z", "rx", "ry", "rz")
     value = compliance[order.index(name)]
     return np.array([1.0 / value if value != 0.0 else np.inf])
+
+
+def _is_stable(measures: Measures, state: State) -> bool:
+    """Whether no stiffness is negative; with masses known from the frequencies."""
+    return state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
 
 
 def _drives(measures: Measures, state: State, is_locked: bool) -> tuple[bool, ...]:

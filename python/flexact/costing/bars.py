@@ -16,9 +16,9 @@ from .values import Clamp, Misalignment, Tolerance
 MOST_CLAMPS = 6
 #: Errors beyond this part of the mechanism's size, or this angle [rad], are drawn without an end:
 #: stress that is in proportion to the error means nothing there, and no workshop is that far off.
-_MOST = 0.1
+LARGEST = 0.1
 #: Room behind the longest bar for its value, as a part of the axis.
-_BEYOND = 0.12
+_BEYOND = 0.2
 
 
 def bars_of(cost: CostValues) -> tuple[BarChart, ...]:
@@ -32,7 +32,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
         {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
         for design in cost.designs
     ]
-    limit = _MOST * (cost.as_built.size if unit == "m" else 1.0)
+    limit = LARGEST * (cost.as_built.size if unit == "m" else 1.0)
     finite = [
         each.tightest.value
         for design in found
@@ -59,7 +59,7 @@ def _bars(cost: CostValues, unit: str) -> BarChart | None:
     many = "clamp bears" if left_out == 1 else "clamps bear"
     more = f"; {left_out} more {many} more" if left_out else ""
     note = f"Arrows: more than {told(limit, unit, 2)}{more}"
-    scale = log_scale(finite, unit, _BEYOND, limit)
+    scale = log_scale(finite, unit, _BEYOND)
     return BarChart(name, title, scale, tuple(groups), note)
 
 

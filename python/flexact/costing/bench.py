@@ -25,7 +25,7 @@ from .asking import ReleaseAsked
 from .values import Misalignment
 
 #: What rigid parts cannot follow of an error, beyond rounding.
-_MISMATCH = 1.0e-8
+MISMATCH = 1.0e-8
 
 
 class Choice(NamedTuple):
@@ -36,14 +36,19 @@ class Choice(NamedTuple):
     beams: int | str
 
 
+def has_stiffness(data: ModelData) -> bool:
+    """Whether any element has a stiffness."""
+    given = data.properties
+    return given is not None and bool((np.nan_to_num(given.stiffness) > 0.0).any())
+
+
 def require_stiffness(data: ModelData) -> None:
     """Raise where no element has a stiffness.
 
     Raises:
         ModelError: none has.
     """
-    given = data.properties
-    if given is None or not bool((np.nan_to_num(given.stiffness) > 0.0).any()):
+    if not has_stiffness(data):
         raise model_error(
             "no-stiffness",
             "what it costs needs stiffness, and the model gives none",
@@ -153,8 +158,8 @@ class Level:
             raise ElasticError("no mass moves, or the undeformed state is unstable")
         return float(values[0])
 
-    def stresses(self, misalignments: Sequence[Misalignment]) -> FloatArray:
-        """(6, pieces, k) stress of each unit error; NaN where rigid parts cannot follow it.
+    def response(self, misalignments: Sequence[Misalignment]) -> tuple[FloatArray, core.RawLinear]:
+        """(3, nodes, k) moves of the supports for unit errors, and what they do.
 
         Raises:
             ElasticError: a self-stress of rigid parts is not determined.
@@ -165,8 +170,16 @@ class Level:
         for k, each in enumerate(misalignments):
             off = misalignment(points, each.clamp.node, each.direction, 1.0, each.about)
             shift[:, : solver.mesh.nodes, k] = off.shift(solver.mesh.own)
-        answer = self.solution.respond(np.zeros_like(shift), None, shift)
-        return np.where(answer.mismatch > _MISMATCH, np.nan, answer.stress)
+        return shift, self.solution.respond(np.zeros_like(shift), None, shift)
+
+    def stresses(self, misalignments: Sequence[Misalignment]) -> FloatArray:
+        """(6, pieces, k) stress of each unit error; NaN where rigid parts cannot follow it.
+
+        Raises:
+            ElasticError: a self-stress of rigid parts is not determined.
+        """
+        _, answer = self.response(misalignments)
+        return np.where(answer.mismatch > MISMATCH, np.nan, answer.stress)
 
     def errors(self, stresses: FloatArray, square: float) -> FloatArray:
         """(k, 2) errors below and above zero that bring a frequency to a square; 0: it buckles."""

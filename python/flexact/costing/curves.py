@@ -19,6 +19,8 @@ from .values import FREQUENCY, Numbers, unit_of_direction, words_of_direction
 _WIDE = 30.0
 #: Points of a curve against an error; a frequency below this part of the largest is one of none.
 _POINTS, _BUCKLED = 201, 0.1
+#: A translation is drawn unless a rotation loses as many times more.
+_PREFERRED = 0.5
 #: Room above the highest curve, as a part of the axis.
 _ABOVE = 1.08
 
@@ -69,6 +71,7 @@ def _direction(cost: CostValues, strokes: Sequence[tuple[int, StrokeCurve]]) -> 
         if np.isinf(every).any() or not np.nanmax(values[0], initial=0.0) > 0.0:
             continue
         share = float(np.nanmin(every) / np.nanmax(values[0]))
+        share *= _PREFERRED if name in ("x", "y", "z") else 1.0
         if best is None or share < best[0] * (1.0 - 1e-6):
             best = (share, k)
     return None if best is None else best[1]
@@ -110,7 +113,7 @@ def _misaligned(cost: CostValues) -> Chart | None:
     far = np.concatenate([curve.x for curve in curves])
     first, last = float(far.min()), float(far.max())
     verb = "turned" if chosen.unit == "rad" else "off"
-    words = f"{chosen.clamp.words} {verb} {words_of_direction(chosen.direction)}"
+    words = f"{chosen.clamp.label} {verb} {words_of_direction(chosen.direction)}"
     return Chart(
         "misaligned",
         cost.measure.capitalize(),

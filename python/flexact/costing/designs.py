@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
-from ..model.configuration import Configuration
 from ..model.data import ModelData
+from .shape import Shape
 from .values import (
     Clamp,
     Kept,
@@ -72,29 +72,6 @@ class MisalignmentCurve(Frozen):
     misalignment: Misalignment
     values: FloatArray
     measure: Numbers
-
-
-@dataclass(frozen=True, eq=False)
-class Shape(Frozen):
-    """A shape that vibrates or buckles, to be drawn; of the model as it was refined.
-
-    Attributes:
-        kind: "vibrating" or "buckled".
-        words: Such as "first parasitic frequency, 184 Hz" or "buckles at clamp 11 off by 0.13 mm
-            along x".
-        value: Frequency [Hz], or the critical misalignment [m, rad].
-        data: The refined model.
-        configuration: Where its nodes are without the shape.
-        displacement: (nodes of data, 3) displacements and rotations (spins); the largest
-            displacement is 1.
-    """
-
-    kind: str
-    words: str
-    value: float
-    data: ModelData
-    configuration: Configuration
-    displacement: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +172,9 @@ class Design(Frozen):
 
     def _smallest(self, of: Callable[[Tolerance], Number]) -> Tolerance | None:
         def size(each: Tolerance) -> float:
-            return of(each).value * (self.size if each.misalignment.unit == "rad" else 1.0)
+            value = of(each).value * (self.size if each.misalignment.unit == "rad" else 1.0)
+            # Of those that symmetry makes equal it is the first.
+            return float(f"{value:.5g}")
 
         found = min(self.tolerances, key=size, default=None)
         return None if found is None or not of(found).is_finite else found

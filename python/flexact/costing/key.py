@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +17,10 @@ from .values import Misalignment, Number, Tolerance
 
 #: What stands where a misalignment does nothing to first order.
 ANY, NEVER = "any error", "never"
+#: Up to this part a number is told in three digits alone; values within it are alike by symmetry.
+_CERTAIN, _ALIKE = 0.02, 1.01
+#: "about x and about z".
+_TWICE = re.compile(r"(along|about) (\w+) and \1 (\w+)")
 
 
 class KeyRow(NamedTuple):
@@ -92,7 +98,7 @@ def typeset(words: str) -> str:
         (" -> ", " \N{RIGHTWARDS ARROW} "),
     ):
         words = words.replace(plain, proper)
-    return words
+    return _TWICE.sub(r"\1 \2 and \3", words)
 
 
 def _words(design: Design) -> str:
@@ -114,9 +120,16 @@ def _buckles(design: Design, place: Misalignment | None) -> str:
     found = design.buckles_at
     if found is None:
         return NEVER if design.tolerances else ""
-    if design.tightest is not None and design.tightest.misalignment == found.misalignment:
-        place = found.misalignment
+    told = place if design.tightest is None else design.tightest.misalignment
+    if _critical(design, told) <= _ALIKE * found.critical.value:
+        return typeset(in_words(_rounded(found.critical), found.misalignment.unit))
     return _with_place(found.critical, found, place)
+
+
+def _critical(design: Design, place: Misalignment | None) -> float:
+    """At which error of a place it buckles; infinite where none does."""
+    found = (each for each in design.tolerances if each.misalignment == place)
+    return next((each.critical.value for each in found), math.inf)
 
 
 def _with_place(number: Number, found: Tolerance, place: Misalignment | None) -> str:
@@ -125,13 +138,13 @@ def _with_place(number: Number, found: Tolerance, place: Misalignment | None) ->
     size = typeset(in_words(_rounded(number), where.unit))
     if where == place:
         return size
-    direction = where.direction.removeprefix("r")
-    return f"{size}, {where.clamp.label} {'about' if where.unit == 'rad' else 'along'} {direction}"
+    direction = where.direction.replace("r", "about ")
+    return f"{size} ({where.clamp.label}, {direction})"
 
 
 def _rounded(number: Number) -> Number:
     """To three digits where it is that certain; a table is for comparing."""
-    if abs(number.uncertainty) < 5e-3 * abs(number.value):
+    if abs(number.uncertainty) < _CERTAIN * abs(number.value):
         return Number(float(f"{number.value:.3g}"))
     return number
 
@@ -139,7 +152,7 @@ def _rounded(number: Number) -> Number:
 def _kept(design: Design) -> str:
     if design.kept is None:
         return "" if design.released else "100 %"
-    return f"{percent(round(design.kept.smallest.value, 3))} {design.kept.words}"
+    return f"{percent(round(design.kept.smallest.value, 3))} {typeset(design.kept.words)}"
 
 
 def _frequency(design: Design) -> str:

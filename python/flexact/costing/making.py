@@ -7,9 +7,6 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import TypeVar
 
-import numpy as np
-
-from ..core.elements import NodeKind
 from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..result.decompose import asked_for
@@ -25,7 +22,7 @@ from .proven import Candidate
 from .ranking import best
 from .saying import left_out, stroke_in_words
 from .values import FREQUENCY, STIFFNESS
-from .wishes import directions_of, given_of, misalignments_of, stroke_of
+from .wishes import directions_of, given_of, stroke_of
 
 Progress = Callable[[str, float], None]
 Made = TypeVar("Made", bound=CostValues)
@@ -76,12 +73,10 @@ class _Making:
     @cached_property
     def measures(self) -> Measures:
         """What is measured, and where."""
-        values = self.data.arrays.node_value[:3, self.data.arrays.node_kind <= NodeKind.POSITION]
-        size = float(np.linalg.norm(values.max(axis=1) - values.min(axis=1)))
         return Measures(
             self.point,
             directions_of(self.data, self.point),
-            size or 1.0,
+            self.places.size,
             self.places.drives(),
             has_masses(self.data),
         )
@@ -91,7 +86,7 @@ class _Making:
         wanted = Wanted(
             self.measures,
             self.result.parts,
-            misalignments_of(self.places, self.clamps),
+            self.places.misalignments(),
             self.asked.shift,
             self.stroke,
             self.given,

@@ -10,11 +10,12 @@ from ..page.charts_part import chart_svg
 from ..page.shapes_data import Shape as Played
 from ..page.shapes_data import Shaped
 from ..picture import has_packages, shape_bytes
-from .bars import bars_of
+from .bars import LARGEST, bars_of
 from .curves import charts_of
-from .designs import CostValues, Design, Shape
+from .designs import CostValues, Design
 from .key import Key, choices_of, key_of, typeset
 from .quantities import in_words
+from .shape import Shape
 from .values import Number
 from .words import first_line
 
@@ -46,12 +47,22 @@ def _sides(cost: CostValues, key: Key) -> tuple[Side, ...]:
 
 
 def _shown(design: Design) -> tuple[Shape, ...]:
-    """The shapes of one model: those that can be drawn in one drawing."""
+    """The shapes of one model, without those at errors that mean nothing."""
     first = next(iter(design.shapes), None)
     if first is None:
         return ()
     nodes = first.displacement.shape
-    return tuple(each for each in design.shapes if each.displacement.shape == nodes)
+    return tuple(
+        each
+        for each in design.shapes
+        if each.displacement.shape == nodes
+        and (each.kind == "vibrating" or abs(each.value) <= LARGEST * _size(design, each))
+    )
+
+
+def _size(design: Design, shape: Shape) -> float:
+    """By what the error at which it buckles is measured."""
+    return design.size if _unit(design, shape) == "m" else 1.0
 
 
 def _side(series: int, design: Design, key: Key) -> Side:
@@ -73,13 +84,16 @@ def _side(series: int, design: Design, key: Key) -> Side:
     return Side(series, title, words, Shaped(shapes[0].data, played), _still(shapes[0]))
 
 
+def _unit(design: Design, shape: Shape) -> str:
+    """Of the error at which it buckles."""
+    units = {each.critical.value: each.misalignment.unit for each in design.tolerances}
+    near = min(units, key=lambda size: abs(size - abs(shape.value)), default=0.0)
+    return units.get(near, "m")
+
+
 def _label(design: Design, shape: Shape) -> str:
     """Its frequency, or the error at which it buckles."""
-    unit = "Hz"
-    if shape.kind != "vibrating":
-        sizes = {each.critical.value: each.misalignment.unit for each in design.tolerances}
-        near = min(sizes, key=lambda size: abs(size - abs(shape.value)), default=0.0)
-        unit = sizes.get(near, "m")
+    unit = "Hz" if shape.kind == "vibrating" else _unit(design, shape)
     return typeset(in_words(Number(abs(float(f"{shape.value:.3g}"))), unit))
 
 

@@ -11,7 +11,7 @@ from ..model.data import ModelData
 from ..model.parts.parts import Parts
 from ..result.handles import part_of, position_of
 from ..text.places import node_words, part_words
-from .values import Clamp, Point
+from .values import Clamp, Misalignment, Point
 
 
 class Places:
@@ -22,6 +22,15 @@ class Places:
         self.data, self.parts = data, parts
         self.classes = data.arrays.coordinate_class
         self.numbers = data.arrays.node_number.tolist()
+
+    @property
+    def size(self) -> float:
+        """Of the model [m]: the diagonal of the box about its positions; 1 without extent."""
+        places = self.data.arrays.node_kind <= NodeKind.POSITION
+        values = self.data.arrays.node_value[:3, places]
+        if not values.size:
+            return 1.0
+        return float(np.linalg.norm(values.max(axis=1) - values.min(axis=1))) or 1.0
 
     def clamps(self) -> tuple[Clamp, ...]:
         """Supports with something held, by the numbers of their nodes; driven ones are none."""
@@ -42,6 +51,14 @@ class Places:
         """Directions in which a clamp holds, and so may be misaligned."""
         nodes = dict.fromkeys(n for n in (clamp.node, clamp.orientation) if n is not None)
         return tuple(name for node in nodes for name in self.held(self.data.node_index[node]))
+
+    def misalignments(self) -> tuple[Misalignment, ...]:
+        """Every clamp in every direction in which it holds."""
+        return tuple(
+            Misalignment(clamp, direction)
+            for clamp in self.clamps()
+            for direction in self.directions(clamp)
+        )
 
     def clamp_of(self, node: int) -> Clamp:
         """The clamp that a node, by its index, belongs to."""

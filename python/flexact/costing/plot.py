@@ -26,7 +26,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 #: Width [inch] and pixels an inch: 1200 pixels wide.
 _WIDTH, _DPI = 12.0, 100
 #: Heights of what stands below each other [inch].
-_CHART, _ROW, _ABOVE, _BELOW = 2.3, 0.156, 0.32, 0.54
+_CHART, _ROW, _ABOVE, _BELOW = 2.15, 0.15, 0.3, 0.48
 _END = 0.58
 #: Room beside charts and bars for what stands there [inch].
 _LEFT, _NAMES, _GROUPS, _RIGHT = 0.62, 0.82, 1.05, 0.35
@@ -50,9 +50,9 @@ def plot_of(cost: CostValues) -> Any:
     charts, bars = charts_of(cost), bars_of(cost)
     measure: Any = Figure(dpi=_DPI)
     FigureCanvasAgg(measure)
-    table = table_of(measure, key_of(cost))
+    table = table_of(measure, key_of(cost), typeset(first_line(cost)))
     rows = max((bars_height(each) for each in bars), default=0.0)
-    head = head_height(cost, table)
+    head = head_height(table)
     heights = (
         head,
         (_ABOVE + _CHART + _BELOW) * bool(charts),

@@ -3,30 +3,25 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import Any
 
 from ..drawing.charts.series import style_of
 from ..picture.charts import INK, SOFT, written
 from .designs import CostValues
-from .key import KeyRow, choices_of, typeset
+from .key import KeyRow, choices_of
 from .plot_table import HEAD, Table
-from .words import first_line
-
-#: Letters of a line of the headline, and lines of it.
-_LETTERS, _LINES = 96, 2
 
 
-def head_height(cost: CostValues, table: Table) -> float:
+def head_height(table: Table) -> float:
     """How high the head is [inch]."""
-    lines = HEAD.line * len(_headline(cost))
-    return HEAD.top + lines + 2 * HEAD.row + table.row * len(table.rows) + HEAD.room
+    lines = HEAD.line * len(table.headline)
+    return HEAD.top + lines + 2 * HEAD.row + sum(table.heights) + HEAD.room
 
 
 def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
     """The headline, how it was found, and the table."""
     top = HEAD.top
-    for line in _headline(cost):
+    for line in table.headline:
         _text(figure, HEAD.left, top, line, HEAD.headline, INK, fontweight="bold")
         top += HEAD.line
     top += 0.04
@@ -35,13 +30,9 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
     for place, head in zip(table.cells, table.heads, strict=True):
         _text(figure, place, top, head, HEAD.words - 0.5, SOFT)
     top += HEAD.row
-    for row, told in zip(table.rows, table.words, strict=True):
+    for row, told, height in zip(table.rows, table.words, table.heights, strict=True):
         _draw_row(figure, table, row, told, top)
-        top += table.row
-
-
-def _headline(cost: CostValues) -> list[str]:
-    return textwrap.wrap(typeset(first_line(cost)), _LETTERS)[:_LINES]
+        top += height
 
 
 def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: float) -> None:

@@ -20,7 +20,7 @@ class Head(NamedTuple):
     line: float = 0.31
     row: float = 0.245
     second: float = 0.17
-    room: float = 0.2
+    room: float = 0.12
     headline: float = 16.0
     words: float = 10.5
 
@@ -39,7 +39,8 @@ class Table(NamedTuple):
         words: What each releases, in lines.
         place: Where these begin [inch].
         cells: Where the columns begin [inch].
-        row: Height of a row [inch].
+        heights: Of the rows [inch].
+        headline: Above it, in lines.
     """
 
     heads: tuple[str, ...]
@@ -47,15 +48,17 @@ class Table(NamedTuple):
     words: tuple[list[str], ...]
     place: float
     cells: list[float]
-    row: float
+    heights: tuple[float, ...]
+    headline: list[str]
 
 
-def table_of(figure: Any, key: Key) -> Table:
+def table_of(figure: Any, key: Key, headline: str) -> Table:
     """The table as wide as the figure; what is released has the room that is left.
 
     Args:
         figure: Any figure, with which letters are measured.
         key: What it says.
+        headline: What stands above.
     """
 
     def width(words: Iterable[str], weight: str = "normal") -> float:
@@ -72,7 +75,7 @@ def table_of(figure: Any, key: Key) -> Table:
     ]
     told = [row.words if row.words != row.label else "" for row in key.rows]
     left = max(HEAD.end - first - sum(wide) - _GAP * (len(wide) + 1), 1.0)
-    words = tuple(_wrapped(figure, each, left) for each in told)
+    words = tuple(wrapped(figure, each, left, HEAD.words) for each in told)
     needed = width(line for lines in words for line in lines)
     # What is not needed goes between the columns.
     gap = _GAP + max(0.0, min((left - needed) / (len(wide) + 1), _MOST_GAP - _GAP))
@@ -80,25 +83,27 @@ def table_of(figure: Any, key: Key) -> Table:
     for each in wide:
         cells.append(place)
         place += each + gap
-    row = HEAD.row + HEAD.second * (max(map(len, words), default=1) > 1)
-    return Table(key.heads, key.rows, words, first, cells, row)
+    heights = (HEAD.row + HEAD.second * max(len(lines) - 1, 0) for lines in words)
+    lines = wrapped(figure, headline, HEAD.end - HEAD.left, HEAD.headline, "bold")
+    return Table(key.heads, key.rows, words, first, cells, tuple(heights), lines)
 
 
-def _wrapped(figure: Any, text: str, room: float) -> list[str]:
-    """Words in lines that fit; what does not fit into the last is cut."""
+def wrapped(figure: Any, text: str, room: float, size: float, weight: str = "normal") -> list[str]:
+    """Words in two lines that fit; what does not fit into the last is cut."""
     lines: list[str] = []
     for word in text.split():
         longer = f"{lines[-1]} {word}" if lines else word
-        if lines and (len(lines) == _LINES or width_of(figure, longer, HEAD.words) <= room + 0.02):
+        is_last = len(lines) == _LINES
+        if lines and (is_last or width_of(figure, longer, size, weight) <= room + 0.02):
             lines[-1] = longer
         else:
             lines.append(word)
-    return [_cut(figure, line, room) for line in lines]
+    return [_cut(figure, line, room, size, weight) for line in lines]
 
 
-def _cut(figure: Any, line: str, room: float) -> str:
+def _cut(figure: Any, line: str, room: float, size: float, weight: str) -> str:
     told = line
-    while len(line) > 1 and width_of(figure, told, HEAD.words) > room + 0.02:
+    while len(line) > 1 and width_of(figure, told, size, weight) > room + 0.02:
         line = line[:-1].rstrip(" ;:,-")
         told = f"{line}\N{HORIZONTAL ELLIPSIS}"
     return told

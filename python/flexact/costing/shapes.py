@@ -11,8 +11,8 @@ from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.data import ModelData
 from .bench import Bench
-from .designs import Shape
 from .quantities import in_words
+from .shape import Shape
 from .values import Number, Numbers, Tolerance
 
 #: How many parasitic frequencies are shown.

@@ -11,7 +11,7 @@ from ..model.data import ModelData
 from . import along
 from .asked import Asked
 from .places import Places
-from .values import DIRECTIONS, PLANAR, Clamp, Misalignment, Point
+from .values import DIRECTIONS, PLANAR, Misalignment, Point
 
 
 def directions_of(data: ModelData, point: Point) -> tuple[str, ...]:
@@ -23,13 +23,6 @@ def directions_of(data: ModelData, point: Point) -> tuple[str, ...]:
     if point.orientation is None:
         return tuple(name for name in every if not name.startswith("r"))
     return every
-
-
-def misalignments_of(places: Places, clamps: Sequence[Clamp]) -> tuple[Misalignment, ...]:
-    """Every clamp in every direction in which it holds."""
-    return tuple(
-        Misalignment(clamp, direction) for clamp in clamps for direction in places.directions(clamp)
-    )
 
 
 def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], ...]:

@@ -138,7 +138,7 @@ def _mark(place: Places, mark: Mark) -> Iterator[str]:
     below = y < bottom - 0.2 * (bottom - top)
     side = 0.0 if len(points) > 1 else 1.0 if x < sum(place.across) / 2 else -1.0
     anchor = "middle" if not side else "start" if side > 0 else "end"
-    height = y + (24.0 if below else -9.0)
+    height = y + (29.0 if below else -9.0)
     yield words(x + 10.0 * side, height, mark.words, f"s{mark.series} named {anchor}")
 
 

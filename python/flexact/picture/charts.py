@@ -21,7 +21,7 @@ LINE, _BESIDE = 1.25, 7.0
 LETTER = 0.62
 _HALO = 2.5
 #: How far below or above its place a mark is told [pt].
-_UNDER, _OVER = 13.0, 5.0
+_UNDER, _OVER = 20.0, 5.0
 
 
 def written(words: str) -> str:

@@ -51,7 +51,7 @@ def shape_bytes(
         load_matplotlib()
         drawing = drawing_of(data)
         words = harmless(title[:1].upper() + title[1:])
-        subject = Subject(words, movement=swing(drawing, state, displacement, "Linear shape."))
+        subject = Subject(words, movement=swing(drawing, state, displacement, "To first order."))
         seen = view_of(view, drawing)
         size = None if size is None else checked_size(size)
         if kind == ".gif":

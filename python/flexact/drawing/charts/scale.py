@@ -104,7 +104,7 @@ def exact_scale(low: float, high: float, unit: str) -> Scale:
     return Scale(low, high, written, False, _round_ticks(low, high, written), unit)
 
 
-def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0, most: float = math.inf) -> Scale:
+def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0) -> Scale:
     """A logarithmic scale for the positive finite values; at least a decade.
 
     Each tick has a unit of its own where there is further room, as bars have it.
@@ -113,7 +113,6 @@ def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0, most: float = m
         values: In the SI unit.
         unit: The SI unit.
         beyond: Further room behind the largest, as a part of the whole.
-        most: Where it ends at most, if there are values below.
     """
     found = _finite(values)
     found = found[found > 0.0]
@@ -122,7 +121,7 @@ def log_scale(values: ArrayLike, unit: str, beyond: float = 0.0, most: float = m
     if high < 10.0 * low:
         middle = math.sqrt(low * high)
         low, high = middle / math.sqrt(10.0), middle * math.sqrt(10.0)
-    high = max(min(high * (high / low) ** beyond, most), 10.0 * low)
+    high *= (high / low) ** beyond
     written = unit_for([high], unit)
     wide = math.log10(high / low)
     steps = next(steps for most, steps in _STEPS if wide < most)
