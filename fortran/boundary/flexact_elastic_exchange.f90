@@ -3,6 +3,9 @@
 !>
 !> of_elements: rows 1 to 6 ESTIFF, 7 to 11 EM, 12 to 17 notches; then what a procedure says.
 !> of_nodes: rows 1 to 6 XM; then likewise.
+!>
+!> Sections stand in parentheses where they become components: gfortran (12) copies as much as the
+!> whole array from where a section starts, and so beyond its end.
 module flexact_elastic_exchange
    use flexact_blas, only: blas_work_t, blas_begin, blas_end
    use flexact_elastic_errors, only: errors_t, find_errors
@@ -49,8 +52,8 @@ contains
 
       call unpack_model(nodes, places, elements, vectors, model)
       if (free) model%deformation_class = 0
-      call make_elastic_model(model, properties_t(of_elements(:6, :), of_elements(7:11, :), of_nodes(:6, :), &
-                                                  of_elements(12:17, :)), elastic)
+      call make_elastic_model(model, properties_t((of_elements(:6, :)), (of_elements(7:11, :)), (of_nodes(:6, :)), &
+                                                  (of_elements(12:17, :))), elastic)
    end subroutine unpack
 
    !> of_nodes: from row 7 configuration (4) and reaction (3) of the start, then target (4) and
@@ -74,9 +77,9 @@ contains
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       call unpack(nodes, places, elements, vectors, of_nodes, of_elements, .false., elastic)
       n = 3*size(nodes, 2)
-      begin = waypoint_t(of_nodes(14:17, :), of_elements(24:29, :), reshape(of_nodes(18:20, :), [n]), gravity(:, 1))
-      end = waypoint_t(of_nodes(21:24, :), of_elements(30:35, :), reshape(of_nodes(25:27, :), [n]), gravity(:, 2))
-      call follow(elastic, state_t(of_nodes(7:10, :), of_elements(18:23, :), of_nodes(11:13, :)), begin, end, path)
+      begin = waypoint_t((of_nodes(14:17, :)), (of_elements(24:29, :)), reshape(of_nodes(18:20, :), [n]), gravity(:, 1))
+      end = waypoint_t((of_nodes(21:24, :)), (of_elements(30:35, :)), reshape(of_nodes(25:27, :), [n]), gravity(:, 2))
+      call follow(elastic, state_t((of_nodes(7:10, :)), (of_elements(18:23, :)), (of_nodes(11:13, :))), begin, end, path)
       configuration = path%state%configuration
       reaction = path%state%reaction
       stress = path%state%stress
@@ -110,7 +113,7 @@ contains
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       facts(5) = 0.0_wp
       call unpack(nodes, places, elements, vectors, of_nodes, of_elements, .false., elastic)
-      state = state_t(of_nodes(7:10, :), of_elements(18:23, :), of_nodes(11:13, :))
+      state = state_t((of_nodes(7:10, :)), (of_elements(18:23, :)), (of_nodes(11:13, :)))
       call make_base(elastic, state, wishes(3:5), base)
       select case (nint(wishes(1)))
       case (1); call run_linear(elastic, base, given, answer, values, facts)

@@ -9,7 +9,7 @@ module flexact_elastic_products
    use flexact_slots, only: axes
    implicit none
    private
-   public :: strains, forces, stiffness_times, hessian_times, mass_times
+   public :: strains, forces, stiffness_times, hessian_times, mass_times, stiffness_in
 
 contains
 
@@ -98,4 +98,23 @@ contains
          call scatter(elastic%entry(:, k), matmul(block, part), f)
       end do
    end function mass_times
+
+   !> V' (D'S D) V, from strains.
+   subroutine stiffness_in(elastic, tangent, v, k)
+      type(elastic_model_t), intent(in) :: elastic
+      type(tangent_t), intent(in) :: tangent
+      real(wp), intent(in) :: v(:, :)
+      real(wp), intent(out) :: k(:, :)
+      real(wp), allocatable :: e(:, :), s(:, :), strain(:, :)
+      integer :: i, n
+
+      n = 6*elastic%model%elements
+      allocate (e(n, size(v, 2)), s(n, size(v, 2)))
+      do i = 1, size(v, 2)
+         strain = strains(elastic, tangent, v(:, i))
+         e(:, i) = reshape(strain, [n])
+         s(:, i) = reshape(stiffness_times(elastic, strain), [n])
+      end do
+      k = matmul(transpose(e), s)
+   end subroutine stiffness_in
 end module flexact_elastic_products

@@ -397,6 +397,17 @@ def test_directions_without_mass_are_condensed() -> None:
     assert found.loose == 1
 
 
+def test_a_free_bar_has_three_zero_frequencies() -> None:
+    """And k (1/m + 1/M) along it."""
+    m = mechanism(
+        "PLTRUSS 1 1 2\nX 1 0 0\nX 2 3 4\nRLSE 1 1\nEND\nHALT\nESTIFF 1 100\nXM 1 2\nXM 2 3\n"
+        "END\nEND\n"
+    )
+    found = elastic.frequencies(m.model, m.arrays, m.undeformed, NO_GRAVITY, 10)
+    assert found.values == pytest.approx([0, 0, 0, 20 * (1 / 2 + 1 / 3)])
+    assert (found.loose, found.negative) == (3, 0)
+
+
 def test_over_constrained_rigid_parts_share_a_load() -> None:
     """Three equal rigid bars in line take a third each: multipliers of least norm."""
     bars = "".join(f"PLTRUSS {k} {k} 4\nX {k} 0 0\nFIX {k}\n" for k in (1, 2, 3))
