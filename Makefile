@@ -67,7 +67,7 @@ fuzz: .venv/ready-to-test
 bench: .venv/ready-to-test
 	$(BIN)/python tests/benchmarks/run.py
 
-# What a finite-element package that is not ours (CalculiX) finds; a minute or two.
+# What a finite-element package that is not ours (CalculiX) finds; some minutes.
 reference: .venv/ready-to-test
 	$(BIN)/python tests/reference/finite_elements/run.py
 

@@ -9,6 +9,7 @@ clamp, which is another rigid body, so that it can be moved, turned, or left fre
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,17 +24,53 @@ BRICK = [
 ]  # fmt: skip
 
 
+Point = tuple[float, float, float]
+
+
 @dataclass(frozen=True)
 class Sheet:
-    """From the middle of the clamped edge along `along`, width across, thickness the third."""
+    """A sheet, flat or folded.
 
-    start: tuple[float, float, float]
-    along: tuple[float, float, float]
-    across: tuple[float, float, float]
-    length: float
+    Attributes:
+        path: middles of the clamped edge, of the folds and of the far edge.
+        across: unit vector along its width, and along the folds.
+        divisions: elements along each leg of the path, and across.
+    """
+
+    path: tuple[Point, ...]
+    across: Point
     width: float
     thickness: float
     divisions: tuple[int, int] = (20, 10)
+
+    def stations(self) -> list[tuple[Real, Real]]:
+        """Middles at every half element of the path, with half the thickness as a vector.
+
+        At a fold the vector lies on the bisector and is longer: both legs keep their thickness.
+        The skew elements that this makes are short, because they bend too stiffly.
+        """
+        points = [np.array(point) for point in self.path]
+        legs = [b - a for a, b in pairwise(points)]
+        normals = [np.cross(leg / np.linalg.norm(leg), self.across) for leg in legs]
+        folds = [(a + b) / (1 + a @ b) for a, b in pairwise(normals)]
+        corners = [normals[0], *folds, normals[-1]]
+        found = []
+        for leg, (start, along) in enumerate(zip(points, legs, strict=False)):
+            edges = np.linspace(0, 1, self.divisions[0] + 1)
+            short = self.thickness / float(np.linalg.norm(along))
+            before = [short] if leg > 0 else []
+            after = [1 - short] if leg < len(legs) - 1 else []
+            edges = np.array([0.0, *before, *edges[1:-1], *after, 1.0])
+            lean = [normals[leg]] * len(edges)
+            lean[0], lean[-1] = corners[leg], corners[leg + 1]
+            for i, (a, b) in enumerate(pairwise(edges)):
+                middle = ((a + b) / 2, (lean[i] + lean[i + 1]) / 2)
+                for at, out in ([(a, lean[i])] if leg == i == 0 else []) + [
+                    middle,
+                    (b, lean[i + 1]),
+                ]:
+                    found.append((start + along * at, out * self.thickness / 2))
+        return found
 
 
 @dataclass
@@ -47,8 +84,8 @@ class Mesh:
     """
 
     sheets: list[Sheet]
-    stage_at: tuple[float, float, float]
-    masses: list[tuple[tuple[float, float, float], float]] = field(default_factory=list)
+    stage_at: Point
+    masses: list[tuple[Point, float]] = field(default_factory=list)
     nodes: dict[int, Real] = field(default_factory=dict)
     bricks: dict[int, list[int]] = field(default_factory=dict)
     sets: dict[str, list[int]] = field(default_factory=dict)
@@ -59,7 +96,7 @@ class Mesh:
             self._add(sheet, f"NCLAMP{number + 1}")
         self.clamps = []
         for sheet in self.sheets:
-            self.clamps.append((self._node(sheet.start), self._node(sheet.start)))
+            self.clamps.append((self._node(sheet.path[0]), self._node(sheet.path[0])))
         self.stage = (self._node(self.stage_at), self._node(self.stage_at))
         self.mass_nodes = []
         for place, _ in self.masses:
@@ -72,9 +109,9 @@ class Mesh:
         return number
 
     def _add(self, sheet: Sheet, clamp: str) -> None:
-        n, m = sheet.divisions
-        along, across = np.array(sheet.along), np.array(sheet.across)
-        normal = np.cross(along, across)
+        stations = sheet.stations()
+        n, m = len(stations) // 2, sheet.divisions[1]
+        across = np.array(sheet.across) * sheet.width
         made: dict[tuple[int, int, int], int] = {}
         self.sets[clamp] = []
         for i in range(n):
@@ -83,12 +120,8 @@ class Mesh:
                 for a, b, c in BRICK:
                     at = (2 * i + a, 2 * j + b, c)
                     if at not in made:
-                        place = (
-                            np.array(sheet.start)
-                            + along * sheet.length * at[0] / (2 * n)
-                            + across * sheet.width * (at[1] / (2 * m) - 0.5)
-                            + normal * sheet.thickness * (at[2] / 2 - 0.5)
-                        )
+                        middle, out = stations[at[0]]
+                        place = middle + across * (at[1] / (2 * m) - 0.5) + out * (c - 1)
                         made[at] = self._node(place)
                         if at[0] == 0:
                             self.sets[clamp].append(made[at])
