@@ -22,14 +22,17 @@ contains
       logical, intent(in) :: with_hessian
       type(sparse_t), intent(inout) :: matrix
       real(wp), allocatable, intent(out) :: least(:)
-      real(wp) :: block(12, 12), terms(12)
+      ! Of fixed size, so that products are made in place.
+      real(wp) :: block(12, 12), terms(12), d(6, 12), s(6, 6), stressed(6, 12)
       integer :: k, i
 
       call clear(layout, matrix)
       allocate (least(layout%columns), source=0.0_wp)
       do k = 1, elastic%model%elements
-         block = matmul(transpose(tangent%derivative(:, :, k)), &
-                        matmul(elastic%stiffness(:, :, k), tangent%derivative(:, :, k)))
+         d = tangent%derivative(:, :, k)
+         s = elastic%stiffness(:, :, k)
+         stressed = matmul(s, d)
+         block = matmul(transpose(d), stressed)
          terms = [(abs(block(i, i)), i=1, 12)]
          if (with_hessian) then
             block = block + tangent%hessian(:, :, k)

@@ -145,7 +145,7 @@ contains
 
    !> The part of a vector that an element sees.
    pure function gathered(entry, vector) result(part)
-      integer, intent(in) :: entry(:)
+      integer, intent(in) :: entry(12)
       real(wp), intent(in) :: vector(:)
       real(wp) :: part(12)
       integer :: i

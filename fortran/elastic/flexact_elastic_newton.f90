@@ -53,8 +53,7 @@ contains
       real(wp), intent(out) :: increment(:)
       logical, intent(out) :: failed
       real(wp) :: follow(size(increment)), unused
-      real(wp), allocatable :: left(:), y(:, :)
-      integer :: i
+      real(wp), allocatable :: y(:, :)
 
       associate (state => newton%state, tangent => newton%tangent, rows => newton%rows, space => newton%space)
          call make_tangent(elastic, state%configuration, goal%gravity, tangent)
@@ -70,12 +69,9 @@ contains
                      + rows_times(rows, increment), follow, unused)
          increment = increment - follow
          allocate (y(space%motions, 1))
-         do i = 1, 2
-            left = forces_left(elastic, goal, tangent, increment)
-            y(:, 1) = reduced(space, elastic, left)
-            call solved(space, newton%op, y)
-            increment = increment + expanded(space, elastic, y(:, 1))
-         end do
+         y(:, 1) = reduced(space, elastic, forces_left(elastic, goal, tangent, increment))
+         call solved(space, newton%op, y)
+         increment = increment + expanded(space, elastic, y(:, 1))
       end associate
    end subroutine find_increment
 

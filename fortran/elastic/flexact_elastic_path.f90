@@ -17,8 +17,8 @@ module flexact_elastic_path
    !> After a step with no more iterations the next one is twice as long.
    integer, parameter :: few_iterations = 10
    integer, parameter :: most_iterations = 25
-   !> Corrections that are rounding; that may have come to rest at it; beyond which nothing is
-   !> expected any more.
+   !> What the next correction may be expected to be where it is rounding; corrections that may
+   !> have come to rest there; beyond which nothing is expected any more.
    real(wp), parameter :: tiny_correction = 1.0e-14_wp, small_correction = 1.0e-8_wp, wild_correction = 1.0e3_wp
    !> How much of a step may differ from what the tangent says at either end, and what is too
    !> small to be judged.
@@ -79,11 +79,11 @@ contains
       real(wp), dimension(size(elastic%scale)) :: increment, first, last, whole
       real(wp) :: far, before
       real(wp), allocatable :: start(:, :)
-      logical :: failed
+      logical :: failed, at_rest
 
       start = newton%state%configuration
       newton%status = step_diverges
-      before = huge(before)
+      before = wild_correction
       do iterations = 1, most_iterations
          call find_increment(elastic, goal, .true., newton, increment, failed)
          if (failed) return
@@ -91,12 +91,14 @@ contains
          if (.not. far < wild_correction) return
          if (iterations == 1) first = increment
          call advance(elastic, goal, increment, newton)
-         if (far <= tiny_correction .or. (far <= small_correction .and. far > before/4)) exit
+         at_rest = far <= small_correction .and. far > before/4
+         if (far*min(1.0_wp, far/before) <= tiny_correction .or. at_rest) then
+            call find_increment(elastic, from, .false., newton, last, failed)
+            call settle(elastic, goal, newton)
+            if (newton%status /= step_diverges .or. at_rest) exit
+         end if
          before = far
       end do
-      if (iterations > most_iterations) return
-      call find_increment(elastic, from, .false., newton, last, failed)
-      call settle(elastic, goal, newton)
       whole = increment_between(elastic, start, newton%state%configuration)
       if (newton%status /= step_done .or. extent(elastic, whole) < least_step) return
       if (differ(elastic, whole, first) .or. differ(elastic, whole, -last)) newton%status = step_diverges

@@ -13,8 +13,10 @@ module flexact_elastic_response
    private
    public :: base_t, response_t, make_base, respond
 
-   !> Times that a solution is refined with the element's own products.
-   integer, parameter :: refinements = 3
+   !> A solution is refined with the elements' own products until corrections are that small, and
+   !> no more often than that.
+   real(wp), parameter :: small_correction = 1.0e-12_wp
+   integer, parameter :: most_solutions = 5
 
    !> A state, linearised.
    type :: base_t
@@ -54,8 +56,10 @@ contains
       type(response_t), intent(out) :: response
       real(wp), allocatable :: left(:), c(:), m(:), y(:, :)
       real(wp) :: follow(size(shift))
+      logical :: is_fine
       integer :: i
 
+      is_fine = .false.
       allocate (response%displacement(size(shift)))
       associate (v => response%displacement)
          v = shift
@@ -64,13 +68,15 @@ contains
          call answer(base%space, elastic, c - rows_times(base%rows, v), follow, response%mismatch)
          v = v + follow
          allocate (y(base%space%motions, 1))
-         do i = 0, refinements
+         do i = 0, most_solutions
             response%stress = stiffness_times(elastic, strains(elastic, base%tangent, v) - misfit)
             left = force - forces(elastic, base%tangent, response%stress) - hessian_times(elastic, base%tangent, v)
-            if (i == refinements) exit
+            if (i == most_solutions .or. is_fine) exit
             y(:, 1) = reduced(base%space, elastic, left)
             call solved(base%space, op, y)
-            v = v + expanded(base%space, elastic, y(:, 1))
+            follow = expanded(base%space, elastic, y(:, 1))
+            v = v + follow
+            is_fine = norm2(elastic%scale*follow) <= small_correction*norm2(elastic%scale*v)
          end do
          m = multipliers_of(base%space, elastic, left)
          allocate (response%reaction(axes, elastic%model%nodes), source=0.0_wp)

@@ -9,7 +9,7 @@ module flexact_elastic_spectrum
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
    use flexact_elastic_tangent, only: add_mass, mass_times, hessian_times, strains, stiffness_times
-   use flexact_error, only: error_t
+   use flexact_error, only: error_t, is_kind, error_not_found
    use flexact_kinds, only: wp
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
@@ -49,6 +49,9 @@ contains
       if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, mass)
       call lowest_pairs(base%space%projection%pattern, op%matrix, op%factor, mass, most, pairs, error, op%least)
+      ! In the midst of many values that are nearly equal more may be easier.
+      if (is_kind(error, error_not_found)) &
+         call lowest_pairs(base%space%projection%pattern, op%matrix, op%factor, mass, 2*most, pairs, error, op%least)
       modes%failed = allocated(error)
       if (modes%failed) return
       modes%is_complete = pairs%is_complete
@@ -78,6 +81,8 @@ contains
       if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, hessian)
       call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, most, pairs, error, op%least)
+      if (is_kind(error, error_not_found)) &
+         call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, 2*most, pairs, error, op%least)
       modes%failed = allocated(error)
       if (modes%failed) return
       modes%is_complete = pairs%is_complete

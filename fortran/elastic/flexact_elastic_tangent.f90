@@ -132,10 +132,13 @@ contains
       type(tangent_t), intent(in) :: tangent
       real(wp), intent(in) :: v(:)
       real(wp) :: e(6, elastic%model%elements)
+      real(wp) :: d(6, 12), part(12)
       integer :: k
 
       do k = 1, elastic%model%elements
-         e(:, k) = matmul(tangent%derivative(:, :, k), gathered(elastic%entry(:, k), v))
+         d = tangent%derivative(:, :, k)
+         part = gathered(elastic%entry(:, k), v)
+         e(:, k) = matmul(d, part)
       end do
    end function strains
 
@@ -145,11 +148,14 @@ contains
       type(tangent_t), intent(in) :: tangent
       real(wp), intent(in) :: stress(:, :)
       real(wp) :: f(axes*elastic%model%nodes)
+      real(wp) :: d(6, 12), part(6)
       integer :: k
 
       f = 0.0_wp
       do k = 1, elastic%model%elements
-         call scatter(elastic%entry(:, k), matmul(stress(:, k), tangent%derivative(:, :, k)), f)
+         d = tangent%derivative(:, :, k)
+         part = stress(:, k)
+         call scatter(elastic%entry(:, k), matmul(part, d), f)
       end do
    end function forces
 
@@ -158,10 +164,13 @@ contains
       type(elastic_model_t), intent(in) :: elastic
       real(wp), intent(in) :: e(:, :)
       real(wp) :: stress(6, elastic%model%elements)
+      real(wp) :: s(6, 6), part(6)
       integer :: k
 
       do k = 1, elastic%model%elements
-         stress(:, k) = matmul(elastic%stiffness(:, :, k), e(:, k))
+         s = elastic%stiffness(:, :, k)
+         part = e(:, k)
+         stress(:, k) = matmul(s, part)
       end do
    end function stiffness_times
 
@@ -171,13 +180,16 @@ contains
       type(tangent_t), intent(in) :: tangent
       real(wp), intent(in) :: v(:)
       real(wp) :: f(axes*elastic%model%nodes)
+      real(wp) :: block(12, 12), part(12)
       integer :: k, node
 
       do node = 1, elastic%model%nodes
          f(axes*node - 2:axes*node) = tangent%node_hessian(node)*v(axes*node - 2:axes*node)
       end do
       do k = 1, elastic%model%elements
-         call scatter(elastic%entry(:, k), matmul(tangent%hessian(:, :, k), gathered(elastic%entry(:, k), v)), f)
+         block = tangent%hessian(:, :, k)
+         part = gathered(elastic%entry(:, k), v)
+         call scatter(elastic%entry(:, k), matmul(block, part), f)
       end do
    end function hessian_times
 
@@ -187,13 +199,16 @@ contains
       type(tangent_t), intent(in) :: tangent
       real(wp), intent(in) :: v(:)
       real(wp) :: f(axes*elastic%model%nodes)
+      real(wp) :: block(12, 12), part(12)
       integer :: k, node
 
       do node = 1, elastic%model%nodes
          f(axes*node - 2:axes*node) = matmul(tangent%node_mass(:, :, node), v(axes*node - 2:axes*node))
       end do
       do k = 1, elastic%model%elements
-         call scatter(elastic%entry(:, k), matmul(tangent%mass(:, :, k), gathered(elastic%entry(:, k), v)), f)
+         block = tangent%mass(:, :, k)
+         part = gathered(elastic%entry(:, k), v)
+         call scatter(elastic%entry(:, k), matmul(block, part), f)
       end do
    end function mass_times
 
@@ -210,8 +225,8 @@ contains
    end function component_row
 
    pure subroutine scatter(entry, part, vector)
-      integer, intent(in) :: entry(:)
-      real(wp), intent(in) :: part(:)
+      integer, intent(in) :: entry(12)
+      real(wp), intent(in) :: part(12)
       real(wp), intent(inout) :: vector(:)
       integer :: i
 

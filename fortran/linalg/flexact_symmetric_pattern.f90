@@ -4,11 +4,11 @@
 !> all matrices of the same pattern.
 module flexact_symmetric_pattern
    use flexact_minimum_degree, only: minimum_degree_order
-   use flexact_sparse, only: sparse_t, compress, transposed
+   use flexact_sparse, only: sparse_t
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: symmetric_pattern_t, analyse_pattern, both_triangles
+   public :: symmetric_pattern_t, analyse_pattern
 
    type :: symmetric_pattern_t
       integer :: n = 0
@@ -47,31 +47,37 @@ contains
       call find_first(parent, pattern%first)
    end subroutine analyse_pattern
 
-   !> The pattern of both triangles with the whole diagonal; values are 1.
+   !> The pattern of both triangles with the whole diagonal; rows ascend within a column if
+   !> they do in the matrix.
    pure function both_triangles(matrix) result(full)
       type(sparse_t), intent(in) :: matrix
       type(sparse_t) :: full
-      integer, allocatable :: row(:), column(:)
-      integer :: j, entry, found
-      type(sparse_t) :: unsorted, turned
+      integer :: next(matrix%columns), i, j, entry
 
-      allocate (row(2*size(matrix%place) + matrix%columns), column(2*size(matrix%place) + matrix%columns))
-      found = 0
+      next = 1
       do j = 1, matrix%columns
-         found = found + 1
-         row(found) = j
-         column(found) = j
          do entry = matrix%start(j), matrix%start(j + 1) - 1
-            if (matrix%place(entry) <= j) cycle
-            row(found + 1:found + 2) = [matrix%place(entry), j]
-            column(found + 1:found + 2) = [j, matrix%place(entry)]
-            found = found + 2
+            i = matrix%place(entry)
+            if (i > j) next([i, j]) = next([i, j]) + 1
          end do
       end do
-      call compress(matrix%columns, matrix%columns, row(:found), column(:found), spread(1.0_wp, 1, found), unsorted)
-      ! To transpose sorts; twice gives the same matrix.
-      call transposed(unsorted, turned)
-      call transposed(turned, full)
+      full%rows = matrix%columns
+      full%columns = matrix%columns
+      full%start = starts_of(next)
+      next = full%start(:matrix%columns)
+      allocate (full%place(full%start(matrix%columns + 1) - 1))
+      do j = 1, matrix%columns
+         full%place(next(j)) = j
+         next(j) = next(j) + 1
+         do entry = matrix%start(j), matrix%start(j + 1) - 1
+            i = matrix%place(entry)
+            if (i <= j) cycle
+            full%place(next(j)) = i
+            full%place(next(i)) = j
+            next([i, j]) = next([i, j]) + 1
+         end do
+      end do
+      allocate (full%value(size(full%place)), source=1.0_wp)
    end function both_triangles
 
    !> The rows of the lower triangle in the order of elimination.
