@@ -117,16 +117,16 @@ contains
       integer, intent(in) :: place(:, :), entry(:)
       real(wp), intent(in) :: block(:, :)
       type(sparse_t), intent(inout) :: matrix
-      real(wp) :: scale(size(entry))
+      real(wp) :: unit(size(entry))
       integer :: i, j
 
-      scale = 1.0_wp
+      unit = 1.0_wp
       do i = 1, size(entry)
-         if (entry(i) > 0) scale(i) = elastic%scale(entry(i))
+         if (entry(i) > 0) unit(i) = 1/elastic%scale(entry(i))
       end do
       do j = 1, size(entry)
          do i = 1, size(entry)
-            if (place(i, j) > 0) matrix%value(place(i, j)) = matrix%value(place(i, j)) + block(i, j)/(scale(i)*scale(j))
+            if (place(i, j) > 0) matrix%value(place(i, j)) = matrix%value(place(i, j)) + block(i, j)*unit(i)*unit(j)
          end do
       end do
    end subroutine add_block

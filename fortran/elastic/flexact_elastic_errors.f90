@@ -6,13 +6,14 @@ module flexact_elastic_errors
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
-   use flexact_elastic_projection, only: project
+   use flexact_elastic_products, only: hessian_times, mass_times, strains, stiffness_times
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
    use flexact_elastic_state, only: state_t
-   use flexact_elastic_tangent, only: add_hessian, add_mass, hessian_times, mass_times, strains, stiffness_times
+   use flexact_elastic_tangent, only: add_hessian, add_mass
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
+   use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
    use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
    implicit none

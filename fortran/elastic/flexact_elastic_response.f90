@@ -3,10 +3,11 @@
 module flexact_elastic_response
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, solved
+   use flexact_elastic_products, only: strains, stiffness_times, forces, hessian_times
    use flexact_elastic_rows, only: rows_t, make_rows, rows_times, values_at_rows, keep_multipliers
    use flexact_elastic_space, only: space_t, make_space, reduced, expanded, answer, multipliers_of
    use flexact_elastic_state, only: state_t
-   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian, strains, stiffness_times, forces, hessian_times
+   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian
    use flexact_kinds, only: wp
    use flexact_slots, only: axes
    implicit none

@@ -15,7 +15,8 @@ module flexact_symmetric_pencil
    use flexact_orthonormal, only: fill_at_random
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors, symmetric_times
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors
+   use flexact_symmetric_lanes, only: symmetric_times
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private
@@ -59,8 +60,14 @@ contains
       class(pencil_t), intent(in) :: self
       real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
+      real(wp), allocatable :: clean(:, :)
 
-      if (associated(self%b, self%w)) then
+      if (size(self%touched, 2) > 0) then
+         ! Else what rounding leaves along null vectors would come back as something else.
+         clean = x
+         call take_out(self%touched, self%without, clean)
+         call symmetric_times(self%b, clean, y)
+      else if (associated(self%b, self%w)) then
          y = weighed
       else
          call symmetric_times(self%b, x, y)

@@ -50,7 +50,7 @@ contains
    !> As flexact.core.calls.read_deck sets the room aside.
    subroutine take_deck(text)
       integer(c_signed_char), intent(in) :: text(:)
-      integer(c_int) :: sizes(7), diag_count(4), diag_number(8, 100)
+      integer(c_int) :: sizes(8), diag_count(4), diag_number(8, 100)
       integer(c_signed_char), allocatable :: diag_text(:, :, :)
       integer(c_int), allocatable :: nodes(:, :), elements(:, :), name(:, :), choice(:, :)
       real(c_double), allocatable :: places(:, :), vectors(:, :), value(:, :)
@@ -60,7 +60,7 @@ contains
       ne = min(count(text == 10) + 1, n/10 + 1)
       nn = min(4*ne, n/2 + 4)
       allocate (nodes(5, nn), elements(12, ne), places(4, nn), vectors(3, ne))
-      allocate (name(2, ne + nn), choice(2, ne), value(11, 2*ne + nn), diag_text(240, 4, 100))
+      allocate (name(2, ne + nn), choice(2, ne), value(12, 2*ne + nn + 1), diag_text(240, 4, 100))
       call read_deck(n, text, nn, ne, nodes, places, elements, vectors, name, choice, value, sizes, &
                      diag_count, diag_number, diag_text)
       if (diag_count(1) > 0) return

@@ -377,6 +377,15 @@ def test_the_tangent_is_what_the_path_does() -> None:
     assert there.reaction[0, turn] == pytest.approx((potential[0] - potential[1]) / (2 * step))
 
 
+def test_moments_do_not_slow_iterations_down() -> None:
+    """Dead moments make the true derivative unsymmetric; the end turns by half a radian."""
+    m = mechanism(FRAME)
+    found = m.solve(m.waypoint({3: (3, 5, -7), 4: (2, 3, -2)}))
+    assert found.reached == 1
+    assert np.abs(found.state.configuration[1:, m.node[4]]).max() > 0.1
+    assert found.iterations <= 8 * found.steps
+
+
 def test_directions_without_mass_are_condensed() -> None:
     """Two springs in series with one mass: omega^2 = k/2m; across the line they are loose."""
     m = mechanism(
@@ -386,6 +395,17 @@ def test_directions_without_mass_are_condensed() -> None:
     found = elastic.frequencies(m.model, m.arrays, m.undeformed, NO_GRAVITY, 10)
     assert found.values == pytest.approx([25])
     assert found.loose == 1
+
+
+def test_a_free_bar_has_three_zero_frequencies() -> None:
+    """And k (1/m + 1/M) along it."""
+    m = mechanism(
+        "PLTRUSS 1 1 2\nX 1 0 0\nX 2 3 4\nRLSE 1 1\nEND\nHALT\nESTIFF 1 100\nXM 1 2\nXM 2 3\n"
+        "END\nEND\n"
+    )
+    found = elastic.frequencies(m.model, m.arrays, m.undeformed, NO_GRAVITY, 10)
+    assert found.values == pytest.approx([0, 0, 0, 20 * (1 / 2 + 1 / 3)])
+    assert (found.loose, found.negative) == (3, 0)
 
 
 def test_over_constrained_rigid_parts_share_a_load() -> None:
