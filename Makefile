@@ -17,7 +17,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
 # Tests that compare words with files.
 WORDED := wording advice_wording broken_decks appearance docs element_table gallery
 
-.PHONY: demo test check core-test lint wording gallery attack fuzz bench clean
+.PHONY: demo test check core-test lint wording gallery attack fuzz bench reference clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -66,6 +66,10 @@ fuzz: .venv/ready-to-test
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test
 	$(BIN)/python tests/benchmarks/run.py
+
+# What a finite-element package that is not ours (CalculiX) finds; a minute or two.
+reference: .venv/ready-to-test
+	$(BIN)/python tests/reference/finite_elements/run.py
 
 clean:
 	rm -rf .venv build results

@@ -55,7 +55,7 @@ contains
 
    !> of_nodes: from row 7 configuration (4) and reaction (3) of the start, then target (4) and
    !> force (3) of the beginning and of the end; of_elements: from row 18 stress of the start,
-   !> misfits of the beginning and of the end, 6 each. gravity (3, 2). facts: status, part of the
+   !> misfits of the beginning and of the end, 6 each. gravity (3, 2). facts: status (-1 where memory does not suffice), part of the
    !> way, iterations, steps, residual, place as of independent coordinates.
    subroutine run_path(nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, reaction, stress, facts)
       integer, intent(in) :: nodes(:, :), elements(:, :)
@@ -67,7 +67,10 @@ contains
       type(blas_work_t) :: work
       integer :: n
 
-      facts = 0.0_wp
+      configuration = of_nodes(7:10, :)
+      reaction = of_nodes(11:13, :)
+      stress = of_elements(18:23, :)
+      facts = -1.0_wp
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       call unpack(nodes, places, elements, vectors, of_nodes, of_elements, .false., elastic)
       n = 3*size(nodes, 2)
@@ -103,8 +106,9 @@ contains
       type(base_t) :: base
       type(blas_work_t) :: work
 
-      facts = 0.0_wp
+      facts = [0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
       if (blas_begin(1, 0.0_wp, work) /= 0) return
+      facts(5) = 0.0_wp
       call unpack(nodes, places, elements, vectors, of_nodes, of_elements, .false., elastic)
       state = state_t(of_nodes(7:10, :), of_elements(18:23, :), of_nodes(11:13, :))
       call make_base(elastic, state, wishes(3:5), base)

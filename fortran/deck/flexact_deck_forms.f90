@@ -27,32 +27,64 @@ contains
       end do
    end subroutine read_forms
 
-   !> Say once how many statements were read and not used.
+   !> Say once which statements were read and not used.
    subroutine note_unused(statements, unused, diagnostics)
       type(statement_t), intent(in) :: statements(:)
       integer, intent(out) :: unused
       type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=*), parameter :: help = 'the verdict needs the kinematics block alone; besides, stiffness, mass, loads '// &
+                                     'and how elements are drawn are used'
       type(span_t) :: first
+      integer :: times(size(keywords)), order(size(keywords)), kinds, i
+
+      times = 0
+      kinds = 0
+      do i = 1, size(statements)
+         if (statements(i)%role /= role_form .or. statements(i)%block == block_kinematics) cycle
+         associate (what => statements(i)%what)
+            if (kinds == 0) first = statements(i)%keyword
+            if (times(what) == 0) then
+               kinds = kinds + 1
+               order(kinds) = what
+            end if
+            times(what) = times(what) + 1
+         end associate
+      end do
+      unused = sum(times)
+      if (unused == 0) return
+      call diagnostics%note('not-used', first, number_of(unused, 'statement')//' not used: '// &
+                            listed(order(:kinds), times), merge('this one         ', 'the first of them', unused == 1), help)
+   end subroutine note_unused
+
+   !> Keywords, and how often each stands; of very many the first.
+   pure function listed(order, times) result(words)
+      integer, intent(in) :: order(:), times(:)
+      character(len=:), allocatable :: words
+      integer, parameter :: most = 8
       character(len=12) :: number
       integer :: i
 
-      unused = 0
-      do i = size(statements), 1, -1
-         if (statements(i)%role /= role_form .or. statements(i)%block == block_kinematics) cycle
-         unused = unused + 1
-         first = statements(i)%keyword
+      words = ''
+      do i = 1, min(size(order), most)
+         if (i > 1) words = words//', '
+         words = words//trim(keywords(order(i))%name)
+         if (times(order(i)) == 1) cycle
+         write (number, '(i0)') times(order(i))
+         words = words//' ('//trim(number)//')'
       end do
-      if (unused == 0) return
-      write (number, '(i0)') unused
-      if (unused == 1) then
-         call diagnostics%note('not-used', first, '1 statement describes dynamics or pictures and was not used', 'this one', &
-                               'the determinacy analysis needs the kinematics block alone')
-      else
-         call diagnostics%note('not-used', first, trim(number)//' statements describe dynamics or pictures '// &
-                               'and were not used', 'the first of them', &
-                               'the determinacy analysis needs the kinematics block alone')
-      end if
-   end subroutine note_unused
+      if (size(order) > most) words = words//' and others'
+   end function listed
+
+   pure function number_of(many, what) result(words)
+      integer, intent(in) :: many
+      character(len=*), intent(in) :: what
+      character(len=:), allocatable :: words
+      character(len=12) :: number
+
+      write (number, '(i0)') many
+      words = trim(number)//' '//what
+      words = words//trim(merge('s were', ' was  ', many /= 1))
+   end function number_of
 
    subroutine check_form(statement, keyword, deck)
       type(statement_t), intent(in) :: statement

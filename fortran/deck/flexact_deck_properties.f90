@@ -109,21 +109,23 @@ contains
    function mass_of(kind) result(meaning)
       integer, intent(in) :: kind
       type(meaning_t) :: meaning
+      character(len=:), allocatable :: keyword
 
       meaning%what = 'a mass of '//trim(element_kinds(kind)%keyword)
       meaning%numbers = mass_meant(kind)
       ! Jyz may be.
       meaning%not_negative = [.true., .true., .true., .true., .false., .false.]
+      keyword = trim(element_kinds(kind)%keyword)
+      if (keyword == 'BEAM') meaning%passed_over = 1
       select case (meaning%numbers)
       case (0)
          meaning%form = 'it has no length to be heavy along: give XM to its nodes'
       case (1)
-         meaning%form = 'EM of a '//trim(element_kinds(kind)%keyword)//' takes its mass per length'
+         meaning%form = 'EM of a '//keyword//' takes its mass per length'
       case (2)
-         meaning%form = 'EM of a PLBEAM takes its mass and its moment of inertia per length'
+         meaning%form = 'EM of a '//keyword//' takes its mass and its moment of inertia per length'
       case default
-         meaning%passed_over = 1
-         meaning%form = 'EM of a BEAM takes its mass and Jxx, Jyy, Jzz, Jyz per length'
+         meaning%form = 'EM of a '//keyword//' takes its mass and Jxx, Jyy, Jzz, Jyz per length'
       end select
    end function mass_of
 

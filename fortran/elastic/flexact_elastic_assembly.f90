@@ -22,14 +22,17 @@ contains
       logical, intent(in) :: with_hessian
       type(sparse_t), intent(inout) :: matrix
       real(wp), allocatable, intent(out) :: least(:)
-      real(wp) :: block(12, 12), terms(12)
+      ! Of fixed size, so that products are made in place.
+      real(wp) :: block(12, 12), terms(12), d(6, 12), s(6, 6), stressed(6, 12)
       integer :: k, i
 
       call clear(layout, matrix)
       allocate (least(layout%columns), source=0.0_wp)
       do k = 1, elastic%model%elements
-         block = matmul(transpose(tangent%derivative(:, :, k)), &
-                        matmul(elastic%stiffness(:, :, k), tangent%derivative(:, :, k)))
+         d = tangent%derivative(:, :, k)
+         s = elastic%stiffness(:, :, k)
+         stressed = matmul(s, d)
+         block = matmul(transpose(d), stressed)
          terms = [(abs(block(i, i)), i=1, 12)]
          if (with_hessian) then
             block = block + tangent%hessian(:, :, k)
@@ -114,16 +117,16 @@ contains
       integer, intent(in) :: place(:, :), entry(:)
       real(wp), intent(in) :: block(:, :)
       type(sparse_t), intent(inout) :: matrix
-      real(wp) :: scale(size(entry))
+      real(wp) :: unit(size(entry))
       integer :: i, j
 
-      scale = 1.0_wp
+      unit = 1.0_wp
       do i = 1, size(entry)
-         if (entry(i) > 0) scale(i) = elastic%scale(entry(i))
+         if (entry(i) > 0) unit(i) = 1/elastic%scale(entry(i))
       end do
       do j = 1, size(entry)
          do i = 1, size(entry)
-            if (place(i, j) > 0) matrix%value(place(i, j)) = matrix%value(place(i, j)) + block(i, j)/(scale(i)*scale(j))
+            if (place(i, j) > 0) matrix%value(place(i, j)) = matrix%value(place(i, j)) + block(i, j)*unit(i)*unit(j)
          end do
       end do
    end subroutine add_block

@@ -3,20 +3,19 @@
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
 !> singular. K with its factor serves all stresses.
 module flexact_elastic_errors
-   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
-   use flexact_elastic_projection, only: project
+   use flexact_elastic_products, only: hessian_times, mass_times, strains, stiffness_times
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
    use flexact_elastic_state, only: state_t
-   use flexact_elastic_tangent, only: add_hessian, add_mass, hessian_times, mass_times, strains, stiffness_times
+   use flexact_elastic_tangent, only: add_hessian, add_mass
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
+   use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: solve, symmetric_times
-   use flexact_symmetric_pattern, only: symmetric_pattern_t
+   use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
    implicit none
    private
    public :: errors_t, find_errors
@@ -28,44 +27,17 @@ module flexact_elastic_errors
       logical :: failed = .false.
    end type errors_t
 
-   !> inv(A) B in the inner product of A, which is definite.
-   type, extends(self_adjoint_t) :: definite_t
-      type(symmetric_pattern_t), pointer :: pattern => null()
-      type(operator_t), pointer :: a => null()
-      type(sparse_t), pointer :: b => null()
-   contains
-      procedure :: apply
-      procedure :: weigh
-   end type definite_t
-
    !> Pairs that are looked for at first, and at most, until there is one on either side.
-   integer, parameter :: few = 2, many = 24, block = 2
+   integer, parameter :: few = 2, many = 24
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
-   real(wp), parameter :: accuracy = 1.0e-4_wp
+   real(wp), parameter :: accuracy = 1.0e-5_wp
    !> Values so many times the nearest are rounding.
    real(wp), parameter :: rounding = 1.0e6_wp
 
 contains
 
-   subroutine apply(self, x, y)
-      class(definite_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-
-      call symmetric_times(self%b, x, y)
-      call solve(self%pattern, self%a%factor, y)
-   end subroutine apply
-
-   subroutine weigh(self, x, y)
-      class(definite_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-
-      call symmetric_times(self%a%matrix, x, y)
-   end subroutine weigh
-
    !> The base is that of a state without stress. No errors are found where K - square M has
-   !> something negative, or a motion without stiffness.
+   !> something negative, or K a motion without stiffness beside a square.
    subroutine find_errors(elastic, state, gravity, base, square, stress, errors)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
@@ -83,6 +55,7 @@ contains
       errors%failed = op%failed
       if (op%failed) return
       if (.not. allocated(base%tangent%mass)) call add_mass(elastic, state%configuration, base%tangent)
+      errors%loose = size(op%loose, 2)
       if (abs(square) > 0) then
          call assemble_mass(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, mass)
@@ -90,9 +63,7 @@ contains
       end if
       errors%failed = op%failed
       errors%negative = op%negative
-      if (op%failed) return
-      errors%loose = size(op%loose, 2)
-      if (errors%negative + errors%loose > 0) return
+      if (op%failed .or. op%negative > 0) return
       stressed = state
       do i = 1, size(stress, 3)
          stressed%stress = stress(:, :, i)
@@ -104,7 +75,7 @@ contains
       end do
    end subroutine find_errors
 
-   !> Eigenvalues v of inv(K - square M) H of largest magnitude on both sides; errors are -1/v.
+   !> Values d of (K - square M) v = -d H v on both sides of zero.
    subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)
       type(elastic_model_t), intent(in) :: elastic
       type(base_t), target, intent(in) :: base
@@ -113,32 +84,29 @@ contains
       real(wp), intent(in) :: square
       real(wp), intent(out) :: below, above
       logical, intent(out) :: failed
-      type(definite_t) :: pencil
+      type(pairs_t) :: pairs
       type(error_t), allocatable :: error
-      real(wp), allocatable :: value(:), v(:, :)
       integer :: wanted, i
 
       below = -huge(1.0_wp)
       above = huge(1.0_wp)
       failed = .false.
       if (.not. any(abs(hessian%value) > 0)) return
-      pencil%pattern => base%space%projection%pattern
-      pencil%a => op
-      pencil%b => hessian
       wanted = few
       do
-         call largest_pairs(pencil, base%space%motions, wanted, value, v, error, block, accuracy)
+         call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, wanted, pairs, error, op%least, &
+                                 accuracy)
          failed = allocated(error)
          if (failed) return
-         if (any(value > 0) .and. any(value < 0)) exit
-         if (size(value) < wanted .or. wanted >= many) exit
+         if (any(pairs%values > 0) .and. any(pairs%values < 0)) exit
+         if (size(pairs%values) < wanted .or. wanted >= many) exit
          wanted = 3*wanted
       end do
-      if (size(value) == 0) return
-      do i = size(value), 1, -1
-         if (rounding*abs(value(i)) < abs(value(1))) cycle
-         if (value(i) > 0) below = settled(elastic, base, square, v(:, i))
-         if (value(i) < 0) above = settled(elastic, base, square, v(:, i))
+      if (size(pairs%values) == 0) return
+      do i = 1, size(pairs%values)
+         if (abs(pairs%values(i)) > rounding*minval(abs(pairs%values))) cycle
+         if (pairs%values(i) < 0) below = max(below, settled(elastic, base, square, pairs%vectors(:, i)))
+         if (pairs%values(i) > 0) above = min(above, settled(elastic, base, square, pairs%vectors(:, i)))
       end do
    end subroutine find_nearest
 

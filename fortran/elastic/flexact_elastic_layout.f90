@@ -82,38 +82,17 @@ contains
    subroutine find_neighbours(elastic, start, neighbour)
       type(elastic_model_t), intent(in) :: elastic
       integer, allocatable, intent(out) :: start(:), neighbour(:)
-      integer :: seen(elastic%model%nodes), first(elastic%model%nodes + 1), next(elastic%model%nodes)
+      integer :: seen(elastic%model%nodes), first(elastic%model%nodes + 1), node, i, slot, found, other
       integer, allocatable :: owner(:)
-      integer :: k, slot, node, i, found, other
 
       associate (model => elastic%model)
-         first = 0
-         do k = 1, model%elements
-            do slot = 1, slots
-               node = model%element_node(slot, k)
-               if (node > 0) first(node + 1) = first(node + 1) + 1
-            end do
-         end do
-         first(1) = 1
-         do node = 1, model%nodes
-            first(node + 1) = first(node) + first(node + 1)
-         end do
-         next = first(:model%nodes)
-         allocate (owner(first(model%nodes + 1) - 1), neighbour(model%nodes + slots*(first(model%nodes + 1) - 1)))
-         do k = 1, model%elements
-            do slot = 1, slots
-               node = model%element_node(slot, k)
-               if (node == 0) cycle
-               owner(next(node)) = k
-               next(node) = next(node) + 1
-            end do
-         end do
-         start = first
+         call find_owners(elastic, first, owner)
+         allocate (start(model%nodes + 1), neighbour(model%nodes + slots*size(owner)))
          seen = 0
          found = 0
          do node = 1, model%nodes
-            start(node) = found + 1
             found = found + 1
+            start(node) = found
             neighbour(found) = node
             seen(node) = node
             do i = first(node), first(node + 1) - 1
@@ -131,6 +110,37 @@ contains
          neighbour = neighbour(:found)
       end associate
    end subroutine find_neighbours
+
+   !> The elements at each node: those of node i from first(i) to first(i + 1) - 1.
+   subroutine find_owners(elastic, first, owner)
+      type(elastic_model_t), intent(in) :: elastic
+      integer, intent(out) :: first(:)
+      integer, allocatable, intent(out) :: owner(:)
+      integer :: next(elastic%model%nodes), k, slot, node
+
+      associate (nodes => elastic%model%nodes, of => elastic%model%element_node)
+         first = 0
+         do k = 1, size(of, 2)
+            do slot = 1, slots
+               if (of(slot, k) > 0) first(of(slot, k) + 1) = first(of(slot, k) + 1) + 1
+            end do
+         end do
+         first(1) = 1
+         do node = 1, nodes
+            first(node + 1) = first(node) + first(node + 1)
+         end do
+         allocate (owner(first(nodes + 1) - 1))
+         next = first(:nodes)
+         do k = 1, size(of, 2)
+            do slot = 1, slots
+               node = of(slot, k)
+               if (node == 0) cycle
+               owner(next(node)) = k
+               next(node) = next(node) + 1
+            end do
+         end do
+      end associate
+   end subroutine find_owners
 
    subroutine find_places(elastic, layout)
       type(elastic_model_t), intent(in) :: elastic

@@ -13,7 +13,7 @@ module flexact_elastic_model
    use flexact_slots, only: axes, is_position, most_deformations, node_orientation, slots
    implicit none
    private
-   public :: elastic_model_t, properties_t, make_elastic_model, gathered
+   public :: elastic_model_t, properties_t, make_elastic_model, gathered, scatter
    public :: is_elastic, is_rigid, is_missing
 
    !> What a deformation is: not there, elastic, or held at its misfit by a multiplier.
@@ -145,7 +145,7 @@ contains
 
    !> The part of a vector that an element sees.
    pure function gathered(entry, vector) result(part)
-      integer, intent(in) :: entry(:)
+      integer, intent(in) :: entry(12)
       real(wp), intent(in) :: vector(:)
       real(wp) :: part(12)
       integer :: i
@@ -155,4 +155,16 @@ contains
          if (entry(i) > 0) part(i) = vector(entry(i))
       end do
    end function gathered
+
+   !> Add what an element gives to a vector.
+   pure subroutine scatter(entry, part, vector)
+      integer, intent(in) :: entry(12)
+      real(wp), intent(in) :: part(12)
+      real(wp), intent(inout) :: vector(:)
+      integer :: i
+
+      do i = 1, size(entry)
+         if (entry(i) > 0) vector(entry(i)) = vector(entry(i)) + part(i)
+      end do
+   end subroutine scatter
 end module flexact_elastic_model

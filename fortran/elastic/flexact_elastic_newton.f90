@@ -6,12 +6,15 @@
 module flexact_elastic_newton
    use flexact_elastic_model, only: elastic_model_t, gathered
    use flexact_elastic_operator, only: operator_t, make_operator, solved
+   use flexact_elastic_products, only: strains, stiffness_times, forces, hessian_times
    use flexact_elastic_residual, only: left_t, balance
    use flexact_elastic_rows, only: rows_t, make_rows, rows_times, errors_of, keep_multipliers
    use flexact_elastic_space, only: space_t, make_space, reduced, expanded, answer, multipliers_of
    use flexact_elastic_state, only: state_t, waypoint_t, moved, put_supports, increment_between
-   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian, strains, stiffness_times, forces, hessian_times
+   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian
    use flexact_kinds, only: wp
+   use flexact_slots, only: axes
+   use flexact_vectors, only: cross
    implicit none
    private
    public :: newton_t, find_increment, advance, settle, extent
@@ -26,6 +29,9 @@ module flexact_elastic_newton
    real(wp), parameter :: most_turn = 0.35_wp
    !> What rigid parts may be off, of the length of elements and of their distance.
    real(wp), parameter :: most_error = 1.0e-11_wp
+   !> Solutions for moments that turn, until they change by no more than this part.
+   integer, parameter :: most_rounds = 40
+   real(wp), parameter :: enough = 1.0e-8_wp
 
    !> A state on its way to equilibrium, with all that is at hand there.
    type :: newton_t
@@ -53,8 +59,7 @@ contains
       real(wp), intent(out) :: increment(:)
       logical, intent(out) :: failed
       real(wp) :: follow(size(increment)), unused
-      real(wp), allocatable :: left(:), y(:, :)
-      integer :: i
+      real(wp), allocatable :: y(:, :)
 
       associate (state => newton%state, tangent => newton%tangent, rows => newton%rows, space => newton%space)
          call make_tangent(elastic, state%configuration, goal%gravity, tangent)
@@ -70,14 +75,44 @@ contains
                      + rows_times(rows, increment), follow, unused)
          increment = increment - follow
          allocate (y(space%motions, 1))
-         do i = 1, 2
-            left = forces_left(elastic, goal, tangent, increment)
-            y(:, 1) = reduced(space, elastic, left)
-            call solved(space, newton%op, y)
-            increment = increment + expanded(space, elastic, y(:, 1))
-         end do
+         y(:, 1) = reduced(space, elastic, forces_left(elastic, goal, tangent, increment))
+         call solved(space, newton%op, y)
+         increment = increment + expanded(space, elastic, y(:, 1))
+         call turn_moments(elastic, goal%force, space, newton%op, increment)
       end associate
    end subroutine find_increment
+
+   !> What moments add to an increment: those that stay as they are while a node turns by w make
+   !> the derivative of the balance unsymmetric, by w x moment/2, since a spin behind another one
+   !> is w + v + v x w/2 together. Found by solving again with the symmetric tangent.
+   subroutine turn_moments(elastic, force, space, op, increment)
+      type(elastic_model_t), intent(in) :: elastic
+      real(wp), intent(in) :: force(:)
+      type(space_t), intent(in) :: space
+      type(operator_t), intent(in) :: op
+      real(wp), intent(inout) :: increment(:)
+      real(wp) :: first(size(increment)), next(size(increment)), moment(size(increment)), y(space%motions, 1), change, before
+      integer :: round, node
+
+      if (.not. any(elastic%is_turn .and. elastic%is_free .and. abs(force) > 0)) return
+      first = increment
+      before = huge(before)
+      do round = 1, most_rounds
+         moment = 0.0_wp
+         do node = axes, size(increment), axes
+            if (elastic%is_turn(node)) &
+               moment(node - 2:node) = -cross(increment(node - 2:node), force(node - 2:node))/2
+         end do
+         y(:, 1) = reduced(space, elastic, moment)
+         call solved(space, op, y)
+         next = first + expanded(space, elastic, y(:, 1))
+         change = norm2(elastic%scale*(next - increment))
+         if (.not. change < before) exit
+         increment = next
+         if (change <= enough*norm2(elastic%scale*next)) return
+         before = change
+      end do
+   end subroutine turn_moments
 
    !> Loads less the stresses after an increment, to first order.
    function forces_left(elastic, goal, tangent, increment) result(left)

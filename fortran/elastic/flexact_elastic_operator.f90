@@ -4,11 +4,11 @@
 module flexact_elastic_operator
    use flexact_elastic_assembly, only: assemble_stiffness
    use flexact_elastic_model, only: elastic_model_t
-   use flexact_elastic_projection, only: project
    use flexact_elastic_space, only: space_t
    use flexact_elastic_tangent, only: tangent_t
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
+   use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
    use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors
    implicit none

@@ -14,11 +14,15 @@ module flexact_elastic_path
    !> No step is shorter than this part of the way, and there are no more.
    real(wp), parameter :: shortest = 2.0_wp**(-14)
    integer, parameter :: most_steps = 20000
+   !> In longer steps the number of negative stiffnesses stays, and they take no more iterations:
+   !> else there may be another branch in between.
+   real(wp), parameter :: short = 2.0_wp**(-6)
+   integer, parameter :: most_plain_iterations = 9
    !> After a step with no more iterations the next one is twice as long.
    integer, parameter :: few_iterations = 10
    integer, parameter :: most_iterations = 25
-   !> Corrections that are rounding; that may have come to rest at it; beyond which nothing is
-   !> expected any more.
+   !> What the next correction may be expected to be where it is rounding; corrections that may
+   !> have come to rest there; beyond which nothing is expected any more.
    real(wp), parameter :: tiny_correction = 1.0e-14_wp, small_correction = 1.0e-8_wp, wild_correction = 1.0e3_wp
    !> How much of a step may differ from what the tangent says at either end, and what is too
    !> small to be judged.
@@ -52,7 +56,7 @@ contains
          if (1 - t < shortest/2) t = 1.0_wp
          goal = between(elastic, begin, end, t)
          newton%state = path%state
-         call take_step(elastic, last, goal, newton, iterations)
+         call take_step(elastic, last, goal, t - path%reached <= short, newton, iterations)
          path%steps = path%steps + 1
          path%iterations = path%iterations + iterations
          path%status = newton%status
@@ -70,36 +74,46 @@ contains
       end do
    end subroutine follow
 
-   !> From a state in equilibrium at one place to that at another.
-   subroutine take_step(elastic, from, goal, newton, iterations)
+   !> From a state in equilibrium at one place to that at another. is_short: whether the number of
+   !> negative stiffnesses may change.
+   subroutine take_step(elastic, from, goal, is_short, newton, iterations)
       type(elastic_model_t), intent(in) :: elastic
       type(waypoint_t), intent(in) :: from, goal
+      logical, intent(in) :: is_short
       type(newton_t), intent(inout) :: newton
       integer, intent(out) :: iterations
       real(wp), dimension(size(elastic%scale)) :: increment, first, last, whole
       real(wp) :: far, before
       real(wp), allocatable :: start(:, :)
-      logical :: failed
+      logical :: failed, at_rest, is_other
+      integer :: negative
 
       start = newton%state%configuration
       newton%status = step_diverges
-      before = huge(before)
+      before = wild_correction
       do iterations = 1, most_iterations
          call find_increment(elastic, goal, .true., newton, increment, failed)
          if (failed) return
          far = extent(elastic, increment)
          if (.not. far < wild_correction) return
-         if (iterations == 1) first = increment
+         if (iterations == 1) then
+            first = increment
+            negative = newton%op%negative
+         end if
          call advance(elastic, goal, increment, newton)
-         if (far <= tiny_correction .or. (far <= small_correction .and. far > before/4)) exit
+         at_rest = far <= small_correction .and. far > before/4
+         if (far*min(1.0_wp, far/before) <= tiny_correction .or. at_rest) then
+            call find_increment(elastic, from, .false., newton, last, failed)
+            call settle(elastic, goal, newton)
+            if (newton%status /= step_diverges .or. far > 0.9_wp*before) exit
+         end if
          before = far
       end do
-      if (iterations > most_iterations) return
-      call find_increment(elastic, from, .false., newton, last, failed)
-      call settle(elastic, goal, newton)
       whole = increment_between(elastic, start, newton%state%configuration)
       if (newton%status /= step_done .or. extent(elastic, whole) < least_step) return
-      if (differ(elastic, whole, first) .or. differ(elastic, whole, -last)) newton%status = step_diverges
+      is_other = differ(elastic, whole, first) .or. differ(elastic, whole, -last)
+      if (.not. is_short) is_other = is_other .or. newton%op%negative /= negative .or. iterations > most_plain_iterations
+      if (is_other) newton%status = step_diverges
    end subroutine take_step
 
    pure logical function differ(elastic, whole, predicted)

@@ -2,11 +2,12 @@
 !> Mass, stiffness and geometric stiffness in independent coordinates.
 module flexact_elastic_reduced
    use flexact_elastic_model, only: elastic_model_t
+   use flexact_elastic_products, only: mass_times, hessian_times, stiffness_in
    use flexact_elastic_response, only: base_t
    use flexact_elastic_rows, only: rows_t
    use flexact_elastic_space, only: space_t, make_space, answer
    use flexact_elastic_state, only: state_t, unit_parameters
-   use flexact_elastic_tangent, only: add_mass, mass_times, strains, stiffness_times, hessian_times, component_row
+   use flexact_elastic_tangent, only: add_mass, component_row
    use flexact_kinds, only: wp
    use flexact_slots, only: axes, node_orientation
    implicit none
@@ -50,25 +51,9 @@ contains
       do i = 1, q
          matrices%mass(:, i) = matmul(mass_times(elastic, base%tangent, x(:, i)), x)
          matrices%geometric(:, i) = matmul(hessian_times(elastic, base%tangent, x(:, i)), x)
-         call add_stiffness(elastic, base, x, i, matrices%stiffness(:, i))
       end do
+      call stiffness_in(elastic, base%tangent, x, matrices%stiffness)
    end subroutine find_matrices
-
-   !> Column j of E' S E.
-   subroutine add_stiffness(elastic, base, x, j, column)
-      type(elastic_model_t), intent(in) :: elastic
-      type(base_t), intent(in) :: base
-      real(wp), intent(in) :: x(:, :)
-      integer, intent(in) :: j
-      real(wp), intent(out) :: column(:)
-      real(wp), allocatable :: stress(:, :)
-      integer :: i
-
-      stress = stiffness_times(elastic, strains(elastic, base%tangent, x(:, j)))
-      do i = 1, size(column)
-         column(i) = sum(stress*strains(elastic, base%tangent, x(:, i)))
-      end do
-   end subroutine add_stiffness
 
    !> The rigid rows, and one for each independent coordinate behind them.
    subroutine add_rows(elastic, state, base, independent, rows)

@@ -2,10 +2,11 @@
 !> Whether forces are in balance, up to what rounding of the coordinates makes of them.
 module flexact_elastic_residual
    use flexact_elastic_model, only: elastic_model_t
+   use flexact_elastic_products, only: forces
    use flexact_elastic_rows, only: rows_t, keep_multipliers
    use flexact_elastic_space, only: space_t, multipliers_of, reduced, reduced_sizes
    use flexact_elastic_state, only: state_t
-   use flexact_elastic_tangent, only: tangent_t, forces
+   use flexact_elastic_tangent, only: tangent_t
    use flexact_kinds, only: wp
    use flexact_slots, only: axes
    implicit none
@@ -34,7 +35,8 @@ contains
       real(wp), intent(in) :: load(:)
       type(state_t), intent(inout) :: state
       type(left_t), intent(out) :: left
-      real(wp), allocatable :: f(:), m(:), noise(:), most(:)
+      real(wp), allocatable :: noise(:), most(:)
+      real(wp) :: f(size(load)), m(rows%count)
       integer :: i
 
       m = multipliers_of(space, elastic, load - forces(elastic, tangent, state%stress))

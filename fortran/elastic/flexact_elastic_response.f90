@@ -3,18 +3,21 @@
 module flexact_elastic_response
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, solved
+   use flexact_elastic_products, only: strains, stiffness_times, forces, hessian_times
    use flexact_elastic_rows, only: rows_t, make_rows, rows_times, values_at_rows, keep_multipliers
    use flexact_elastic_space, only: space_t, make_space, reduced, expanded, answer, multipliers_of
    use flexact_elastic_state, only: state_t
-   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian, strains, stiffness_times, forces, hessian_times
+   use flexact_elastic_tangent, only: tangent_t, make_tangent, add_hessian
    use flexact_kinds, only: wp
    use flexact_slots, only: axes
    implicit none
    private
    public :: base_t, response_t, make_base, respond
 
-   !> Times that a solution is refined with the element's own products.
-   integer, parameter :: refinements = 3
+   !> A solution is refined with the elements' own products until corrections are that small, and
+   !> no more often than that.
+   real(wp), parameter :: small_correction = 1.0e-12_wp
+   integer, parameter :: most_solutions = 5
 
    !> A state, linearised.
    type :: base_t
@@ -54,8 +57,10 @@ contains
       type(response_t), intent(out) :: response
       real(wp), allocatable :: left(:), c(:), m(:), y(:, :)
       real(wp) :: follow(size(shift))
+      logical :: is_fine
       integer :: i
 
+      is_fine = .false.
       allocate (response%displacement(size(shift)))
       associate (v => response%displacement)
          v = shift
@@ -64,13 +69,15 @@ contains
          call answer(base%space, elastic, c - rows_times(base%rows, v), follow, response%mismatch)
          v = v + follow
          allocate (y(base%space%motions, 1))
-         do i = 0, refinements
+         do i = 0, most_solutions
             response%stress = stiffness_times(elastic, strains(elastic, base%tangent, v) - misfit)
             left = force - forces(elastic, base%tangent, response%stress) - hessian_times(elastic, base%tangent, v)
-            if (i == refinements) exit
+            if (i == most_solutions .or. is_fine) exit
             y(:, 1) = reduced(base%space, elastic, left)
             call solved(base%space, op, y)
-            v = v + expanded(base%space, elastic, y(:, 1))
+            follow = expanded(base%space, elastic, y(:, 1))
+            v = v + follow
+            is_fine = norm2(elastic%scale*follow) <= small_correction*norm2(elastic%scale*v)
          end do
          m = multipliers_of(base%space, elastic, left)
          allocate (response%reaction(axes, elastic%model%nodes), source=0.0_wp)

@@ -3,10 +3,10 @@
 module flexact_elastic_space
    use flexact_elastic_layout, only: layout_t, make_layout, free_part, whole_vector
    use flexact_elastic_model, only: elastic_model_t
-   use flexact_elastic_projection, only: projection_t, prepare
    use flexact_elastic_rows, only: rows_t
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
+   use flexact_projection_pattern, only: projection_t, prepare
    use flexact_row_space, only: row_space_t, analyse_rows, find_multipliers, follow_rows
    use flexact_sparse, only: sparse_t, compress, times, times_transposed
    implicit none

@@ -5,12 +5,13 @@ module flexact_elastic_spectrum
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator
-   use flexact_elastic_projection, only: project
+   use flexact_elastic_products, only: mass_times, hessian_times, stiffness_in
    use flexact_elastic_response, only: base_t
    use flexact_elastic_space, only: expanded
-   use flexact_elastic_tangent, only: add_mass, mass_times, hessian_times, strains, stiffness_times
-   use flexact_error, only: error_t
+   use flexact_elastic_tangent, only: add_mass
+   use flexact_error, only: error_t, is_kind, error_not_found
    use flexact_kinds, only: wp
+   use flexact_projection, only: project
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
    use flexact_symmetric_pencil, only: pairs_t, lowest_pairs, pairs_next_to_zero
@@ -49,6 +50,9 @@ contains
       if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, mass)
       call lowest_pairs(base%space%projection%pattern, op%matrix, op%factor, mass, most, pairs, error, op%least)
+      ! In the midst of many values that are nearly equal more may be easier.
+      if (is_kind(error, error_not_found)) &
+         call lowest_pairs(base%space%projection%pattern, op%matrix, op%factor, mass, 2*most, pairs, error, op%least)
       modes%failed = allocated(error)
       if (modes%failed) return
       modes%is_complete = pairs%is_complete
@@ -78,6 +82,8 @@ contains
       if (modes%failed .or. .not. any(abs(whole%value) > 0)) return
       call project(base%space%projection, whole, hessian)
       call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, most, pairs, error, op%least)
+      if (is_kind(error, error_not_found)) &
+         call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, 2*most, pairs, error, op%least)
       modes%failed = allocated(error)
       if (modes%failed) return
       modes%is_complete = pairs%is_complete
@@ -113,25 +119,6 @@ contains
       end do
    end function all_expanded
 
-   !> V' (D'S D) V, from strains.
-   subroutine stiffness_in(elastic, base, v, k)
-      type(elastic_model_t), intent(in) :: elastic
-      type(base_t), intent(in) :: base
-      real(wp), intent(in) :: v(:, :)
-      real(wp), intent(out) :: k(:, :)
-      real(wp), allocatable :: e(:, :), s(:, :), strain(:, :)
-      integer :: i, n
-
-      n = 6*elastic%model%elements
-      allocate (e(n, size(v, 2)), s(n, size(v, 2)))
-      do i = 1, size(v, 2)
-         strain = strains(elastic, base%tangent, v(:, i))
-         e(:, i) = reshape(strain, [n])
-         s(:, i) = reshape(stiffness_times(elastic, strain), [n])
-      end do
-      k = matmul(transpose(e), s)
-   end subroutine stiffness_in
-
    !> Values of (K + H) v = value M v in the span of some vectors, which are turned to the modes.
    subroutine settle_frequencies(elastic, base, v, value, failed)
       type(elastic_model_t), intent(in) :: elastic
@@ -144,7 +131,7 @@ contains
       integer :: i
 
       allocate (value(size(v, 2)))
-      call stiffness_in(elastic, base, v, k)
+      call stiffness_in(elastic, base%tangent, v, k)
       do i = 1, size(v, 2)
          k(:, i) = k(:, i) + matmul(hessian_times(elastic, base%tangent, v(:, i)), v)
          m(:, i) = matmul(mass_times(elastic, base%tangent, v(:, i)), v)
@@ -166,7 +153,7 @@ contains
       integer :: i
 
       allocate (value(size(v, 2)))
-      call stiffness_in(elastic, base, v, k)
+      call stiffness_in(elastic, base%tangent, v, k)
       do i = 1, size(v, 2)
          h(:, i) = matmul(hessian_times(elastic, base%tangent, v(:, i)), v)
       end do

@@ -1,11 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A mechanism linearised at a state: deformations, their derivatives, second derivatives
-!> under the stress, gravity, and mass, element by element. Products are formed from these, so
-!> that a stiff elongation beside a soft bending costs half of the digits that it costs in an
-!> assembled matrix.
+!> under the stress, gravity, and mass, element by element.
 module flexact_elastic_tangent
    use flexact_configuration, only: make_poses
-   use flexact_elastic_model, only: elastic_model_t, gathered
+   use flexact_elastic_model, only: elastic_model_t, scatter
    use flexact_elastic_state, only: state_t, unit_parameters
    use flexact_element, only: element_deformation
    use flexact_element_curvature, only: element_curvature
@@ -17,8 +15,7 @@ module flexact_elastic_tangent
    use flexact_vectors, only: cross
    implicit none
    private
-   public :: tangent_t, make_tangent, add_hessian, add_mass
-   public :: strains, forces, stiffness_times, hessian_times, mass_times, component_row
+   public :: tangent_t, make_tangent, add_hessian, add_mass, component_row
 
    type :: tangent_t
       !> (6, elements), (6, 12, elements).
@@ -126,77 +123,6 @@ contains
       end associate
    end subroutine add_mass
 
-   !> D v for every deformation.
-   pure function strains(elastic, tangent, v) result(e)
-      type(elastic_model_t), intent(in) :: elastic
-      type(tangent_t), intent(in) :: tangent
-      real(wp), intent(in) :: v(:)
-      real(wp) :: e(6, elastic%model%elements)
-      integer :: k
-
-      do k = 1, elastic%model%elements
-         e(:, k) = matmul(tangent%derivative(:, :, k), gathered(elastic%entry(:, k), v))
-      end do
-   end function strains
-
-   !> D' sigma.
-   pure function forces(elastic, tangent, stress) result(f)
-      type(elastic_model_t), intent(in) :: elastic
-      type(tangent_t), intent(in) :: tangent
-      real(wp), intent(in) :: stress(:, :)
-      real(wp) :: f(axes*elastic%model%nodes)
-      integer :: k
-
-      f = 0.0_wp
-      do k = 1, elastic%model%elements
-         call scatter(elastic%entry(:, k), matmul(stress(:, k), tangent%derivative(:, :, k)), f)
-      end do
-   end function forces
-
-   !> S e.
-   pure function stiffness_times(elastic, e) result(stress)
-      type(elastic_model_t), intent(in) :: elastic
-      real(wp), intent(in) :: e(:, :)
-      real(wp) :: stress(6, elastic%model%elements)
-      integer :: k
-
-      do k = 1, elastic%model%elements
-         stress(:, k) = matmul(elastic%stiffness(:, :, k), e(:, k))
-      end do
-   end function stiffness_times
-
-   !> H v.
-   pure function hessian_times(elastic, tangent, v) result(f)
-      type(elastic_model_t), intent(in) :: elastic
-      type(tangent_t), intent(in) :: tangent
-      real(wp), intent(in) :: v(:)
-      real(wp) :: f(axes*elastic%model%nodes)
-      integer :: k, node
-
-      do node = 1, elastic%model%nodes
-         f(axes*node - 2:axes*node) = tangent%node_hessian(node)*v(axes*node - 2:axes*node)
-      end do
-      do k = 1, elastic%model%elements
-         call scatter(elastic%entry(:, k), matmul(tangent%hessian(:, :, k), gathered(elastic%entry(:, k), v)), f)
-      end do
-   end function hessian_times
-
-   !> M v.
-   pure function mass_times(elastic, tangent, v) result(f)
-      type(elastic_model_t), intent(in) :: elastic
-      type(tangent_t), intent(in) :: tangent
-      real(wp), intent(in) :: v(:)
-      real(wp) :: f(axes*elastic%model%nodes)
-      integer :: k, node
-
-      do node = 1, elastic%model%nodes
-         f(axes*node - 2:axes*node) = matmul(tangent%node_mass(:, :, node), v(axes*node - 2:axes*node))
-      end do
-      do k = 1, elastic%model%elements
-         call scatter(elastic%entry(:, k), matmul(tangent%mass(:, :, k), gathered(elastic%entry(:, k), v)), f)
-      end do
-   end function mass_times
-
    !> Derivative of component `axis` of the Euler parameters with respect to the spin.
    pure function component_row(euler, axis) result(row)
       real(wp), intent(in) :: euler(4)
@@ -208,15 +134,4 @@ contains
       e(axis) = 1.0_wp
       row = (euler(1)*e + cross(euler(2:), e))/2
    end function component_row
-
-   pure subroutine scatter(entry, part, vector)
-      integer, intent(in) :: entry(:)
-      real(wp), intent(in) :: part(:)
-      real(wp), intent(inout) :: vector(:)
-      integer :: i
-
-      do i = 1, size(entry)
-         if (entry(i) > 0) vector(entry(i)) = vector(entry(i)) + part(i)
-      end do
-   end subroutine scatter
 end module flexact_elastic_tangent

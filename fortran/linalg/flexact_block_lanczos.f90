@@ -20,13 +20,20 @@ module flexact_block_lanczos
 
    type, abstract :: self_adjoint_t
    contains
-      !> y = Op x for x, y (n, k).
-      procedure(product_of), deferred :: apply
+      !> y = Op x for x, y (n, k), W x being at hand.
+      procedure(image_of), deferred :: apply
       !> y = W x: products x'W y are the inner product, in which Op is self-adjoint.
       procedure(product_of), deferred :: weigh
    end type self_adjoint_t
 
    abstract interface
+      subroutine image_of(self, x, weighed, y)
+         import :: self_adjoint_t, wp
+         class(self_adjoint_t), intent(in) :: self
+         real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
+         real(wp), intent(out), contiguous :: y(:, :)
+      end subroutine image_of
+
       subroutine product_of(self, x, y)
          import :: self_adjoint_t, wp
          class(self_adjoint_t), intent(in) :: self
@@ -49,6 +56,8 @@ module flexact_block_lanczos
    !> Blocks that are kept before a restart, beyond four times the vectors wanted.
    integer, parameter :: reserve = 10
    integer, parameter :: most_restarts = 100
+   !> Vectors for each wanted before it is asked whether these have converged.
+   integer, parameter :: first_look = 4
    !> Part of a vector's length below which what is left of it is rounding.
    real(wp), parameter :: nothing = 1.0e-12_wp
    !> Residual of a converged pair to its eigenvalue, which errs by its square, and to the largest one.
@@ -82,15 +91,16 @@ contains
       call begin(operator, n, width, min(n, 4*wanted + reserve*width), process, error)
       if (allocated(error)) return
       do restarts = 0, most_restarts
+         theta = [real(wp) ::]
          do
             call go_on(operator, process)
             if (process%fresh == 0 .or. process%used + process%fresh > size(process%space, 2)) exit
-            if (modulo(process%used, 2*width) /= 0 .or. process%used < wanted + width) cycle
+            if (modulo(process%used, 2*width) /= 0 .or. process%used < first_look*wanted) cycle
             call ritz_pairs(process, theta, turn, error)
             if (allocated(error)) return
             if (are_converged(process, theta, turn, wanted)) exit
          end do
-         call ritz_pairs(process, theta, turn, error)
+         if (size(theta) < process%used) call ritz_pairs(process, theta, turn, error)
          if (allocated(error)) return
          if (process%fresh == 0 .or. are_converged(process, theta, turn, wanted)) exit
          call restart(process, theta, turn, wanted)
@@ -123,12 +133,17 @@ contains
       class(self_adjoint_t), intent(in) :: operator
       type(process_t), intent(inout) :: process
       real(wp) :: unused(size(process%space, 2), size(process%next, 2)), rest(size(process%next, 2), size(process%next, 2))
+      real(wp) :: image(size(process%next, 1), size(process%next, 2))
+      integer :: round
 
       process%seed = process%seed + 1
       process%fresh = size(process%next, 2)
       call fill_at_random(process%seed, process%next)
-      call operator%apply(process%next, process%next_weighed)
-      call operator%apply(process%next_weighed, process%next)
+      do round = 1, 2
+         call operator%weigh(process%next, process%next_weighed)
+         image = process%next
+         call operator%apply(image, process%next_weighed, process%next)
+      end do
       call make_orthonormal(operator, process, unused, rest)
    end subroutine begin_anew
 
@@ -146,7 +161,7 @@ contains
       process%space(:, first:last) = process%next(:, :block)
       process%weighed(:, first:last) = process%next_weighed(:, :block)
       process%used = last
-      call operator%apply(process%space(:, first:last), process%next(:, :block))
+      call operator%apply(process%space(:, first:last), process%weighed(:, first:last), process%next(:, :block))
       call make_orthonormal(operator, process, products, rest)
       process%h(:last, first:last) = products(:last, :block)
       process%h(first:last, :last) = transpose(products(:last, :block))
@@ -168,11 +183,11 @@ contains
       images = process%fresh
       call take_out(operator, process, products)
       length(:images) = norm2(products(:process%used, :images), 1)
-      call orthonormalise_block(process, nothing, length(:images), first)
+      call orthonormalise_block(process, 2, nothing, length(:images), first)
       kept = process%fresh
       call take_out(operator, process, again)
       length(:kept) = 1.0_wp
-      call orthonormalise_block(process, 0.1_wp, length(:kept), second)
+      call orthonormalise_block(process, 1, 0.1_wp, length(:kept), second)
       products(:process%used, :images) = products(:process%used, :images) &
                                          + matmul(again(:process%used, :kept), first(:kept, :images))
       rest = 0.0_wp
@@ -201,8 +216,9 @@ contains
 
    !> Make the next vectors orthonormal one by one; they were `next triangle`. Dropped is
    !> what keeps no more than a least part of its length, that in the space included.
-   pure subroutine orthonormalise_block(process, least, inside, triangle)
+   pure subroutine orthonormalise_block(process, rounds, least, inside, triangle)
       type(process_t), intent(inout) :: process
+      integer, intent(in) :: rounds
       real(wp), intent(in) :: least, inside(:)
       real(wp), intent(out) :: triangle(:, :)
       real(wp) :: products(size(triangle, 1)), square, whole
@@ -214,7 +230,7 @@ contains
       associate (v => process%next, w => process%next_weighed)
          do i = 1, process%fresh
             whole = max(dot_product(v(:, i), w(:, i)), 0.0_wp) + inside(i)**2
-            do round = 1, merge(2, 0, k > 0)
+            do round = 1, merge(rounds, 0, k > 0)
                call dgemm('T', 'N', k, 1, n, 1.0_wp, w, n, v(:, i), n, 0.0_wp, products, k)
                call dgemm('N', 'N', n, 1, k, -1.0_wp, v, n, products, k, 1.0_wp, v(:, i), n)
                call dgemm('N', 'N', n, 1, k, -1.0_wp, w, n, products, k, 1.0_wp, w(:, i), n)

@@ -4,14 +4,16 @@
 !> pp. 1-19), on groups of columns that share their pattern, in a quotient graph: what an
 !> elimination joins is kept as one list, and those that it swallows are dropped.
 module flexact_minimum_degree
-   use flexact_kinds, only: wp
-   use flexact_sorting, only: ascending
+   use flexact_elimination_tree, only: postorder
+   use flexact_sorting, only: by_number
    use flexact_sparse, only: sparse_t
    implicit none
    private
    public :: minimum_degree_order, column_groups
 
+   !> Of which the first `count` are there.
    type :: list_t
+      integer :: count = 0
       integer, allocatable :: item(:)
    end type list_t
 
@@ -26,44 +28,63 @@ module flexact_minimum_degree
 
 contains
 
-   !> The columns in the order of elimination. Pattern: both triangles with the diagonal.
+   !> The columns in the order of elimination, in which those that change a column stand right
+   !> before it. Pattern: both triangles with the diagonal.
    pure subroutine minimum_degree_order(pattern, order)
       type(sparse_t), intent(in) :: pattern
       integer, intent(out) :: order(:)
       type(quotient_t) :: graph
-      integer :: group(size(order)), groups, of_groups(size(order)), i
+      integer :: group(size(order)), groups, of_groups(size(order)), place_of(size(order)), i
 
       call column_groups(pattern, group, groups)
       call make_quotient(pattern, group, groups, graph)
       do i = 1, groups
          of_groups(i) = next_group(graph)
+         place_of(of_groups(i)) = i
          call eliminate(graph, of_groups(i))
       end do
-      call order_columns(group, of_groups(:groups), order)
+      call bring_together(graph, of_groups(:groups), place_of(:groups))
+      order = by_number(place_of(group), groups)
    end subroutine minimum_degree_order
 
-   !> The group of each column, numbered as they are met; those of one have the same pattern.
+   !> Move groups such that those whose elimination changes one stand right before it. A group is
+   !> changed by those that it is the first to be joined with.
+   pure subroutine bring_together(graph, of_groups, place_of)
+      type(quotient_t), intent(in) :: graph
+      integer, intent(in) :: of_groups(:)
+      integer, intent(inout) :: place_of(:)
+      integer :: parent(size(of_groups)), order(size(of_groups)), i
+
+      do i = 1, size(of_groups)
+         associate (joined => graph%joined(of_groups(i))%item)
+            parent(i) = 0
+            if (size(joined) > 0) parent(i) = minval(place_of(joined))
+         end associate
+      end do
+      call postorder(parent, order)
+      place_of(of_groups(order)) = [(i, i=1, size(order))]
+   end subroutine bring_together
+
+   !> The group of each column, numbered as they are met; those of one have the same pattern,
+   !> and so each stands in the patterns of the others.
    pure subroutine column_groups(pattern, group, groups)
       type(sparse_t), intent(in) :: pattern
       integer, intent(out) :: group(:), groups
-      real(wp) :: key(size(group))
-      integer :: order(size(group)), i, j, k
+      integer :: key(size(group)), i, j, entry
 
       do j = 1, size(group)
-         associate (places => pattern%place(pattern%start(j):pattern%start(j + 1) - 1))
-            key(j) = real(size(places), wp) + sum(sqrt(real(places, wp)))
-         end associate
+         key(j) = sum(pattern%place(pattern%start(j):pattern%start(j + 1) - 1)/(pattern%start(j + 1) - pattern%start(j)))
       end do
-      order = ascending(key)
       group = 0
       groups = 0
-      do i = 1, size(group)
-         if (group(order(i)) /= 0) cycle
+      do j = 1, size(group)
+         if (group(j) /= 0) cycle
          groups = groups + 1
-         group(order(i)) = groups
-         do k = i + 1, size(group)
-            if (key(order(k)) > key(order(i))) exit
-            if (is_same(pattern, order(i), order(k))) group(order(k)) = groups
+         group(j) = groups
+         do entry = pattern%start(j), pattern%start(j + 1) - 1
+            i = pattern%place(entry)
+            if (group(i) /= 0 .or. key(i) /= key(j)) cycle
+            if (is_same(pattern, i, j)) group(i) = groups
          end do
       end do
    end subroutine column_groups
@@ -97,8 +118,9 @@ contains
          do entry = pattern%start(j), pattern%start(j + 1) - 1
             call meet(group(pattern%place(entry)), j, graph%mark, list, found)
          end do
-         graph%near(g)%item = list(:found)
-         allocate (graph%through(g)%item(0))
+         graph%near(g) = list_t(found, list(:found))
+         ! Each that joins takes the place of one.
+         graph%through(g) = list_t(0, list(:found))
       end do
       graph%stamp = size(group)
       do g = 1, groups
@@ -130,14 +152,15 @@ contains
 
       call collect(graph, pivot, reach, found)
       graph%is_gone(pivot) = .true.
-      graph%is_swallowed(graph%through(pivot)%item) = .true.
-      graph%joined(pivot)%item = reach(:found)
-      call forget(graph%near(pivot), graph%through(pivot))
+      graph%is_swallowed(graph%through(pivot)%item(:graph%through(pivot)%count)) = .true.
+      graph%joined(pivot) = list_t(found, reach(:found))
       do i = 1, found
          associate (near => graph%near(reach(i)), through => graph%through(reach(i)))
             ! What the new list joins needs no entry of its own.
-            near%item = pack(near%item, graph%mark(near%item) /= graph%stamp)
-            through%item = [pack(through%item,.not. graph%is_swallowed(through%item)), pivot]
+            call keep(graph%mark(near%item(:near%count)) /= graph%stamp, near)
+            call keep(.not. graph%is_swallowed(through%item(:through%count)), through)
+            through%count = through%count + 1
+            through%item(through%count) = pivot
          end associate
       end do
       do i = 1, found
@@ -145,11 +168,18 @@ contains
       end do
    end subroutine eliminate
 
-   pure subroutine forget(near, through)
-      type(list_t), intent(inout) :: near, through
+   pure subroutine keep(is_kept, list)
+      logical, intent(in) :: is_kept(:)
+      type(list_t), intent(inout) :: list
+      integer :: i
 
-      deallocate (near%item, through%item)
-   end subroutine forget
+      list%count = 0
+      do i = 1, size(is_kept)
+         if (.not. is_kept(i)) cycle
+         list%count = list%count + 1
+         list%item(list%count) = list%item(i)
+      end do
+   end subroutine keep
 
    !> All groups that one is joined with, itself left out; they are marked, and so is it.
    pure subroutine collect(graph, g, reach, found)
@@ -162,10 +192,10 @@ contains
       graph%stamp = graph%stamp + 1
       graph%mark(g) = graph%stamp
       found = 0
-      do i = 1, size(graph%near(g)%item)
+      do i = 1, graph%near(g)%count
          call meet(graph%near(g)%item(i), graph%stamp, graph%mark, reach, found)
       end do
-      do k = 1, size(graph%through(g)%item)
+      do k = 1, graph%through(g)%count
          associate (joined => graph%joined(graph%through(g)%item(k))%item)
             do i = 1, size(joined)
                if (.not. graph%is_gone(joined(i))) call meet(joined(i), graph%stamp, graph%mark, reach, found)
@@ -182,13 +212,4 @@ contains
       call collect(graph, g, reach, found)
       graph%degree(g) = sum(graph%weight(reach(:found)))
    end subroutine find_degree
-
-   pure subroutine order_columns(group, of_groups, order)
-      integer, intent(in) :: group(:), of_groups(:)
-      integer, intent(out) :: order(:)
-      integer :: place_of(size(of_groups)), i
-
-      place_of(of_groups) = [(i, i=1, size(of_groups))]
-      order = ascending(real(place_of(group), wp))
-   end subroutine order_columns
 end module flexact_minimum_degree

@@ -10,14 +10,16 @@
 !> matrix do no harm.
 module flexact_symmetric_factor
    use flexact_eigenpairs, only: symmetric_eigenpairs
+   use flexact_equilibration, only: find_scale
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
    use flexact_orthonormal, only: orthonormalise
    use flexact_sparse, only: sparse_t
+   use flexact_symmetric_lanes, only: lanes, symmetric_times, solve_lanes
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private
-   public :: symmetric_factor_t, factorise, solve, solve_refined, null_vectors, symmetric_times
+   public :: symmetric_factor_t, factorise, solve, solve_refined, null_vectors
 
    type :: symmetric_factor_t
       integer :: n = 0
@@ -38,8 +40,6 @@ module flexact_symmetric_factor
    real(wp), parameter :: rounding = 2.0e-14_wp
    !> Larger pivots are not suspected.
    real(wp), parameter :: suspicious = 1.0e-4_wp
-   !> Right-hand sides that are taken at a time.
-   integer, parameter :: lanes = 8
 
 contains
 
@@ -74,40 +74,6 @@ contains
       factor%negative = count(factor%pivot < 0)
       call take_pins_off(pattern, factor, error)
    end subroutine factorise
-
-   !> The root of the diagonal; where entries beside it stay above 1, more.
-   pure subroutine find_scale(matrix, scale, least)
-      type(sparse_t), intent(in) :: matrix
-      real(wp), intent(out) :: scale(:)
-      real(wp), intent(in), optional :: least(:)
-      real(wp) :: largest(size(scale)), unscaled(size(scale))
-      integer :: i, j, entry, round
-
-      scale = 0.0_wp
-      largest = 0.0_wp
-      if (present(least)) scale = least
-      do j = 1, matrix%columns
-         do entry = matrix%start(j), matrix%start(j + 1) - 1
-            i = matrix%place(entry)
-            if (i == j) scale(j) = max(scale(j), abs(matrix%value(entry)))
-         end do
-      end do
-      scale = sqrt(scale)
-      do round = 1, 2
-         unscaled = merge(scale, 1.0_wp, scale > 0)
-         largest = 0.0_wp
-         do j = 1, matrix%columns
-            do entry = matrix%start(j), matrix%start(j + 1) - 1
-               i = matrix%place(entry)
-               if (i <= j) cycle
-               largest(i) = max(largest(i), abs(matrix%value(entry)/unscaled(j)))
-               largest(j) = max(largest(j), abs(matrix%value(entry)/unscaled(i)))
-            end do
-         end do
-         scale = max(scale, largest)
-      end do
-      where (.not. scale > 0) scale = 1.0_wp
-   end subroutine find_scale
 
    !> Row k of the scaled lower triangle.
    pure subroutine gather_row(pattern, matrix, unit, k, row)
@@ -194,7 +160,7 @@ contains
          do i = first, last
             block(i - first + 1, factor%pinned(i)) = 1.0_wp
          end do
-         call solve_lanes(pattern, factor, block)
+         call solve_lanes(pattern, factor%value, factor%pivot, block)
          factor%response(:, first:last) = transpose(block(:last - first + 1, :))
       end do
       turn = -factor%response(factor%pinned, :)
@@ -221,6 +187,10 @@ contains
       real(wp) :: block(lanes, pattern%n), part(lanes, size(factor%slack))
       integer :: first, last, i, k
 
+      if (size(x, 2) == 1 .and. size(factor%slack) == factor%zero) then
+         call solve_one(pattern, factor, x(:, 1))
+         return
+      end if
       block = 0.0_wp
       do first = 1, size(x, 2), lanes
          last = min(first + lanes - 1, size(x, 2))
@@ -230,8 +200,7 @@ contains
             end do
          end do
          if (size(factor%slack) > factor%zero) part = matmul(block, factor%response)
-         if (last == first) call solve_one(pattern, factor, block)
-         if (last > first) call solve_lanes(pattern, factor, block)
+         call solve_lanes(pattern, factor%value, factor%pivot, block)
          if (size(factor%slack) > factor%zero) call add_response(factor, part, block)
          do k = 1, pattern%n
             do i = first, last
@@ -257,38 +226,15 @@ contains
       x = x + matmul(part, transpose(factor%response))
    end subroutine add_response
 
-   !> Solve F x = b in place, scaled and in the order of elimination, for all lanes.
-   pure subroutine solve_lanes(pattern, factor, x)
+   !> Solve F x = b in place for one right-hand side as given.
+   pure subroutine solve_one(pattern, factor, given)
       type(symmetric_pattern_t), intent(in) :: pattern
       type(symmetric_factor_t), intent(in) :: factor
-      real(wp), intent(inout) :: x(lanes, pattern%n)
-      real(wp) :: total(lanes)
-      integer :: j, p
-
-      do j = 1, pattern%n
-         total = x(:, j)
-         do p = pattern%start(j), pattern%start(j + 1) - 1
-            x(:, pattern%place(p)) = x(:, pattern%place(p)) - factor%value(p)*total
-         end do
-      end do
-      do j = pattern%n, 1, -1
-         total = x(:, j)/factor%pivot(j)
-         do p = pattern%start(j), pattern%start(j + 1) - 1
-            total = total - factor%value(p)*x(:, pattern%place(p))
-         end do
-         x(:, j) = total
-      end do
-   end subroutine solve_lanes
-
-   !> The same for the first lane alone.
-   pure subroutine solve_one(pattern, factor, block)
-      type(symmetric_pattern_t), intent(in) :: pattern
-      type(symmetric_factor_t), intent(in) :: factor
-      real(wp), intent(inout) :: block(:, :)
+      real(wp), intent(inout) :: given(:)
       real(wp) :: x(pattern%n), total
       integer :: j, p
 
-      x = block(1, :)
+      x = given(pattern%order)*factor%unit
       do j = 1, pattern%n
          total = x(j)
          do p = pattern%start(j), pattern%start(j + 1) - 1
@@ -302,7 +248,7 @@ contains
          end do
          x(j) = total
       end do
-      block(1, :) = x
+      given(pattern%order) = x*factor%unit
    end subroutine solve_one
 
    !> The same with this many rounds of refinement by the residual of the matrix.
@@ -343,50 +289,4 @@ contains
       end do
       call orthonormalise(vectors, error)
    end subroutine null_vectors
-
-   !> y = A x for a symmetric matrix given by its lower triangle or whole: entries above the
-   !> diagonal are not read.
-   pure subroutine symmetric_times(matrix, x, y)
-      type(sparse_t), intent(in) :: matrix
-      real(wp), intent(in), contiguous :: x(:, :)
-      real(wp), intent(out), contiguous :: y(:, :)
-      real(wp) :: from(lanes, matrix%columns), to(lanes, matrix%columns)
-      integer :: first, last, i
-
-      do first = 1, size(x, 2), lanes
-         last = min(first + lanes - 1, size(x, 2))
-         from(last - first + 2:, :) = 0.0_wp
-         do i = first, last
-            from(i - first + 1, :) = x(:, i)
-         end do
-         call multiply_lanes(matrix, from, to)
-         do i = first, last
-            y(:, i) = to(i - first + 1, :)
-         end do
-      end do
-   end subroutine symmetric_times
-
-   pure subroutine multiply_lanes(matrix, x, y)
-      type(sparse_t), intent(in) :: matrix
-      real(wp), intent(in) :: x(lanes, matrix%columns)
-      real(wp), intent(out) :: y(lanes, matrix%columns)
-      real(wp) :: total(lanes), here(lanes)
-      integer :: i, j, entry
-
-      y = 0.0_wp
-      do j = 1, matrix%columns
-         here = x(:, j)
-         total = y(:, j)
-         do entry = matrix%start(j), matrix%start(j + 1) - 1
-            i = matrix%place(entry)
-            if (i > j) then
-               total = total + matrix%value(entry)*x(:, i)
-               y(:, i) = y(:, i) + matrix%value(entry)*here
-            else if (i == j) then
-               total = total + matrix%value(entry)*here
-            end if
-         end do
-         y(:, j) = total
-      end do
-   end subroutine multiply_lanes
 end module flexact_symmetric_factor

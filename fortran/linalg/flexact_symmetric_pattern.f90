@@ -3,12 +3,13 @@
 !> an order of elimination, the elimination tree and the pattern of L. It is found once for
 !> all matrices of the same pattern.
 module flexact_symmetric_pattern
+   use flexact_elimination_tree, only: elimination_tree, find_first
    use flexact_minimum_degree, only: minimum_degree_order
-   use flexact_sparse, only: sparse_t, compress, transposed
+   use flexact_sparse, only: sparse_t
    use flexact_kinds, only: wp
    implicit none
    private
-   public :: symmetric_pattern_t, analyse_pattern, both_triangles
+   public :: symmetric_pattern_t, analyse_pattern
 
    type :: symmetric_pattern_t
       integer :: n = 0
@@ -32,46 +33,48 @@ contains
    pure subroutine analyse_pattern(matrix, pattern)
       type(sparse_t), intent(in) :: matrix
       type(symmetric_pattern_t), intent(out) :: pattern
-      integer :: parent(matrix%columns), relabelled(matrix%columns)
+      integer :: parent(matrix%columns)
 
       pattern%n = matrix%columns
       allocate (pattern%order(pattern%n), pattern%place_of(pattern%n))
       call minimum_degree_order(both_triangles(matrix), pattern%order)
       call take_order(matrix, pattern)
-      call elimination_tree(pattern, parent)
-      call postorder(parent, relabelled)
-      pattern%order = pattern%order(relabelled)
-      call take_order(matrix, pattern)
-      call elimination_tree(pattern, parent)
+      call elimination_tree(pattern%row_start, pattern%row_column, parent)
       call find_columns(parent, pattern)
       call find_first(parent, pattern%first)
    end subroutine analyse_pattern
 
-   !> The pattern of both triangles with the whole diagonal; values are 1.
+   !> The pattern of both triangles with the whole diagonal; rows ascend within a column if
+   !> they do in the matrix.
    pure function both_triangles(matrix) result(full)
       type(sparse_t), intent(in) :: matrix
       type(sparse_t) :: full
-      integer, allocatable :: row(:), column(:)
-      integer :: j, entry, found
-      type(sparse_t) :: unsorted, turned
+      integer :: next(matrix%columns), i, j, entry
 
-      allocate (row(2*size(matrix%place) + matrix%columns), column(2*size(matrix%place) + matrix%columns))
-      found = 0
+      next = 1
       do j = 1, matrix%columns
-         found = found + 1
-         row(found) = j
-         column(found) = j
          do entry = matrix%start(j), matrix%start(j + 1) - 1
-            if (matrix%place(entry) <= j) cycle
-            row(found + 1:found + 2) = [matrix%place(entry), j]
-            column(found + 1:found + 2) = [j, matrix%place(entry)]
-            found = found + 2
+            i = matrix%place(entry)
+            if (i > j) next([i, j]) = next([i, j]) + 1
          end do
       end do
-      call compress(matrix%columns, matrix%columns, row(:found), column(:found), spread(1.0_wp, 1, found), unsorted)
-      ! To transpose sorts; twice gives the same matrix.
-      call transposed(unsorted, turned)
-      call transposed(turned, full)
+      full%rows = matrix%columns
+      full%columns = matrix%columns
+      full%start = starts_of(next)
+      next = full%start(:matrix%columns)
+      allocate (full%place(full%start(matrix%columns + 1) - 1))
+      do j = 1, matrix%columns
+         full%place(next(j)) = j
+         next(j) = next(j) + 1
+         do entry = matrix%start(j), matrix%start(j + 1) - 1
+            i = matrix%place(entry)
+            if (i <= j) cycle
+            full%place(next(j)) = i
+            full%place(next(i)) = j
+            next([i, j]) = next([i, j]) + 1
+         end do
+      end do
+      allocate (full%value(size(full%place)), source=1.0_wp)
    end function both_triangles
 
    !> The rows of the lower triangle in the order of elimination.
@@ -95,8 +98,7 @@ contains
          next(k + 1) = next(k) + next(k + 1)
       end do
       pattern%row_start = next
-      if (.not. allocated(pattern%row_column)) &
-         allocate (pattern%row_column(next(pattern%n + 1) - 1), pattern%row_entry(next(pattern%n + 1) - 1))
+      allocate (pattern%row_column(next(pattern%n + 1) - 1), pattern%row_entry(next(pattern%n + 1) - 1))
       do j = 1, matrix%columns
          do entry = matrix%start(j), matrix%start(j + 1) - 1
             i = matrix%place(entry)
@@ -108,68 +110,6 @@ contains
          end do
       end do
    end subroutine take_order
-
-   !> The first row below the diagonal of each column of L, 0 where there is none
-   !> (Liu, SIAM J. Matrix Anal. Appl. 11, 1990, pp. 134-172).
-   pure subroutine elimination_tree(pattern, parent)
-      type(symmetric_pattern_t), intent(in) :: pattern
-      integer, intent(out) :: parent(:)
-      integer :: ancestor(pattern%n), k, entry, i, next
-
-      parent = 0
-      ancestor = 0
-      do k = 1, pattern%n
-         do entry = pattern%row_start(k), pattern%row_start(k + 1) - 1
-            i = pattern%row_column(entry)
-            do while (i < k)
-               next = ancestor(i)
-               ancestor(i) = k
-               if (next == 0) parent(i) = k
-               if (next == 0) exit
-               i = next
-            end do
-         end do
-      end do
-   end subroutine elimination_tree
-
-   !> An order in which all descendants stand right before each node of a tree.
-   pure subroutine postorder(parent, order)
-      integer, intent(in) :: parent(:)
-      integer, intent(out) :: order(:)
-      integer :: child(0:size(parent)), sibling(size(parent)), node, found, next
-
-      child = 0
-      do node = size(parent), 1, -1
-         sibling(node) = child(parent(node))
-         child(parent(node)) = node
-      end do
-      found = 0
-      node = child(0)
-      do while (node /= 0)
-         if (child(node) /= 0) then
-            next = child(node)
-            child(node) = 0
-         else
-            found = found + 1
-            order(found) = node
-            next = sibling(node)
-            if (next == 0) next = parent(node)
-         end if
-         node = next
-      end do
-   end subroutine postorder
-
-   !> The first descendant of each node of a tree in postorder.
-   pure subroutine find_first(parent, first)
-      integer, intent(in) :: parent(:)
-      integer, allocatable, intent(out) :: first(:)
-      integer :: k
-
-      first = [(k, k=1, size(parent))]
-      do k = 1, size(parent)
-         if (parent(k) /= 0) first(parent(k)) = min(first(parent(k)), first(k))
-      end do
-   end subroutine find_first
 
    !> The pattern of L by columns: row k reaches from the entries of the matrix up the
    !> tree to k.

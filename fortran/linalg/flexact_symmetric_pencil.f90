@@ -15,7 +15,8 @@ module flexact_symmetric_pencil
    use flexact_orthonormal, only: fill_at_random
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors, symmetric_times
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, null_vectors
+   use flexact_symmetric_lanes, only: symmetric_times
    use flexact_symmetric_pattern, only: symmetric_pattern_t
    implicit none
    private
@@ -55,12 +56,22 @@ module flexact_symmetric_pencil
 
 contains
 
-   subroutine apply(self, x, y)
+   subroutine apply(self, x, weighed, y)
       class(pencil_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :)
+      real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
+      real(wp), allocatable :: clean(:, :)
 
-      call symmetric_times(self%b, x, y)
+      if (size(self%touched, 2) > 0) then
+         ! Else what rounding leaves along null vectors would come back as something else.
+         clean = x
+         call take_out(self%touched, self%without, clean)
+         call symmetric_times(self%b, clean, y)
+      else if (associated(self%b, self%w)) then
+         y = weighed
+      else
+         call symmetric_times(self%b, x, y)
+      end if
       call take_out(self%null, self%null, y)
       call solve(self%pattern, self%factor, y)
       call take_out(self%null, self%null, y)
@@ -115,15 +126,16 @@ contains
    end subroutine lowest_pairs
 
    !> Up to `wanted` values of K x = -value G x nearest to zero, with x'K x = 1: fewer where the
-   !> rank of G is lower. Null vectors of K are left out. The rest as above.
-   subroutine pairs_next_to_zero(pattern, k, factor, g, wanted, pairs, error, least)
+   !> rank of G is lower. Null vectors of K are left out. accuracy: of the vectors, as for
+   !> `largest_pairs`; values have the square of it. The rest as above.
+   subroutine pairs_next_to_zero(pattern, k, factor, g, wanted, pairs, error, least, accuracy)
       type(symmetric_pattern_t), intent(in), target :: pattern
       type(sparse_t), intent(in), target :: k, g
       type(symmetric_factor_t), intent(in) :: factor
       integer, intent(in) :: wanted
       type(pairs_t), intent(out) :: pairs
       type(error_t), allocatable, intent(out) :: error
-      real(wp), intent(in), optional :: least(:)
+      real(wp), intent(in), optional :: least(:), accuracy
       type(pencil_t) :: pencil
       integer :: width, missing(2), above
 
@@ -131,7 +143,7 @@ contains
       pairs%null = pencil%touched
       width = narrowest
       do while (width <= widest .and. .not. (allocated(error) .or. pairs%is_complete))
-         call largest_pairs(pencil, pattern%n, wanted, pairs%values, pairs%vectors, error, width)
+         call largest_pairs(pencil, pattern%n, wanted, pairs%values, pairs%vectors, error, width, accuracy)
          if (allocated(error)) return
          call purify(pencil, pairs)
          pairs%values = -1/pairs%values
@@ -208,15 +220,17 @@ contains
    !> About the least magnitude of a value that is not zero, 1 where there is none.
    real(wp) function lowest_magnitude(pencil) result(lowest)
       type(pencil_t), intent(in) :: pencil
-      real(wp) :: x(pencil%pattern%n, 2), y(pencil%pattern%n, 2), square
+      real(wp), dimension(pencil%pattern%n, 2) :: x, y, weighed
+      real(wp) :: square
       integer :: round
 
       lowest = 1.0_wp
       call fill_at_random(1, x)
       do round = 1, 4
-         call pencil%apply(x, y)
-         call pencil%weigh(y, x)
-         square = sum(x*y)
+         call pencil%weigh(x, weighed)
+         call pencil%apply(x, weighed, y)
+         call pencil%weigh(y, weighed)
+         square = sum(weighed*y)
          if (.not. square > 0) return
          x = y/sqrt(square)
       end do
@@ -238,10 +252,11 @@ contains
    subroutine purify(pencil, pairs)
       type(pencil_t), intent(in) :: pencil
       type(pairs_t), intent(inout) :: pairs
-      real(wp) :: images(size(pairs%vectors, 1), size(pairs%vectors, 2))
+      real(wp), dimension(size(pairs%vectors, 1), size(pairs%vectors, 2)) :: images, weighed
       integer :: i
 
-      call pencil%apply(pairs%vectors, images)
+      call pencil%weigh(pairs%vectors, weighed)
+      call pencil%apply(pairs%vectors, weighed, images)
       do i = 1, size(pairs%values)
          pairs%vectors(:, i) = images(:, i)/pairs%values(i)
       end do

@@ -3,7 +3,7 @@
 !> exactly constrained does not depend on them.
 module flexact_properties
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use flexact_element_table, only: element_kinds, deformations_of, member_bar, member_beam, member_hinge
+   use flexact_element_table, only: element_kinds, deformations_of, member_bar, member_beam, member_link, member_hinge
    use flexact_kinds, only: wp
    use flexact_slots, only: is_position, node_angle, node_planar_position
    implicit none
@@ -56,14 +56,19 @@ contains
       end select
    end function stiffness_meant
 
-   !> How many numbers of EM do: the mass of what has a length, and moments of inertia of
-   !> beams, one in the plane.
+   !> How many numbers of EM do: mass of a bar, of beams and links moments of inertia
+   !> besides, one in the plane; none of a joint.
    pure integer function mass_meant(kind) result(numbers)
       integer, intent(in) :: kind
 
-      numbers = merge(1, 0, element_kinds(kind)%needs_length)
-      if (element_kinds(kind)%member /= member_beam) return
-      numbers = merge(2, mass_numbers, element_kinds(kind)%slot_kind(1) == node_planar_position)
+      select case (element_kinds(kind)%member)
+      case (member_bar)
+         numbers = 1
+      case (member_beam, member_link)
+         numbers = merge(2, mass_numbers, element_kinds(kind)%slot_kind(1) == node_planar_position)
+      case default
+         numbers = 0
+      end select
    end function mass_meant
 
    !> How many numbers of XM do at a node of this kind.

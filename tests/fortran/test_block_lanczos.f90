@@ -17,11 +17,11 @@ module flexact_test_operator
 
 contains
 
-   subroutine apply(self, x, y)
+   subroutine apply(self, x, weighed, y)
       class(dense_operator_t), intent(in) :: self
-      real(wp), intent(in), contiguous :: x(:, :)
+      real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
       real(wp), intent(out), contiguous :: y(:, :)
-      y = matmul(self%matrix, x)
+      y = matmul(self%matrix, x(:, :size(weighed, 2)))
    end subroutine apply
 
    subroutine weigh(self, x, y)

@@ -5,7 +5,8 @@ program test_symmetric_factor
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_sparse, only: sparse_t
-   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, solve_refined, null_vectors, symmetric_times
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve, solve_refined, null_vectors
+   use flexact_symmetric_lanes, only: symmetric_times
    use flexact_symmetric_pattern, only: symmetric_pattern_t, analyse_pattern
    use flexact_test_matrices, only: identity, sparse_of, dense_of, path, grid, random_orthogonal
    use flexact_testing, only: tally_t, set_random

@@ -3,6 +3,7 @@
 !> and checks, assembles and analyses what they hold. The argument names a file with the path of
 !> a deck a line; each path is printed before its deck is taken.
 program fuzz_core
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_signed_char
    use flexact_result, only: most_pairs
    use flexact_variant_exchange, only: variant_fact_names
@@ -11,7 +12,7 @@ program fuzz_core
    integer, parameter :: most_deformations = 300
    integer, parameter :: methods = 4
    external :: read_deck, check_model, count_model, find_frames, assemble, analyse_model, find_sensitivities, find_echelon, &
-      analyse_variants
+      analyse_variants, find_stiffness, follow_path, study_state
 
    call main()
 
@@ -49,7 +50,7 @@ contains
    !> As flexact.core.calls.read_deck sets the room aside.
    subroutine take_deck(text)
       integer(c_signed_char), intent(in) :: text(:)
-      integer(c_int) :: sizes(7), diag_count(4), diag_number(8, 100)
+      integer(c_int) :: sizes(8), diag_count(4), diag_number(8, 100)
       integer(c_signed_char), allocatable :: diag_text(:, :, :)
       integer(c_int), allocatable :: nodes(:, :), elements(:, :), name(:, :), choice(:, :)
       real(c_double), allocatable :: places(:, :), vectors(:, :), value(:, :)
@@ -59,7 +60,7 @@ contains
       ne = min(count(text == 10) + 1, n/10 + 1)
       nn = min(4*ne, n/2 + 4)
       allocate (nodes(5, nn), elements(12, ne), places(4, nn), vectors(3, ne))
-      allocate (name(2, ne + nn), choice(2, ne), value(11, 2*ne + nn), diag_text(240, 4, 100))
+      allocate (name(2, ne + nn), choice(2, ne), value(12, 2*ne + nn + 1), diag_text(240, 4, 100))
       call read_deck(n, text, nn, ne, nodes, places, elements, vectors, name, choice, value, sizes, &
                      diag_count, diag_number, diag_text)
       if (diag_count(1) > 0) return
@@ -91,6 +92,7 @@ contains
          call take_analysis(nodes, places, elements, vectors, sizes, method)
       end do
       call take_variants(nodes, places, elements, vectors)
+      call take_elastic(nodes, places, elements, vectors)
       call take_echelon(nodes, places, elements, vectors, sizes(2), 0)
       call take_echelon(nodes, places, elements, vectors, sizes(1), 1)
    end subroutine take_model
@@ -158,4 +160,43 @@ contains
       call find_echelon(n, n*n/4 + 1, size(nodes, 2), size(elements, 2), nodes, places, elements, vectors, &
                         [0, 0, transposed], pivot, place, facts)
    end subroutine take_echelon
+
+   !> Every element with some stiffness and mass, under its weight, and what may be asked of it there.
+   subroutine take_elastic(nodes, places, elements, vectors)
+      integer(c_int), intent(in) :: nodes(:, :), elements(:, :)
+      real(c_double), intent(in) :: places(:, :), vectors(:, :)
+      integer, parameter :: asked = 5
+      real(c_double), allocatable :: of_nodes(:, :), of_elements(:, :), stiffness(:, :, :), c_t(:), given(:, :), answer(:, :)
+      real(c_double) :: gravity(3, 2), facts(6), found(5), configuration(4, size(nodes, 2)), reaction(3, size(nodes, 2))
+      real(c_double) :: stress(6, size(elements, 2))
+      integer :: nn, ne, n, task
+
+      nn = size(nodes, 2)
+      ne = size(elements, 2)
+      n = 6*(nn + ne) + 1
+      allocate (of_nodes(27, nn), of_elements(35, ne), source=0.0_c_double)
+      allocate (stiffness(6, 6, ne), c_t(ne), given(n, 2), answer(n, 3*asked))
+      of_nodes(:6, :) = ieee_value(1.0_c_double, ieee_quiet_nan)
+      of_nodes([7, 14, 21], :) = spread(places(1, :), 1, 3)
+      of_nodes([8, 15, 22], :) = spread(places(2, :), 1, 3)
+      of_nodes([9, 16, 23], :) = spread(places(3, :), 1, 3)
+      of_nodes([10, 17, 24], :) = spread(places(4, :), 1, 3)
+      of_elements(:17, :) = ieee_value(1.0_c_double, ieee_quiet_nan)
+      of_elements(:4, :) = spread([real(c_double) :: 1.0e6, 1, 2, 3], 2, ne)
+      of_elements(7, :) = 0.1_c_double
+      gravity(:, 1) = 0
+      gravity(:, 2) = [real(c_double) :: 0, 0, -9.81]
+      call find_stiffness(nn, ne, nodes, places, elements, vectors, of_elements(:17, :), stiffness, c_t)
+      call follow_path(nn, ne, nodes, places, elements, vectors, of_nodes, of_elements, gravity, configuration, &
+                       reaction, stress, facts)
+      of_nodes(7:10, :) = configuration
+      of_nodes(11:13, :) = reaction
+      of_elements(18:23, :) = stress
+      given = 1
+      do task = 1, 4
+         if (task == 4) given(1, :) = [0, -1]
+         call study_state(n, 2, 3*asked, nn, ne, nodes, places, elements, vectors, of_nodes(:13, :), of_elements(:23, :), &
+                          [real(c_double) :: task, asked, gravity(:, 2)], given, answer, found)
+      end do
+   end subroutine take_elastic
 end program fuzz_core

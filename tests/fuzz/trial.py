@@ -24,6 +24,7 @@ from flexact.diagnostics.rendering import render_problems
 MOST_DEFORMATIONS = 1500
 APPEARANCE = ("cross_section", "dimensions", "colour", "edge_colour", "opacity", "drawn")
 PROPERTIES = ("stiffness", "mass", "node_mass")
+LOADS = ("force", "increment", "gravity")
 
 
 class Outcome(Enum):
@@ -116,8 +117,8 @@ def _check_same(model: flexact.Model, again: flexact.Model) -> None:
             raise OffenceError(f"{name} differ: {differing[:3]!r}")
     for name in APPEARANCE:
         _check_array(name, getattr(ours.appearance, name), getattr(theirs.appearance, name))
-    for name in PROPERTIES:
-        one, other = (getattr(each.properties, name, None) for each in (ours, theirs))
+    for part, name in (*(("properties", n) for n in PROPERTIES), *(("loads", n) for n in LOADS)):
+        one, other = (getattr(getattr(each, part), name, None) for each in (ours, theirs))
         _require((one is None) == (other is None), f"{name} is given once, and once it is not")
         if one is not None:
             _check_array(name, one, other)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from mpmath import mp
+from reference_decks import ROOT
 
 Elastic = Callable[..., Any]
 
@@ -23,7 +24,7 @@ class Answer:
     id: str
     deck: str
     ask: Callable[[Callable[..., Any]], Any]
-    value: Any
+    value: Any  # None: the oracle alone knows it
     source: str
     rel: float = 1e-8
     abs: float = 0.0
@@ -86,13 +87,24 @@ SHEET = f"{EA} {GJ} {EI} {EI_IN} 0 0"
 SHEET_MASS = "0.195 4.06290625e-05 4.0625e-09 4.0625e-05 0"
 
 
-def guide(beams: int, *, more: str = "", drive: str = "DYNX 9 1", sheets: float = 0.05) -> str:
+def guide(
+    beams: int,
+    *,
+    more: str = "",
+    drive: str = "DYNX 9 1",
+    stiffness: str = SHEET,
+    mass: str = SHEET_MASS,
+) -> str:
     """Two parallel sheets along z with their width along y, and a stage at mid height."""
-    left = row((0, 0, 0), (0, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0", stiffness=SHEET,
-               mass=SHEET_MASS, rlse="2 3 4", ends=(1, 5))  # fmt: skip
-    right = row((sheets, 0, 0), (sheets, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0",
-                stiffness=SHEET, mass=SHEET_MASS, rlse="2 3 4", ends=(3, 7), start=40)  # fmt: skip
-    body = f"X 9 {sheets / 2} 0 {LENGTH / 2}\nBEAM 90 9 10 5 6 0 1 0\nBEAM 91 9 10 7 8 0 1 0"
+    left = row(
+        (0, 0, 0), (0, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0", stiffness=stiffness,
+        mass=mass, rlse="2 3 4", ends=(1, 5),
+    )  # fmt: skip
+    right = row(
+        (0.05, 0, 0), (0.05, 0, LENGTH), beams, keyword="BEAM", vector="0 1 0",
+        stiffness=stiffness, mass=mass, rlse="2 3 4", ends=(3, 7), start=40,
+    )  # fmt: skip
+    body = f"X 9 0.025 0 {LENGTH / 2}\nBEAM 90 9 10 5 6 0 1 0\nBEAM 91 9 10 7 8 0 1 0"
     fixed = f"FIX 1\nFIX 2\nFIX 3\nFIX 4\n{drive}"
     return deck(left, right, body, fixed, more=more)
 
@@ -259,7 +271,7 @@ known(
         / np.linalg.norm(_BARS[0]) ** 2
     ),
     "textbook: springs EA/L and k in series, k1 k/(k1 + k) = k1 - k1^2/(k1 + k)",
-)(lambda model: model(release=[((1, 1), 1e4)]).undeformed().compliance(1))
+)(lambda model: model(release={(1, 1): 1e4}).undeformed().compliance(1))
 
 _HINGE = "HINGE 1 2 4 0 0 1\nPINBODY 2 3 4 5\nX 3 0 0 0\nX 5 0.03 0.04 0\nFIX 2\nFIX 3\nRLSE 1"
 known(
@@ -279,7 +291,7 @@ known(
     deck(_HINGE + " 1", more="ESTIFF 1 12.5"),
     0.04**2 * (1 / 12.5 + 1 / 50),
     "textbook: two springs in series",
-)(lambda model: model(held="rigid", release=[((1, 1), 50.0)]).undeformed().compliance(5)[0, 0])
+)(lambda model: model(held="rigid", release={(1, 1): 50.0}).undeformed().compliance(5)[0, 0])
 
 _NOTCHED = deck(
     row((0, 0, 0), (0.2, 0, 0), 1, keyword="BEAM", vector="0 1 0", stiffness="1e6 4 20 30",
@@ -298,14 +310,14 @@ known(
     _NOTCHED,
     [0.2 / 1e6, 0.2**3 / 3 / 30, 0.2**3 / 3 / 20, 0.2 / 4, 0.2 / 20 + 1 / 50, 0.2 / 30 + 1 / 90],
     "textbook: a spring at the tip is felt by moments at the tip alone",
-)(diagonal(3, release=[((1, 4), 50.0), ((1, 6), 90.0)]))
+)(diagonal(3, release={(1, 4): 50.0, (1, 6): 90.0}))
 known("kept-of-four-bars", _BAR_DECK,
       np.sort(np.linalg.eigvals(np.linalg.solve(_BAR_K, _BAR_K - 1e4 / np.linalg.norm(_BARS[2])
               ** 3 * np.outer(_BARS[2], _BARS[2]))).real),
       "eigenvalues of K^-1 (K - EA/L n n')")(
     lambda model: model().kept(1, [(3, 1)]))  # fmt: skip
-known("kept-of-a-guide", guide(1), np.nan,
-      "compared with the oracle alone")(
+known("kept-of-a-guide", guide(1), None,
+      "the oracle of tests/reference/elastic")(
     lambda model: model().kept(9, [(1, 5)]))  # fmt: skip
 
 # -- B: frequencies ------------------------------------------------------------------------------
@@ -496,7 +508,7 @@ for _alpha, _error in ((0.5, 1e-4), (2, 6e-4), (5, 1.5e-3), (10, 2.5e-3)):
 
 
 def _tip(state: Any) -> list[float]:
-    return [*state.position(3), state.position(4)[-1]]
+    return [*state.position(3), *np.ravel(state.position(4))]
 
 
 known(
@@ -704,6 +716,111 @@ def _outward(pair: Any) -> list[float]:
     negative, positive = pair
     assert negative < 0 < positive
     return [-negative, positive]
+
+
+_NOTCH = 3000.0
+_TURN = 2 * LENGTH / EI_IN
+known(
+    "guide-critical-turn-with-a-notch",
+    guide(16),
+    2 * np.pi * np.sqrt(EI * GJ) / LENGTH * (_TURN + 1 / _NOTCH),
+    "closed form: M_cr (2L/EI_in + 1/k), turned about the point where the moment stays constant",
+    1e-2,
+)(
+    lambda model: model(release={(1, 5): _NOTCH}).critical_misalignment(
+        1, "rx", about=(0.0, 0.0, LENGTH / 2 * _TURN / (_TURN + 1 / _NOTCH))
+    )[1]
+)
+for _part, _error in ((0.25, 2e-3), (0.7, 2e-2)):
+    _z = np.pi * _part
+    known(
+        f"guide-stiffness-at-{_part:g}-of-its-critical-turn",
+        guide(16),
+        1 / (3 * (1 / _z**2 - 1 / np.tan(_z) / _z)),
+        "closed form: 1/(3 (1/z^2 - cot z/z)), z = pi phi/phi_cr",
+        _error,
+    )(lambda model, part=_part: _guide_ratio(model, part * 4 * np.pi * np.sqrt(EI * GJ) / EI_IN))
+
+
+def _guide_ratio(model: Elastic, turn: float) -> float:
+    elastic = model()
+    before = elastic.undeformed().compliance(9)[0, 0]
+    return float(before / elastic.misaligned(1, "rx", turn, about=_MID).compliance(9)[0, 0])
+
+
+def _thin(width: float, thickness: float) -> tuple[float, float, float, float, float, float]:
+    """EA, GJ, EI out of and in the plane, and both shears of a steel sheet (nu = 0.3)."""
+    e, g = 210e9, 210e9 / 2.6
+    n = np.arange(1, 99, 2)
+    series = np.sum(np.tanh(n * np.pi * width / 2 / thickness) / n**5)
+    torsion = width * thickness**3 / 3 * (1 - 192 / np.pi**5 * thickness / width * series)
+    out, within = e * width * thickness**3 / 12, e * thickness * width**3 / 12
+    shear = 10 * 1.3 / (12 + 11 * 0.3) * g * width * thickness
+    return e * width * thickness, g * torsion, out, within, out / shear, within / shear
+
+
+_HS = _thin(0.03, 0.00035)
+known(
+    "cross-hinge-critical-offset",
+    cross_hinge(12, 0.5, _words(_HS), 0.08),
+    2
+    * 22.2471
+    * np.sqrt(_HS[2] * _HS[1])
+    / 0.08**2
+    * (0.08**3 / 12 / _HS[3] + 0.08 * _HS[5] / _HS[3]),
+    "closed form: V_cr = 22.2471 sqrt(EI GJ)/L^2 (Bessel functions of order 1/4), offset 2 V "
+    "(L^3/12 EI_in + L/kGA)",
+    2e-2,
+)(lambda model: model().critical_misalignment(3, "y")[1])
+
+# -- compared with the oracle alone --------------------------------------------------------------
+
+_SIX = (ROOT / "input_decks" / "paper" / "six_folded_sheets.dat").read_text(encoding="utf-8")
+_STAGE = [0.03, 0.031, 0.033, 0.031]
+_ALONE = "the oracle of tests/reference/elastic"
+known("six-sheets-along-a-stroke-free", _SIX, None, _ALONE)(
+    lambda model: [np.diag(s.compliance(1)) for s in model(drive="free").along(1, "z", _STAGE)]
+)
+known("six-sheets-along-a-stroke-locked", _SIX, None, _ALONE)(
+    lambda model: [np.diag(s.compliance(1)) for s in model(drive="locked").along(1, "z", _STAGE)]
+)
+known("six-sheets-force-and-energy", _SIX, None, _ALONE)(
+    lambda model: [[s.force, s.energy] for s in model().along(1, "z", _STAGE)]
+)
+for _clamp, _axis in ((11, "x"), (31, "y"), (61, "ry")):
+    known(f"six-sheets-critical-{_clamp}-{_axis}", _SIX, None, _ALONE)(
+        lambda model, n=_clamp, c=_axis: model(beams=2).critical_misalignment(n, c)
+    )
+known("six-sheets-shift-of-clamp-11", _SIX, None, _ALONE)(
+    lambda model: model(beams=2).misalignment_for(-0.05, 11, "x")
+)
+known("six-sheets-kept", _SIX, None, _ALONE)(
+    lambda model: [model().kept(1, [(1, 3)]), model().kept(1, {(21, 2): 40.0})]
+)
+known("six-sheets-released-frequencies", _SIX, None, _ALONE)(
+    lambda model: model(release={(1, 3): 2.0}, beams=2).undeformed().frequencies[:6]
+)
+known("six-sheets-misaligned-multipliers", _SIX, None, _ALONE)(
+    lambda model: _ends(model(beams=2, drive="locked").misaligned(11, "x", 1e-4).multipliers)
+)
+known("six-sheets-misfit", _SIX, None, _ALONE)(
+    lambda model: _felt(model().misfit(3, 2, 2e-6), (1, 3, 12))
+)
+known("six-sheets-turned-clamp", _SIX, None, _ALONE)(
+    lambda model: _felt(model().misaligned(52, "ry", 2e-4, about=(0.0, 0.0, 0.0)), (1, 9, 10))
+)
+
+
+def _ends(values: Any) -> list[float]:
+    """The nearest to zero of both signs."""
+    values = np.asarray(values)
+    return [values[values < 0][-1], values[values > 0][0]]
+
+
+def _felt(state: Any, elements: Sequence[int]) -> list[float]:
+    """Energy, first frequency, and stresses."""
+    stresses = [state.stress(e, k) for e in elements for k in range(1, 7)]
+    return [state.energy, state.frequencies[0], *stresses]
 
 
 # -- SPACAR's printed numbers --------------------------------------------------------------------

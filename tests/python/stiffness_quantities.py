@@ -94,7 +94,7 @@ class Case:
             what = found[2] if found else entry.split()[-1]
             nodes = [int(found[1])] * 2 if found else [*self.quantity["node"], None][:2]
             if what == "rotation":
-                values.append(state.position(nodes[1])[-1])
+                values.append(np.ravel(state.position(nodes[1]))[-1])
             elif what == "1-x":
                 values.append(1 - state.position(nodes[0])[0])
             else:

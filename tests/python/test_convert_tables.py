@@ -223,15 +223,47 @@ def test_stiffness_and_mass_follow_from_the_section() -> None:
 def test_what_a_model_does_not_hold_is_told_once_each() -> None:
     notes = [(item.code, item.message) for item in model_of(CROSS).diagnostics]
     assert notes == [
-        ("left-out", "loads: nprops.force (1)"),
-        ("left-out", "loads: nprops.moment_initial (1)"),
-        ("left-out", "loads: nprops.moment (1)"),
         ("left-out", "warping: eprops.warping (2)"),
         ("left-out", "what is for a simulation: opt.filename (1)"),
-        ("left-out", "what is for a simulation: opt.gravity (1)"),
     ]
     codes = [item.message for item in model_of(WALKTHROUGH).diagnostics]
     assert "values of prescribed motions (1)" in codes
+
+
+def test_loads_are_those_of_a_deck() -> None:
+    """SPACAR Light writes force_initial as XF, force as DELXF, and gravity as GRAVITY."""
+    model = model_of(CROSS)
+    loads = model.data.loads
+    assert loads is not None
+    position, orientation = model.node_index(7), model.node_index(8)
+    assert loads.force[orientation].tolist() == [0, 0, -0.025]
+    assert loads.increment[position].tolist() == [0, 1, 0]
+    assert loads.increment[orientation].tolist() == [0, 0, 0.05]
+    assert np.count_nonzero(loads.force) + np.count_nonzero(loads.increment) == 3
+    assert loads.gravity.tolist() == [0, 0, -9.81]
+    again = tables_of(model)
+    (entry,) = [entry for entry in again["nprops"] if "force" in entry]
+    assert again["nodes"][again["nprops"].index(entry)] == CROSS["nodes"][2]
+    for name in ("force", "moment_initial", "moment"):
+        assert entry[name] == CROSS["nprops"][2][name]
+    assert again["opt"]["gravity"] == CROSS["opt"]["gravity"]
+
+
+def test_loads_that_no_model_has_are_told() -> None:
+    flat: dict[str, Any] = {"nodes": [[0, 0], [1, 0]], "elements": [[1, 2]], "eprops": []}
+    flat["nprops"] = [{"fix": True}, {"force_initial": [1, 2, 3], "moment": [0, 0, 4]}]
+    model = model_of({**flat, "opt": {"gravity": [0, -9.81, 0]}})
+    loads = model.data.loads
+    assert loads is not None
+    assert loads.force[2].tolist() == [1, 2, 0]
+    assert loads.increment[3].tolist() == [0, 0, 4]
+    assert [item.message for item in model.diagnostics] == ["loads out of the plane (1)"]
+    wrong: dict[str, Any] = {**flat, "nodes": [[0, 0], [1, 0], [2, 0]]}
+    wrong["nprops"] = {"3": {"force": [1, 0, 0]}}
+    for tables, place in ((wrong, "nprops[3].force"), ({**flat, "opt": {"gravity": 9.81}}, "opt")):
+        with pytest.raises(TablesError) as caught:
+            model_of(tables)
+        assert place in str(caught.value)
 
 
 # Forms

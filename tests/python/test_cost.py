@@ -328,3 +328,34 @@ def test_analyse_tells_nothing_where_nothing_is_known_or_wrong() -> None:
     for name in ("five_folded_sheets", "six_folded_sheets_released"):
         told = flexact.analyse(ROOT / "input_decks" / "paper" / f"{name}.dat").describe()
         assert "It costs" not in told
+
+
+@pytest.mark.parametrize("deck", ["flexures/planar_cross_hinge", "frameworks/k33_two_lines"])
+def test_points_of_one_kind_of_coordinate_have_costs(deck: str) -> None:
+    """A driven angle without a position beside it, and a point that only moves along."""
+    made = cost(with_stiffness(deck), stroke=stroke_of_drive(deck), points=3, release=(), beams=1)
+    assert made.describe() and made.to_dict()["designs"]
+
+
+def with_stiffness(deck: str) -> Model:
+    """A deck whose bars and planar beams get a stiffness."""
+    text = (ROOT / "input_decks" / f"{deck}.dat").read_text(encoding="utf-8").split("END")[0]
+    numbers = [
+        words[1]
+        for line in text.splitlines()
+        if (words := line.split()) and words[0] in ("PLBEAM", "PLTRUSS", "TRUSS")
+    ]
+    stiffness = "\n".join(
+        f"ESTIFF {number} 2.5e6 0.02" if "PLBEAM" in text else f"ESTIFF {number} 2.5e6"
+        for number in numbers
+    )
+    return flexact.read_text(f"{text}END\nHALT\n{stiffness}\nEND\nEND\n")
+
+
+def stroke_of_drive(deck: str) -> tuple[int, str, float, float] | None:
+    if "cross" not in deck:
+        return None
+    arrays = with_stiffness(deck).data.arrays
+    axis, node = np.argwhere(arrays.coordinate_class == 3)[0].tolist()
+    assert arrays.node_kind[node] == 3 and axis == 2
+    return int(arrays.node_number[node]), "rz", -1e-3, 1e-3

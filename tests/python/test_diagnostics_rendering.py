@@ -244,7 +244,9 @@ def test_noise_gives_a_deck_error(seed: int) -> None:
 
 
 def test_warnings_stay_with_the_model() -> None:
-    model = flexact.read_text("TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nFIX 1\nEND\nXF 2 1\n", "a.dat")
+    model = flexact.read_text(
+        "TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nFIX 1\nEND\nTIMESTEP 2 1\n", "a.dat"
+    )
     codes = [(item.severity, item.code) for item in model.diagnostics]
     assert (Severity.WARNING, "repeated-value") in codes
     assert Severity.NOTE in {severity for severity, _ in codes}

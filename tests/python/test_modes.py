@@ -104,7 +104,7 @@ def test_motions_inside_of_sheets_are_counted_and_not_told_one_by_one() -> None:
 
 
 def test_notes_about_a_deck_are_told_once_or_left_out() -> None:
-    deck = "TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nFIX 1\nEND\nXF 2 1\nEND\n"
+    deck = "TRUSS 1 1 2\nX 2 1 0 0\nX 2 2 0 0\nFIX 1\nEND\nTIMESTEP 2 1\nEND\n"
     analysis = analyse(flexact.read_text(deck))
     assert [item.code for item in analysis.warnings] == ["repeated-value", "not-used"]
     text = describe(analysis)

@@ -191,3 +191,139 @@ def test_deleted_elements_take_theirs_along() -> None:
     assert rows(properties.stiffness) == [[4]]
     assert rows(properties.mass) == [[3]]
     assert rows(properties.node_mass) == [[5], [6]]
+
+
+ALL = """\
+TRUSS 1 1 2
+BEAM 2 2 3 4 5
+RBEAM 3 4 5 6
+PINBODY 4 4 5 7
+HINGE 5 5 8 0 0 1
+BEARING 6 6 9 7 10 0 0 1
+RBEAM 7 6 9 11
+RBEAM 8 7 10 12
+X 2 1 0 0
+X 4 2 0 0
+X 6 3 0 0
+X 7 2 1 0
+X 11 4 0 0
+X 12 3 1 0
+FIX 1
+END
+HALT
+"""
+PLANAR = "PLTRUSS 1 1 2\nPLBEAM 2 2 3 4 5\nPLRBEAM 3 4 5 6\nPLTOR 4 5 7\nPLRBEAM 5 4 7 8\n"
+PLANAR += "X 2 1 0\nX 4 2 0\nX 6 3 0\nX 8 2 1\nFIX 1\nEND\nHALT\n"
+
+
+@pytest.mark.parametrize(
+    ("deck", "keyword", "counts"),
+    [
+        # ESTIFF: deformations with a stiffness of their own, and the shear of beams.
+        (ALL, "ESTIFF", {1: 1, 2: 6, 3: 0, 4: 0, 5: 3, 6: 6}),
+        (PLANAR, "ESTIFF", {1: 1, 2: 3, 3: 0, 4: 1}),
+        # EM: a mass of what has a line, with inertias of beams and links.
+        (ALL, "EM", {1: 1, 2: 5, 3: 5, 4: 5, 5: 0, 6: 0}),
+        (PLANAR, "EM", {1: 1, 2: 2, 3: 2, 4: 0}),
+        (ALL, "XM", {4: 1, 5: 6}),
+        (PLANAR, "XM", {4: 1, 5: 1}),
+    ],
+)
+def test_each_element_takes_the_numbers_that_mean_something(
+    deck: str, keyword: str, counts: dict[int, int]
+) -> None:
+    table = {"ESTIFF": "stiffness", "EM": "mass", "XM": "node_mass"}[keyword]
+    for number, count in counts.items():
+        for given_count in range(1, 9):
+            words = [f"{k}." for k in range(1, given_count + 1)]
+            model = flexact.read_text(f"{deck}{keyword} {number} {' '.join(words)}\nEND\n")
+            warned = [d for d in model.diagnostics if d.code in ("surplus-operand", "no-meaning")]
+            passed_over = (
+                deck == ALL and number == 2 and keyword != "XM" and given_count == count + 1
+            )
+            assert len(warned) == (given_count > count and not passed_over)
+            if count == 0:
+                assert [d.code for d in warned] == ["no-meaning"]
+                assert model.data.properties is None
+                continue
+            find = model.node_index if keyword == "XM" else model.element_index
+            row = rows(getattr(given_of(model), table))[find(number)]
+            assert row == [float(k) for k in range(1, min(given_count, count) + 1)]
+
+
+def test_zeros_are_never_surplus() -> None:
+    """Programs write as many numbers for every element, and zero is no stiffness."""
+    deck = f"{ALL}ESTIFF 1 5 0 0 0\nESTIFF 4 0 0 0\nEM 5 0.\nEM 2 1 0 0 0 0 0 0\nXM 4 1 0 0\nEND\n"
+    model = flexact.read_text(deck)
+    assert model.diagnostics == ()
+    assert rows(given_of(model).stiffness)[:4] == [[5], [], [], []]
+
+
+@pytest.mark.parametrize(
+    ("statement", "column"),
+    [
+        ("ESTIFF 2 1 -2 3", 12),
+        ("ESTIFF 5 -1", 10),
+        ("EM 2 -1e-3", 6),
+        ("EM 2 1 1 1 1 -1", None),
+        ("XM 5 1 -1 -1 1 -1 1", None),
+        ("XM 5 1 0 0 -1", 12),
+        ("XM 4 -1", 6),
+        ("ESTIFF 2 0 0 0 0", None),
+    ],
+)
+def test_less_than_zero_is_warned_of_where_it_stands(statement: str, column: int | None) -> None:
+    model = flexact.read_text(f"{ALL}{statement}\nEND\n")
+    found = [(d.code, d.line, d.column) for d in model.diagnostics]
+    assert found == ([] if column is None else [("negative-number", 18, column)])
+
+
+#: As public programs and people write them: SPACAR Light, oopspa (github.com/Wout-S/oopspa), and
+#: decks of github.com/roepnaamstraat/FlexibleInstrumentSimulation and
+#: github.com/shantnavagarwal/Flexible-Endoscopic-Robots; the statements are stated anew.
+AS_WRITTEN = {
+    "of a beam with shear and a number of warping": (
+        " ESTIFF \t   2 \t 2100000.000000000000000 \t   0.009309804722106 \t   0.007000000000000 "
+        "\t 437.500000000000114 \t   0.000000011666667 \t   0.000729166666667 \t   "
+        "0.000001458333333 \t",
+        "stiffness",
+        [2.1e6, 0.009309804722106, 0.007, 437.500000000000114, 1.1666667e-8, 7.29166666667e-4],
+    ),
+    "of a beam with the inertia of warping": (
+        "EM\t\t\t  2\t\t   0.078000000000000\t   0.000016250260000\t   0.000000000260000\t   "
+        "0.000016250000000\t   0.000000000000000\t   0.000000000000054",
+        "mass",
+        [0.078, 1.625026e-5, 2.6e-10, 1.625e-5, 0.0],
+    ),
+    "of a beam that cannot be stretched": (
+        "ESTIFF 2   0 0.0093 0.012 0.012 ",
+        "stiffness",
+        [0.0, 0.0093, 0.012, 0.012],
+    ),
+    "of a hinge, about its axis alone": ("ESTIFF 5   2.80", "stiffness", [2.8]),
+    "of a rigid link": ("EM 3   0.5", "mass", [0.5]),
+    "in small letters with exponents of Fortran": (
+        "estiff 2 2.1D6 9.3d-3 +7E-3 .4375e3 % steel",
+        "stiffness",
+        [2.1e6, 9.3e-3, 7e-3, 437.5],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", list(AS_WRITTEN))
+def test_decks_as_they_are_written(name: str) -> None:
+    statement, table, wanted = AS_WRITTEN[name]
+    number = int(statement.split()[1])
+    # The last line of such decks often has no end.
+    for ending in ("\nEND\nEND\n", "\r\nEND\r\nEND", "\n\nEND\nEND\n\n"):
+        model = flexact.read_text(f"{ALL}{statement}{ending}")
+        assert model.diagnostics == ()
+        assert rows(getattr(given_of(model), table))[model.element_index(number)] == wanted
+
+
+def test_small_inertias_against_singular_matrices() -> None:
+    """Decks have them at each orientation, so that SPACAR can solve."""
+    model = flexact.read_text(f"{ALL}XM 5     0.0000001 0.0 0.0 0.0000001 0.0 0.0000001\nEND\n")
+    assert model.diagnostics == ()
+    given_row = rows(given_of(model).node_mass)[model.node_index(5)]
+    assert given_row == [1e-7, 0.0, 0.0, 1e-7, 0.0, 1e-7]

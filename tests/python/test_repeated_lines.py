@@ -79,7 +79,14 @@ def test_dynamics_of_either_dialect_are_read() -> None:
     plain = flexact.read_text(text)
     model = flexact.read_text(f"{text}HALT\n{DYNAMICS}END\nEND\n")
     assert_same(plain, model)
-    assert [d.code for d in model.diagnostics] == ["not-used"]
+    found = [(d.code, d.line) for d in model.diagnostics]
+    assert found == [("repeated-value", 15), ("repeated-value", 16), ("not-used", 17)]
+    assert model.data.loads is not None
+    assert model.data.loads.force[2].tolist() == [0, 0, 1], "the last of them"
+    assert model.diagnostics[-1].message == (
+        "10 statements were not used: "
+        "EDAMPP, EDAMP, INPUTX (2), INPUTE (2), STARTDE (2), TIMESTEP (2)"
+    )
 
 
 @pytest.mark.parametrize("fixed", ["FIX 9\n", "FIX 9 1\nFIX 9 3 2\n"])

@@ -33,13 +33,17 @@ def oracle(answer: Answer) -> Any:
 @pytest.mark.parametrize("answer", ANSWERS, ids=[answer.id for answer in ANSWERS])
 def test_closed_form_is_met(answer: Answer) -> None:
     found = package(answer)
-    if not np.any(np.isnan(answer.value)):
+    if answer.value is not None:
         np.testing.assert_allclose(found, answer.value, rtol=answer.rel, atol=answer.abs)
     # the same element, computed apart: both differ from the closed form alike
-    np.testing.assert_allclose(found, oracle(answer), rtol=1e-6, atol=max(answer.abs, 1e-13))
+    truth = oracle(answer)
+    rounding = 1e-9 * np.max(np.abs(truth[np.isfinite(truth)]), initial=0.0)
+    np.testing.assert_allclose(found, truth, rtol=1e-6, atol=max(answer.abs, rounding))
 
 
-@pytest.mark.parametrize("answer", ANSWERS, ids=[answer.id for answer in ANSWERS])
+KNOWN = [answer for answer in ANSWERS if answer.value is not None]
+
+
+@pytest.mark.parametrize("answer", KNOWN, ids=[answer.id for answer in KNOWN])
 def test_oracle_meets_the_closed_form(answer: Answer) -> None:
-    if not np.any(np.isnan(answer.value)):
-        np.testing.assert_allclose(oracle(answer), answer.value, rtol=answer.rel, atol=answer.abs)
+    np.testing.assert_allclose(oracle(answer), answer.value, rtol=answer.rel, atol=answer.abs)

@@ -196,3 +196,69 @@ def test_everything_of_a_state_of_a_cross_hinge_is_said() -> None:
     assert "held elastic, drive free" in text
     assert "Force of the drive" in text
     assert "Over-constrained by" in text
+
+
+def test_what_is_rigid_and_locked_is_infinitely_stiff() -> None:
+    text = deck("PLTRUSS 1 1 2\nX 2 1 0\nFIX 1\nDYNX 2 2\nPLTRUSS 2 2 3\nX 3 2 0", "ESTIFF 2 5")
+    state = elastic(text, held="rigid", drive="locked").equilibrium()
+    assert not state.compliance(2).any()
+    np.testing.assert_array_equal(state.stiffness(2), np.diag([math.inf, math.inf]))
+    assert "without loads" in state.label
+
+
+def test_an_exactly_constrained_mechanism_held_rigid_follows_a_clamp_that_is_off() -> None:
+    """Two rigid bars at right angles: the top moves along with the clamp of the bar below it."""
+    text = deck("PLTRUSS 1 1 2\nPLTRUSS 2 3 2\nX 1 0 0\nX 2 0 1\nX 3 -1 1\nFIX 1\nFIX 3")
+    state = elastic(text, held="rigid").misaligned(1, "y", 0.01)
+    assert state.position(2) == pytest.approx([-1 + math.sqrt(1 - 0.01**2), 1.01], abs=1e-4)
+    assert state.stress(1, 1) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_rigid_deformation_that_is_released_leaves_the_sheet_divided() -> None:
+    """Torsion that has no stiffness is rigid; released it is free, and the rest is as before."""
+    text = cantilever().replace("RLSE 1 2 3 4", "RLSE 1 3 4")
+    text = text.replace(SHEET, SHEET.replace(SHEET.split()[1], "0"))
+    kept = elastic(text).kept(3, {(1, 2): 5.0})
+    assert kept == pytest.approx([0, 1, 1, 1, 1, 1], abs=1e-9)
+    state = elastic(text, release={(1, 2): 5.0}).undeformed()
+    assert state.data.arrays.element_number.size == 16
+    assert state.compliance(3)[5, 5] == pytest.approx(1 / 5.0, rel=1e-9)
+    assert state.compliance(3)[0, 0] == pytest.approx(LENGTH**3 / (3 * EI), rel=1e-9)
+
+
+def scaled(text: str, size: float, off: tuple[float, float, float]) -> str:
+    """A deck of the same material in another size: EA by its square, EI by its fourth power."""
+    powers = {"ESTIFF": (2, 4, 4, 4), "EM": (2,)}
+    lines = []
+    for line in text.splitlines():
+        keyword, *numbers = line.split() or [""]
+        if keyword == "X":
+            places = [repr(float(v) * size + o) for v, o in zip(numbers[1:], off, strict=True)]
+            line = " ".join([keyword, numbers[0], *places])
+        elif keyword in ("ESTIFF", "EM", "XM"):
+            power = powers.get(keyword) or ((3,) if numbers[0] == "9" else (5,) * 6)
+            made = [repr(float(v) * size**p) for v, p in zip(numbers[1:], power, strict=True)]
+            line = " ".join([keyword, numbers[0], *made])
+        lines.append(line)
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize(
+    ("size", "off"), [(1e-3, (0, 0, 0)), (25.4, (0, 0, 0)), (1.0, (300.0, -20.0, 5.0))]
+)
+def test_size_and_place_do_not_matter(size: float, off: tuple[float, float, float]) -> None:
+    """Frequencies fall with the size, forces grow with its square, angles stay."""
+    text = guide().replace("X 3", "X 1 0 0 0\nX 3", 1)
+    one, other = elastic(text), elastic(scaled(text, size, off))
+    np.testing.assert_allclose(
+        other.undeformed().frequencies * size, one.undeformed().frequencies, rtol=1e-9
+    )
+    middle = [o + v * size for o, v in zip(off, (0, 0, LENGTH / 2), strict=True)]
+    critical = other.critical_misalignment(2, "rx", about=middle)
+    assert critical == pytest.approx(
+        one.critical_misalignment(2, "rx", about=(0, 0, LENGTH / 2)), rel=1e-9
+    )
+    near, far = one.along(9, "x", [0.03])[0], other.along(9, "x", [0.03 * size + off[0]])[0]
+    assert far.force == pytest.approx(near.force * size**2, rel=1e-6)
+    assert far.energy == pytest.approx(near.energy * size**3, rel=1e-6)
+    assert far.over_constrained == near.over_constrained

@@ -22,6 +22,7 @@ UNKNOWN: dict[str, Callable[[], Any]] = {
 REFUSED: dict[str, Callable[[], Any]] = {
     "has a stiffness: give ESTIFF": lambda: elastic(BARE).undeformed().compliance(2),
     "has a stiffness": lambda: elastic(BARE).undeformed().multipliers,
+    "no element has": lambda: elastic(BARE).critical_misalignment(1, "x"),
     "has a mass": lambda: elastic(arch().replace("XM 2 0.5", "")).undeformed().frequencies,
     "give EM of elements": lambda: elastic(arch().replace("XM 2 0.5", "")).misalignment_for(
         -0.05, 1, "x"

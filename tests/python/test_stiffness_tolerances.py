@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stiffness_decks import EA, EI, EI_IN, GJ, LENGTH, cross_hinge, deck, elastic, guide
 
-from flexact.stiffness.roots import falls_to, rises_to
+from flexact.stiffness.roots import rises_to
 
 #: The clamps of the guide turn about a line at mid height.
 MIDDLE = (0.0, 0.0, LENGTH / 2)
@@ -95,12 +95,10 @@ def test_a_string_rises_in_proportion_to_the_root_of_its_tension() -> None:
     assert model.misalignment_for(-0.1, 4, "x") == (-math.inf, math.inf)
 
 
-def test_a_concave_function_falls_and_rises_to_a_level() -> None:
+def test_a_concave_function_first_rises_to_a_level() -> None:
     def parabola(x: float) -> float:
         return 4 + 3 * x - x**2
 
-    assert falls_to(parabola, 2.0, 4.0, 4.0) == pytest.approx((3 + math.sqrt(17)) / 2, rel=1e-8)
-    assert falls_to(parabola, 2.0, 4.0, math.inf) == math.inf
     assert rises_to(parabola, 6.0, 4.0, 0.01, 4.0) == pytest.approx(1.0, rel=1e-8)
     # the top, 6.25, lies between two steps of the search
     assert rises_to(parabola, 6.2499, 4.0, 0.3, 4.0) == pytest.approx(1.49, rel=1e-6)
@@ -142,7 +140,7 @@ def test_a_release_that_leaves_a_motion_free_keeps_nothing_of_it() -> None:
 
 def test_misfits_cost_the_same_however_often_a_sheet_is_divided() -> None:
     """A bending, a twist and a length that are off: equal energy, and stresses at its ends."""
-    for k, size in ((1, 1e-8), (2, 1e-8), (3, 1e-7), (5, 1e-8), (6, 1e-8)):
+    for k, size in ((1, 1e-7), (2, 1e-6), (3, 1e-6), (5, 1e-7), (6, 1e-7)):
         states = [elastic(guide(), beams=n).misfit(1, k, size) for n in (1, 4)]
         one, four = (state.energy for state in states)
         assert four == pytest.approx(one, rel=1e-5)

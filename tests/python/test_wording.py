@@ -50,7 +50,7 @@ from flexact.text.spacar_log import spacar_log
 
 INPUT = ROOT / "input_decks"
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)
-NOTES = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nXF 2 1\nEND\n"
+NOTES = "TRUSS 1 1 2 % " + "long " * 60 + "\nX 2 1 0 0\nX 2 2 0 0\nEND\nTIMESTEP 2 1\nEND\n"
 
 
 def deck(name: str) -> Analysis:

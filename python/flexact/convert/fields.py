@@ -32,7 +32,7 @@ class Field(NamedTuple):
     is_own: bool = False
 
 
-LOADS, PRESCRIBED = "loads", "values of prescribed motions"
+PRESCRIBED = "values of prescribed motions"
 _WARPING, _SIMULATION = "warping", "what is for a simulation"
 
 #: Of each node.
@@ -47,7 +47,7 @@ NODE_FIELDS: dict[str, Field] = {
     "mass": Field(values.not_negative),
     "mominertia": Field(values.moments),
     **{
-        f"{load}{start}": Field(values.vector(3), LOADS)
+        f"{load}{start}": Field(values.vector(3))
         for load in ("force", "moment")
         for start in ("", "_initial")
     },
@@ -78,7 +78,9 @@ ELEMENT_FIELDS: dict[str, Field] = {
 }
 #: Of the releases, element by element.
 RELEASE_FIELDS = {"def": Field(values.deformations)}
-#: Options; of these the releases alone are used, and none of the others is looked at.
+#: What SPACAR Light calls the loads of a deck: XF, on which a simulation starts, and DELXF.
+LOADS = {"force": "_initial", "increment": ""}
+#: Options; of these releases and gravity are used, and none of the others is looked at.
 OPTIONS = (
     *("rls", "filename", "gravity", "silent", "calcbuck", "showinputonly", "loadsteps", "mode"),
     *("transfer", "calccompl", "customvis", "customdyn", "customkin", "spavisual", "rigidstress"),

@@ -20,6 +20,11 @@ from .model_tables import tables_with_remarks
 from .remarks import Remarks
 from .table_input import Entry
 
+#: Fields of nodes that no data of points hold.
+_WITHOUT_DATA = {
+    *("mass", "mominertia", "name"),
+    *("force", "force_initial", "moment", "moment_initial"),
+}
 _FIELDS = ("elems", "flex", "type", VECTOR)
 _WHOLE = {
     "fix": ("fixed", "fixed_rotation"),
@@ -54,9 +59,8 @@ def mesh_of(model: Model) -> tuple[Any, Remarks]:
     except ImportError as error:
         raise MeshError(f"meshes need the package meshio: pip install meshio ({error})") from error
     for entry in nodes:
-        remarks.left_out.update(
-            f"of nodes: {name}" for name in entry if name in ("mass", "mominertia", "name")
-        )
+        remarks.left_out.update(f"of nodes: {name}" for name in entry if name in _WITHOUT_DATA)
+    remarks.leave_out("gravity", int("gravity" in tables.get("opt", {})))
     return (
         meshio.Mesh(
             places,

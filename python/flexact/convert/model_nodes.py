@@ -11,7 +11,7 @@ from ..core.elements import AXES, Class, NodeKind
 from ..core.raw import ElementKind
 from ..model.data import ModelData
 from .fields import AXES as LETTERS
-from .fields import NODE_FIELDS
+from .fields import LOADS, NODE_FIELDS
 from .points import Points
 from .remarks import Remarks
 from .table_input import Entry
@@ -55,6 +55,7 @@ class NodeTables:
             self._add_fixed(entry, own, classes)
             self._add_independent(entry, own, classes)
             self._add_mass(entry, own)
+            self._add_loads(entry, own)
             if own[0] >= 0 and (name := self.data.node_names[own[0]]):
                 entry["name"] = name
             made.append(entry)
@@ -117,3 +118,12 @@ class NodeTables:
                 entry[name] = [0.0] * 5 + numbers[:1]
             else:
                 entry[name] = given_as
+
+    def _add_loads(self, entry: Entry, own: tuple[int, int]) -> None:
+        for kind, end in LOADS.items():
+            for node, stem in zip(own, ("force", "moment"), strict=True):
+                if self.data.loads is None or node < 0:
+                    continue
+                load = getattr(self.data.loads, kind)[node].tolist()
+                if any(load):
+                    entry[f"{stem}{end}"] = load

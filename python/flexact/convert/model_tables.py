@@ -32,6 +32,8 @@ def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
     }
     if any(releases):
         made["opt"] = {"rls": [{"def": modes} for modes in releases]}
+    if data.loads is not None and data.loads.gravity.any():
+        made.setdefault("opt", {})["gravity"] = data.loads.gravity.tolist()
     _note_the_rest(data, points, remarks)
     for fields, entries in ((NODE_FIELDS, made["nprops"]), (ELEMENT_FIELDS, sets)):
         for entry in entries:

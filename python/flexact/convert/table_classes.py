@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tables say of their nodes: what is fixed, what moves as it is told, masses."""
+"""What tables say of their nodes: what is fixed, what moves as it is told, masses, loads."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 from ..core.elements import AXES, Class, NodeKind
 from ..model.draft import Draft
 from .fields import AXES as LETTERS
-from .fields import PRESCRIBED
+from .fields import LOADS, PRESCRIBED
 from .problems import Found
 from .remarks import Remarks
 from .table_input import Entry, Tables
@@ -98,8 +98,36 @@ class NodeGiver(NamedTuple):
                 if name not in entry:
                     continue
                 value = entry[name] if isinstance(entry[name], tuple) else (entry[name],)
-                if number not in self.used:
-                    self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
-                else:
+                if self._require_use(point, name, number):
                     planar = self.draft.node_kind[number] == NodeKind.ANGLE
                     self.draft.give_node_mass(number, value[-1:] if planar else value)
+
+    def add_loads(self) -> None:
+        """Forces and moments of nodes, and gravity."""
+        for point, entry in self.tables.nodes.items():
+            if point > len(self.tables.places):
+                continue
+            for stem, number in (
+                ("force", self.position[point]),
+                ("moment", self.orientation[point]),
+            ):
+                for kind, end in LOADS.items():
+                    name = f"{stem}{end}"
+                    if name in entry and self._require_use(point, name, number):
+                        axes = AXES[self.draft.node_kind[number]]
+                        table: dict[int, tuple[float, ...]] = getattr(self.draft.loads, kind)
+                        table[number] = self._in_scene(entry[name], axes)
+        x, y, z = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
+        self.draft.loads.gravity = x, y, z
+
+    def _in_scene(self, load: tuple[float, ...], axes: tuple[int, ...]) -> tuple[float, ...]:
+        """A load without what is out of a plane."""
+        made = tuple(value if axis in axes else 0.0 for axis, value in enumerate(load))
+        self.remarks.leave_out("loads out of the plane", int(made != load))
+        return made
+
+    def _require_use(self, point: int, name: str, number: int) -> bool:
+        if number in self.used:
+            return True
+        self.found.error(f"nprops[{point}].{name}", "no element uses this of the node")
+        return False

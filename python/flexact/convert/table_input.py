@@ -20,7 +20,7 @@ from .fields import (
     is_unset,
 )
 from .problems import Found
-from .values import number, whole
+from .values import number, vector, whole
 
 _TABLES = ("nodes", "elements", "nprops", "eprops", "rls", "opt", "name")
 Entry = dict[str, Any]
@@ -37,6 +37,7 @@ class Tables:
         sets: Fields of sets of elements.
         set_of: Number of the set of each element that is in one.
         released: Deformations of elements that are released.
+        gravity: Acceleration of free fall [m/s^2].
         left_out: What is said that a model does not hold.
         name: What the model is called.
         faulty: Places of entries with a field that is wrong, of which no more is said.
@@ -48,6 +49,7 @@ class Tables:
     sets: dict[int, Entry] = field(default_factory=dict)
     set_of: dict[int, int] = field(default_factory=dict)
     released: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    gravity: tuple[float, ...] = (0.0, 0.0, 0.0)
     left_out: Counter[str] = field(default_factory=Counter)
     name: str = ""
     faulty: set[str] = field(default_factory=set)
@@ -219,6 +221,15 @@ def _take_sets(made: Tables, found: Found) -> None:
             found.error(place, "emod and dens need a cross-section: give cshape and dim")
 
 
+def _take_gravity(made: Tables, value: Any, found: Found) -> None:
+    if is_unset(value):
+        return
+    try:
+        made.gravity = checked(Field(vector(3)), value)
+    except ValueError as error:
+        found.error("opt.gravity", str(error))
+
+
 def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     options = given.get("opt")
     releases, place = given.get("rls"), "rls"
@@ -228,6 +239,8 @@ def _take_options(made: Tables, given: Mapping[str, Any], found: Found) -> None:
     for name, value in (options or {}).items():
         if name not in OPTIONS:
             found.error(f"opt.{name}", f"there is no such option{_meant(name, OPTIONS)}")
+        elif name == "gravity":
+            _take_gravity(made, value, found)
         elif name != "rls":
             made.left_out[f"what is for a simulation: opt.{name}"] += 1
         elif not is_unset(value):

@@ -172,13 +172,14 @@ class _Making:
             self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
 
     def give_nodes(self) -> None:
-        """Classes and masses of the nodes that elements use."""
+        """Classes, masses and loads of the nodes that elements use."""
         giver = NodeGiver(
             *(self.tables, self.draft, self.position, self.orientation, self.used),
             *(self.found, self.remarks),
         )
         giver.add_classes()
         giver.add_masses()
+        giver.add_loads()
 
     def with_remarks(self, data: ModelData) -> ModelData:
         """The model with what was left out among its notes."""

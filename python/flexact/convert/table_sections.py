@@ -37,23 +37,10 @@ def is_ordinary(shape: Shape) -> bool:
 def stiffness_of(
     kind: ElementKind, shape: Shape, entry: dict[str, Any]
 ) -> tuple[float, ...] | None:
-    """ESTIFF of an element, of a spatial beam with its shear; None without moduli.
-
-    The shear coefficients are those of G. R. Cowper, "The shear coefficient in Timoshenko's beam
-    theory", Journal of Applied Mechanics 33 (1966), 335-340.
-    """
+    """ESTIFF of an element; None without moduli."""
     if "emod" not in entry or "smod" not in entry:
         return None
-    e, g = entry["emod"], entry["smod"]
-    plain = stiffness(kind, shape, Material("given", e, g))
-    if kind.member != Member.BEAM:
-        return plain
-    nu = e / (2.0 * g) - 1.0
-    round_one = shape.kind == CrossSection.CIRC
-    k = 6.0 * (1 + nu) / (7 + 6 * nu) if round_one else 10.0 * (1 + nu) / (12 + 11 * nu)
-    area = constants_of(shape).area
-    bending = plain[1:] if NodeKind.PLANAR_POSITION in kind.slots else plain[2:]
-    return (*plain, *(each / (g * area * k) for each in bending))
+    return stiffness(kind, shape, Material("given", entry["emod"], entry["smod"]))
 
 
 def mass_of(kind: ElementKind, shape: Shape, entry: dict[str, Any]) -> tuple[float, ...] | None:

@@ -109,6 +109,11 @@ def _require_room(needed: float) -> None:
 
 
 def require_room_for(model: PackedModel, of_element: int = _OF_MODEL) -> None:
+    """Raise where a limit leaves no room for a model's copy and so many bytes an element.
+
+    Raises:
+        MemoryError: there is none.
+    """
     _require_room(_OF_MODEL * model.nodes.shape[1] + of_element * model.elements.shape[1])
 
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..base.errors import FlexactError
 from . import _core
 from .arrays import FloatArray, PackedModel
 from .calls import names_of, require_room_for
@@ -179,6 +180,8 @@ def equilibrium(
         *model, of_nodes, of_elements, gravity
     )
     status, reached, iterations, steps, residual, place = facts.tolist()
+    if status < 0:
+        raise MemoryError("memory does not suffice for an elastic analysis")
     return RawEquilibrium(
         ElasticState(configuration, stress, reaction),
         reached,
@@ -213,6 +216,7 @@ def linear(
 
     Raises:
         ValueError: a shape does not fit, or a number is not finite.
+        FlexactError: the tangent could not be factorised.
     """
     columns = force.shape[-1]
     nodes, elements = model.nodes.shape[1], model.elements.shape[1]
@@ -334,8 +338,8 @@ def matrices(
     given = np.zeros((6 * (nodes + elements), q))
     given[0] = independent
     answer, facts = _studied(model, arrays, state, gravity, "matrices", 0, given, 3 * q)
-    parts = (answer[:q, i * q : (i + 1) * q].copy() for i in range(3))
-    return RawMatrices(*parts, facts[3] == 1)
+    mass, stiffness, geometric = (answer[:q, i * q : (i + 1) * q].copy() for i in range(3))
+    return RawMatrices(mass, stiffness, geometric, facts[3] == 1)
 
 
 def _modes(
@@ -381,6 +385,11 @@ def _studied(
         columns,
         answer,
     )
+    if facts[4] == 1:
+        raise FlexactError(
+            "the matrices of this state could not be decomposed: its numbers differ too much in "
+            "size, or memory does not suffice"
+        )
     return answer, facts
 
 

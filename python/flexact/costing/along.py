@@ -125,7 +125,7 @@ def _row(
     """Stiffness, what is kept of it in the worst direction, of the drive, force, frequencies."""
     made = [
         numbers(over_levels(measures.stiffness, state)),
-        numbers(over_levels(lambda a, b: measures.ratios(a, b).mu[:1], rest, state)),
+        numbers(over_levels(measures.worst, rest, state)),
         numbers(over_levels(lambda one: _own(one, drive, is_locked), state)),
         numbers(over_levels(lambda one: np.atleast_1d(one.force), state)),
     ]
@@ -139,10 +139,9 @@ def _own(state: State, drive: tuple[int, str], is_locked: bool) -> FloatArray:
     if is_locked:
         return np.zeros(1)
     node, name = drive
-    compliance = np.diag(np.asarray(state.compliance(node)))
-    names = {2: "xy", 3: "xyz"}.get(compliance.size)
-    order = ("x", "y", "rz") if names == "xy" else ("x", "y", "z", "rx", "ry", "rz")
-    value = compliance[order.index(name)]
+    points = state.model.points
+    names = [points.name(each) for each in points.coordinates(points.of(node))]
+    value = state.compliance(node)[(names.index(name),) * 2]
     return np.array([1.0 / value if value != 0.0 else np.inf])
 
 

@@ -32,7 +32,7 @@ def effect_of(bench: Bench, measures: Measures, given: Given, parts: Parts) -> E
     """
     behind, reached = _behind(bench, given)
     both = (bench.rest, behind)
-    kept = over_levels(lambda one, two: measures.ratios(one, two).mu[:1], *both)
+    kept = over_levels(measures.worst, *both)
     carried = [numbers(over_levels(_largest, each)) for each in both]
     peak, where = _peaks(bench, both)
     return Effect(

@@ -58,6 +58,11 @@ class Measures:
         """What is kept of the stiffness at the point."""
         return ratios(self.compliance(before), self.compliance(after), self.scale)
 
+    def worst(self, before: State, after: State) -> FloatArray:
+        """(1,) smallest part that is kept; 1 of a point that cannot move."""
+        mu = self.ratios(before, after).mu
+        return mu[:1] if mu.size else np.ones(1)
+
     def frequencies(self, state: State) -> FloatArray:
         """(k,) lowest frequencies [Hz], ascending; 0 where a mode is unstable."""
         return np.maximum(np.asarray(state.frequencies[:MOST], np.float64), 0.0)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from ..core.elements import element_kinds
@@ -11,6 +12,7 @@ from . import appearance_arguments as appearance
 from . import arguments, deletion, sections
 from . import point_arguments as points
 from .appearance_arguments import Section
+from .draft import Draft
 from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet
 from .making import Making, call
 from .material import MaterialLike
@@ -87,6 +89,7 @@ class EditMethods(Making):
         section: Section | None = None,
         thickness: float | None = None,
         breadth: float | None = None,
+        warping: bool | float = False,
     ) -> None:
         """Say what flexures are made of: section and material of parts that are there.
 
@@ -97,6 +100,7 @@ class EditMethods(Making):
             section: Breadth and thickness of sheets; diameter or two sizes of others [m].
             thickness: Of a sheet, or the diameter of a wire [m].
             breadth: The size of a sheet along its width [m].
+            warping: Of sheets, see `sheet`.
         """
         draft = self._change()
         with call("made_of", target):
@@ -115,6 +119,8 @@ class EditMethods(Making):
                     given = shape or draft.appearance.said.get(index, {}).get("shape")
                     what = "sheet" if sheet else "wire"
                     made = sections.made_of(kind, given, material, what)
+                    if sheet:
+                        made = made.with_warping(warping, _length(draft, indices_of(draft, found)))
                     draft.give_properties(index, made.stiffness, made.mass)
                     if made.shape is not None:
                         draft.appearance.give([index], {"shape": made.shape})
@@ -182,6 +188,11 @@ def _flexures(target: object) -> list[Part | Element | int]:
     if isinstance(target, Part) and not _is_flexure(target):
         return []
     return [target]  # type: ignore[list-item]
+
+
+def _length(draft: Draft, indices: Sequence[int]) -> float:
+    p, q = draft.slots[indices[0]][0], draft.slots[indices[-1]][2]
+    return math.dist(draft.node_value[p][:3], draft.node_value[q][:3])
 
 
 def _is_flexure(target: Part) -> bool:

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from ..core.elements import Class
 from ..diagnostics.errors import model_error
 from . import arguments, sections
 from . import point_arguments as points
-from .appearance_arguments import Section, shape_of
+from .appearance_arguments import Section, numbers_of_size, shape_of
 from .arguments import Direction
 from .deformation_arguments import deformations
 from .draft import NO_VECTOR
@@ -110,6 +110,8 @@ class ElementMethods(PointMethods):
         q: Node | None = None,
         name: str = "",
         independent: bool = False,
+        *,
+        stiffness: float | Sequence[float] | None = None,
     ) -> Node:
         """A hinge at p: the rotation about the axis is released, the others are held.
 
@@ -120,12 +122,14 @@ class ElementMethods(PointMethods):
                 one, as `pivot` makes it.
             name: What the element is called.
             independent: Whether the rotation is a degree of freedom, eq. (6).
+            stiffness: Of the rotation [N m/rad], or that and those of the two tilts: ESTIFF in
+                a deck. What is not given is free where it is released, and else rigid.
 
         Returns:
             The point beyond the hinge.
         """
         with call("hinge", name):
-            return self._hinge(p, axis, q, name, independent).q
+            return self._hinge(p, axis, q, name, independent, stiffness).q
 
     def notch(
         self,
@@ -135,6 +139,7 @@ class ElementMethods(PointMethods):
         name: str = "",
         *,
         independent: bool = False,
+        stiffness: float | Sequence[float] | None = None,
     ) -> Notch:
         """A notch at p: all is held but the bending about its axis.
 
@@ -146,13 +151,20 @@ class ElementMethods(PointMethods):
             The notch, with its points p and q.
         """
         with call("notch", name):
-            return self._hinge(p, axis, q, name, independent)
+            return self._hinge(p, axis, q, name, independent, stiffness)
 
     def _hinge(
-        self, p: Point, axis: Direction | None, q: Node | None, name: str, independent: bool
+        self,
+        p: Point,
+        axis: Direction | None,
+        q: Node | None,
+        name: str,
+        independent: bool,
+        stiffness: float | Sequence[float] | None,
     ) -> Notch:
         draft = self._change()
         name = arguments.text(name, "the name of an element")
+        given = _of_hinge(stiffness, draft.planar)
         direction = arguments.axis(draft, axis)
         near = points.point(draft, p)
         if q is None:
@@ -165,6 +177,7 @@ class ElementMethods(PointMethods):
             )
         slots = (0, near.orientation, 0, q.orientation)
         number = draft.add_element(self._kind("HINGE"), slots, name, direction, (1,))
+        draft.give_properties(len(draft.kinds) - 1, given)
         if independent:
             index = draft.index_of(number)
             draft.state_deformations([(index, 1)], Class.INDEPENDENT)
@@ -195,3 +208,14 @@ class ElementMethods(PointMethods):
         number = draft.add_element(self._kind("BEAM"), slots, name, hint, released, make.shape)
         draft.give_properties(len(draft.kinds) - 1, make.stiffness, make.mass)
         return Element(number, self._owner)
+
+
+def _of_hinge(stiffness: float | Sequence[float] | None, planar: bool) -> tuple[float, ...] | None:
+    """ESTIFF of a hinge; None where nothing is given."""
+    if stiffness is None:
+        return None
+    what = "the stiffness of a hinge is one number" + ("" if planar else ", or three")
+    made = numbers_of_size(stiffness, (1,) if planar else (1, 3), what)
+    if min(made) < 0.0:
+        raise model_error("bad-size", "a stiffness is not negative", "give it in N m/rad")
+    return made

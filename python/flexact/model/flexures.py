@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from . import arguments, sections
@@ -16,7 +17,7 @@ from .making import call
 from .material import MaterialLike
 from .point_arguments import Point
 from .sections import Make
-from .sheet_geometry import between, sheet_normal
+from .sheet_geometry import between, sheet_normal, span
 
 
 class FlexureMethods(ElementMethods):
@@ -47,7 +48,7 @@ class FlexureMethods(ElementMethods):
             thickness: The diameter [m], instead of `section`.
             material: "steel", "titanium" or another name of `MATERIALS`, a
                 `flexact.Material`, or {"E": ..., "G": ..., "density": ...}. With it the
-                beams get ESTIFF (EA, G It, E Iy, E Iz) and EM, which stand in the deck.
+                beams get ESTIFF (EA, G It, E Iy, E Iz, shear) and EM, which stand in the deck.
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the wire.
@@ -71,6 +72,7 @@ class FlexureMethods(ElementMethods):
         thickness: float | None = None,
         breadth: float | None = None,
         material: MaterialLike | None = None,
+        warping: bool | float = False,
     ) -> Sheet:
         """A sheet flexure: elongation and in-plane bending are held, the rest released.
 
@@ -89,14 +91,15 @@ class FlexureMethods(ElementMethods):
             thickness: The thickness [m], instead of `section`.
             breadth: The size along the width [m], instead of `section`.
             material: Gives stiffness and mass, see `wire`.
+            warping: False: the ends are free to warp. True: they are clamped and cannot, which
+                raises G It by `flexact.model.sections.warping_factor`; a number is the factor.
 
         Raises:
             ModelError: something of it is wrong; its text begins with the name of the sheet.
         """
         with call("sheet", name):
-            return self._sheet(
-                p, q, width, beams, name, self._sheet_make(section, thickness, breadth, material)
-            )
+            make = self._sheet_make(section, thickness, breadth, material)
+            return self._sheet(p, q, width, beams, name, make, warping)
 
     def _sheet_make(
         self,
@@ -109,13 +112,21 @@ class FlexureMethods(ElementMethods):
         return sections.made_of(self._kind("BEAM"), shape, material, "sheet")
 
     def _sheet(
-        self, p: Point, q: Point, width: Direction | None, beams: int, name: str, make: Make
+        self,
+        p: Point,
+        q: Point,
+        width: Direction | None,
+        beams: int,
+        name: str,
+        make: Make,
+        warping: bool | float,
     ) -> Sheet:
         draft = self._change()
         name = arguments.text(name, "the name of a sheet")
         p, q = points.point(draft, p), points.point(draft, q)
         normal = sheet_normal(draft, p, q, width)
         released = (2, 3) if self._planar else (2, 5, 6)
+        make = make.with_warping(warping, math.hypot(*span(draft, p, q)))
         return Sheet(*self._chain(p, q, normal, released, name, make, beams))
 
     def _chain(

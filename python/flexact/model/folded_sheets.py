@@ -35,6 +35,7 @@ class FoldedSheetMethods(BodyMethods, ClassMethods):
         thickness: float | None = None,
         breadth: float | None = None,
         material: MaterialLike | None = None,
+        warping: bool | float = False,
     ) -> FoldedSheet:
         """A folded sheet: two sheets in series, which take one translation, along the fold.
 
@@ -53,6 +54,7 @@ class FoldedSheetMethods(BodyMethods, ClassMethods):
             thickness: The thickness [m], instead of `section`.
             breadth: The size along the fold line [m], instead of `section`.
             material: See `wire`.
+            warping: Of each leaf, see `sheet`.
 
         Raises:
             ModelError: something of it is wrong, such as three points on a line and no width.
@@ -66,8 +68,8 @@ class FoldedSheetMethods(BodyMethods, ClassMethods):
                 arms = span(draft, middle, start), span(draft, middle, end)
                 width = across(normal_to(*arms), "the two leaves are in one plane")
             names = [f"{name}, leaf {k}" if name else "" for k in (1, 2)]
-            first = self._sheet(start, middle, width, beams, names[0], make)
-            second = self._sheet(middle, end, width, beams, names[1], make)
+            first = self._sheet(start, middle, width, beams, names[0], make, warping)
+            second = self._sheet(middle, end, width, beams, names[1], make, warping)
             self.independent(first, "out-of-plane bending", at="q")
             if name and not middle.name:
                 draft.name_node(middle.position, points.checked_name(f"{name}, fold"))

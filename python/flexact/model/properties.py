@@ -51,6 +51,9 @@ class Properties(Frozen):
                 raise ValueError(f"{name} has a number behind one that is not given, or infinity")
 
     @classmethod
-    def of(cls, raw: RawProperties) -> Properties:
-        """What a deck says; copies, since what was read lies in a larger array."""
+    def of(cls, raw: RawProperties) -> Properties | None:
+        """What a deck says; None where no number of it is used."""
+        if all(np.isnan(part).all() for part in raw):
+            return None
+        # What was read lies in a larger array.
         return cls(*(part.T.copy() for part in raw))

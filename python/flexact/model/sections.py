@@ -11,7 +11,7 @@ from ..core.elements import Member, NodeKind
 from ..core.raw import ElementKind
 from ..diagnostics.errors import model_error
 from .appearance import CrossSection
-from .appearance_arguments import Section, shape_of, sheet_shape, size_of
+from .appearance_arguments import Section, numbers_of_size, shape_of, sheet_shape, size_of
 from .appearance_draft import Shape
 from .material import Material, MaterialLike, material_of
 
@@ -26,6 +26,33 @@ class Make(NamedTuple):
     shape: Shape | None = None
     stiffness: tuple[float, ...] | None = None
     mass: tuple[float, ...] | None = None
+
+    def with_warping(self, warping: bool | float, length: float) -> Make:
+        """The same with G It times a factor: that of held warping for True, none for False.
+
+        Args:
+            warping: As users give it.
+            length: Of the whole part [m].
+
+        Raises:
+            ModelError: nothing is known that it could be a factor of, or it is no factor.
+        """
+        if warping is False:
+            return self
+        if self.stiffness is None or len(self.stiffness) < 4 or not min(self.stiffness[:4]) > 0.0:
+            raise model_error(
+                "no-section",
+                "warping is a factor on the torsional stiffness, which is not known",
+                "give a material and sizes, in a spatial model, or leave warping out",
+            )
+        axial, torsion, *bending = self.stiffness
+        if warping is True:
+            factor = warping_factor(length, axial, torsion, bending[0], bending[1])
+        else:
+            factor = numbers_of_size(warping, (1,), "warping is True, or one factor")[0]
+        if not factor >= 1.0:
+            raise model_error("bad-number", "held warping makes no sheet more compliant")
+        return self._replace(stiffness=(axial, torsion * factor, *bending))
 
 
 class Constants(NamedTuple):
@@ -126,17 +153,45 @@ def constants_of(shape: Shape) -> Constants:
 
 
 def stiffness(kind: ElementKind, shape: Shape, material: Material) -> tuple[float, ...]:
-    """ESTIFF of an element: EA [N] of a bar, EA, G It, E Iy, E Iz [N m2] of a beam.
+    """ESTIFF of an element.
 
-    A planar beam has EA and E Iz.
+    Of a bar EA [N]; of a beam EA, G It, E Iy, E Iz [N m2], and the shear E Iy/(G A k),
+    E Iz/(G A k) [m2]; of a planar beam EA, E Iz and one shear.
+
+    The shear coefficients k are those of G. R. Cowper, "The shear coefficient in Timoshenko's beam
+    theory", Journal of Applied Mechanics 33 (1966), 335-340.
     """
     c = constants_of(shape)
     axial = material.E * c.area
     if kind.member == Member.BAR:
         return (axial,)
-    if _is_planar(kind):
-        return axial, material.E * c.iz
-    return axial, material.G * c.torsion, material.E * c.iy, material.E * c.iz
+    nu = material.E / (2.0 * material.G) - 1.0
+    is_round = shape.kind == CrossSection.CIRC
+    k = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu) if is_round else 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu)
+    softness = material.E / (material.G * k)
+    bending = (c.iz,) if _is_planar(kind) else (c.iy, c.iz)
+    shear = (softness * each / c.area if c.area else 0.0 for each in bending)
+    twist = () if _is_planar(kind) else (material.G * c.torsion,)
+    return (axial, *twist, *(material.E * each for each in bending), *shear)
+
+
+def warping_factor(length: float, axial: float, torsion: float, iy: float, iz: float) -> float:
+    """By what a sheet is stiffer in torsion when its clamped ends cannot warp.
+
+    1/(1 - tanh x/x) with x = (L/2) sqrt(G It/E Iw): the twist v per length of non-uniform
+    torsion, G It v - E Iw v" = T, with v = 0 at both ends. Of a thin rectangle
+    Iw = b^3 t^3/144 = Iy Iz/A, so that x is (L/b) sqrt(6/(1 + nu)).
+
+    Args:
+        length: Of the whole sheet [m].
+        axial: EA [N].
+        torsion: G It [N m2].
+        iy: E Iy [N m2].
+        iz: E Iz [N m2].
+    """
+    x = length / 2.0 * math.sqrt(torsion / iy * axial / iz)
+    # 1 - tanh x/x is x^2/3 where x is so small that nothing else would be left of it.
+    return 3.0 / x**2 if x < 1.0e-4 else 1.0 / (1.0 - math.tanh(x) / x)
 
 
 def mass(kind: ElementKind, shape: Shape, material: Material) -> tuple[float, ...] | None:

@@ -41,6 +41,7 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         thickness: float | None = None,
         breadth: float | None = None,
         material: MaterialLike | None = None,
+        warping: bool | float = False,
     ) -> Assembly:
         """A cross hinge: two, three or more sheets that cross, and the body that they carry.
 
@@ -62,6 +63,7 @@ class SheetAssemblyMethods(FoldedSheetMethods):
             thickness: The thickness [m], instead of `section`.
             breadth: The size along the axis [m], instead of `section`.
             material: See `wire`.
+            warping: See `sheet`.
 
         Returns:
             Parts "sheet 1", ..., "body" and points "ground 1", ..., "body 1", ...
@@ -82,7 +84,13 @@ class SheetAssemblyMethods(FoldedSheetMethods):
             if width is None and not self._planar:
                 along = (span(draft, p, q) for p, q in zip(near[:2], far[:2], strict=True))
                 width = across(normal_to(*along), "the first two sheets are parallel")
-            make = _Sheets(section=section, thickness=thickness, breadth=breadth, material=material)
+            make = _Sheets(
+                section=section,
+                thickness=thickness,
+                breadth=breadth,
+                material=material,
+                warping=warping,
+            )
             return self._sheets_and_body(
                 (near, far), width, name, "body", carries, beams, make, mass, inertia
             )
@@ -104,6 +112,7 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         thickness: float | None = None,
         breadth: float | None = None,
         material: MaterialLike | None = None,
+        warping: bool | float = False,
     ) -> Assembly:
         """A parallel guide: equal sheets side by side, and the stage that they carry.
 
@@ -125,6 +134,7 @@ class SheetAssemblyMethods(FoldedSheetMethods):
             thickness: The thickness [m], instead of `section`.
             breadth: The size along the width [m], instead of `section`.
             material: See `wire`.
+            warping: See `sheet`.
 
         Returns:
             Parts "sheet 1", ..., "stage" and points "ground 1", ..., "stage 1", ...
@@ -140,7 +150,13 @@ class SheetAssemblyMethods(FoldedSheetMethods):
             near, far = (
                 [end, *(_shifted(draft, end, step, k) for k in range(1, count))] for end in first
             )
-            make = _Sheets(section=section, thickness=thickness, breadth=breadth, material=material)
+            make = _Sheets(
+                section=section,
+                thickness=thickness,
+                breadth=breadth,
+                material=material,
+                warping=warping,
+            )
             return self._sheets_and_body(
                 (near, far), width, name, "stage", carries, beams, make, mass, inertia
             )
@@ -176,6 +192,7 @@ class _Sheets(TypedDict):
     thickness: float | None
     breadth: float | None
     material: MaterialLike | None
+    warping: bool | float
 
 
 def _shifted(draft: Draft, node: Node, step: Sequence[float], k: int) -> Node:

@@ -52,14 +52,23 @@ class Compliance(NamedTuple):
 
 
 def compliance_at(
-    moved: FloatArray, loose: FloatArray, is_turn: BoolArray, is_held: BoolArray, size: float
+    moved: FloatArray, loose: FloatArray, scale: FloatArray, is_held: BoolArray, least: float
 ) -> Compliance:
-    """Of displacements (n, n) under unit loads, and motions without stiffness (n, m)."""
-    scale = np.where(is_turn, size, 1.0)
+    """Of displacements (n, n) under unit loads, and motions without stiffness (n, m).
+
+    Args:
+        moved: Displacements and turns.
+        loose: Displacements and turns.
+        scale: (n,) what makes a length of each.
+        is_held: (n,) which are held.
+        least: A compliance [m/N] below which all of it is rounding.
+    """
     finite = moved * np.outer(scale, scale)
     finite = (finite + finite.T) / 2.0
     finite[is_held] = 0.0
     finite[:, is_held] = 0.0
+    if np.abs(finite).max(initial=0.0) < least:
+        finite[:] = 0.0
     free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
     return Compliance(finite, _span(free), scale, is_held)
 

@@ -14,6 +14,7 @@ from ..deck.models import read
 from ..model.model import Model
 from . import paths
 from .divisions import beams_given
+from .drives import strokes_given
 from .errors import ElasticError
 from .imperfections import Imperfection, misalignment, misfit, warmth
 from .points import Points
@@ -51,9 +52,12 @@ class Elastic(Tolerated):
             StrokeError: no equilibrium was found.
             ElasticError: the factor is no finite number.
         """
-        factor = paths.strokes_given(load, False)[0]
+        factor = strokes_given(load, False)[0]
         made = tuple(paths.loaded(at, factor) for at in self._assembled())
-        return State(self, f"equilibrium under {factor:g} times the loads", None, made)
+        under = (
+            f"under {factor:g} times the loads" if self.data.loads else "without loads in the deck"
+        )
+        return State(self, f"equilibrium {under}", None, made)
 
     def along(self, node: object, coordinate: str, values: Iterable[float]) -> tuple[State, ...]:
         """Equilibria along the stroke of a drive, without the deck's loads.
@@ -81,7 +85,7 @@ class Elastic(Tolerated):
             )
         given = values if isinstance(values, (list, tuple, np.ndarray)) else list(values)
         turns = self.points.kinds[drive.node] == NodeKind.ORIENTATION
-        there = paths.strokes_given(given, bool(turns))
+        there = strokes_given(given, bool(turns))
         ways = [
             paths.driven(at, self.points, drive, there, self.drive == "locked")
             for at in self._assembled()

@@ -77,7 +77,7 @@ class OnMeshes(Frozen):
         of: Callable[[Solution], FloatArray],
         match: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]],
     ) -> FloatArray:
-        """Eigenvalues likewise, of which `match` finds for each its like."""
+        """Eigenvalues likewise, of which `match` finds for each its like; ascending."""
         values = [of(each) for each in self.meshes]
         made = values[0] if len(values) == 1 else Estimate.of(*match(*values)).value
-        return np.array(made)
+        return np.sort(made) + 0.0

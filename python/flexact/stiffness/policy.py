@@ -73,6 +73,10 @@ def _with_stiffness(given: object) -> tuple[object, object]:
     return given, 0.0
 
 
+NO_STIFFNESS = (
+    "no element has a stiffness: give ESTIFF in the deck's dynamics block, or a material with a "
+    "section"
+)
 _WANTED = "releases are pairs of an element and a deformation, or a mapping of them, not "
 
 
@@ -85,18 +89,16 @@ class Policy(Frozen):
         rigid: (6, elements) which deformations are rigid, those with a notch too: that is in
             series.
         stiff: (6, elements) which have a stiffness of their own.
-        notched: (6, elements) which are released, ideally or with a notch.
     """
 
     arrays: ElasticArrays
     rigid: BoolArray
     stiff: BoolArray
-    notched: BoolArray
 
     @property
     def has_stiffness(self) -> bool:
-        """Whether there is any stiffness at all."""
-        return bool((self.stiff & ~self.rigid).any() or np.nan_to_num(self.arrays.notch).any())
+        """Whether any stiffness is given at all."""
+        return bool(self.stiff.any() or np.nan_to_num(self.arrays.notch).any())
 
 
 def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:
@@ -114,7 +116,7 @@ def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:
         rigid &= ~stiff
     for (element, k), stiffness in releases.items():
         notch[k, element] = stiffness
-    return Policy(elastic_arrays(data, notch), rigid, stiff, ~np.isnan(notch))
+    return Policy(elastic_arrays(data, notch), rigid, stiff)
 
 
 def elastic_arrays(data: ModelData, notch: FloatArray) -> ElasticArrays:

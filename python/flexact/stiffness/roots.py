@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where a concave function falls, or first rises, to a level, in few evaluations."""
+"""Where a concave function first rises to a level, in few evaluations."""
 
 from __future__ import annotations
 
@@ -12,25 +12,6 @@ _MET = 1.0e-8
 _MOST = 60
 
 Function = Callable[[float], float]
-
-
-def falls_to(
-    function: Function, level: float, start: float, limit: float, near: float | None = None
-) -> float:
-    """Where a concave function falls to a level between 0, where it is `start`, and `limit`.
-
-    Args:
-        function: The function; at `limit` it is 0.
-        level: Between 0 and `start`.
-        start: Its value at 0.
-        limit: Infinite where it never falls: then it nowhere has the level.
-        near: The part of `limit` where the root is expected; NaN where nothing is known.
-    """
-    if not math.isfinite(limit):
-        return math.inf
-    low, high = (0.0, start - level), (limit, -level)
-    part = math.sqrt(1.0 - level / start) if near is None or math.isnan(near) else near
-    return _root(function, level, low, high, part * limit)
 
 
 def rises_to(function: Function, level: float, start: float, step: float, far: float) -> float:

@@ -18,7 +18,7 @@ from .errors import ElasticError
 from .imperfections import Imperfection
 from .mesh import Mesh
 from .points import Coordinate, Points
-from .policy import Policy, indexed, policy_of
+from .policy import NO_STIFFNESS, Policy, indexed, policy_of
 from .reduced import Reducer
 from .solution import Solution
 from .solver import Held, Solver
@@ -62,7 +62,7 @@ class Setting(Frozen):
     @cached_property
     def solvers(self) -> tuple[Solver, ...]:
         """One of each mesh, the coarser first."""
-        which = divisible(self.data, self.policy.stiff, self.policy.rigid & ~self.policy.notched)
+        which = divisible(self.data, self.policy.stiff, self.policy.rigid)
         made = divisions(self.data, self.beams, which)
         if self.only is not None:
             made = (made[self.only],)
@@ -108,6 +108,15 @@ class Setting(Frozen):
                 "nothing has a mass, so that there are no frequencies: give EM of elements or XM "
                 "of nodes in the deck's dynamics block, or a material with a density"
             )
+
+    def require_stiffness(self) -> None:
+        """Raise where no element has a stiffness.
+
+        Raises:
+            ElasticError: none has one.
+        """
+        if not self.policy.has_stiffness:
+            raise ElasticError(NO_STIFFNESS)
 
     def require_determined(self) -> None:
         """Raise where a self-stress would be needed that is not determined.

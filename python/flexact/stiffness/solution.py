@@ -15,6 +15,7 @@ from ..core.elements import Class, NodeKind
 from .compliance import Compliance, compliance_at
 from .errors import ElasticError
 from .points import Coordinate, Point
+from .policy import NO_STIFFNESS
 from .solver import Held, Solver
 
 #: How many frequencies and multipliers are computed.
@@ -67,9 +68,9 @@ class Solution:
             self._at[point] = compliance_at(
                 np.asarray(answer.displacement[axes, nodes]),
                 np.asarray(self.unit_motions(answer.loose)[axes, nodes]),
-                np.asarray(self._is_turn[nodes]),
+                np.asarray(self.scale[nodes]),
                 np.array([self.is_held(each) for each in coordinates]),
-                self.size,
+                self.solver.least_compliance,
             )
         return self._at[point]
 
@@ -135,14 +136,12 @@ class Solution:
     @cached_property
     def buckling(self) -> RawModes:
         """Multipliers of the stresses nearest to zero, of both signs, with their modes."""
-        return self.multipliers(MULTIPLIERS)
-
-    def multipliers(self, count: int) -> RawModes:
-        """So many of them."""
         s = self.solver
         if not self.is_stressed:
             return RawModes(np.zeros(0), np.zeros((3, s.nodes, 0)), 0, 0, True)
-        found = elastic.multipliers(s.model(self.held), s.arrays, self.raw, self.way.gravity, count)
+        found = elastic.multipliers(
+            s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
+        )
         size = np.abs(found.values)
         some = size < _ROUNDING * size.min(initial=math.inf)
         return found._replace(values=found.values[some], modes=found.modes[:, :, some])
@@ -176,7 +175,4 @@ class Solution:
             ElasticError: There is none, and no stress either.
         """
         if not (self.solver.policy.has_stiffness or self.is_stressed):
-            raise ElasticError(
-                "no element has a stiffness: give ESTIFF in the deck's dynamics block, or a "
-                "material with a section"
-            )
+            raise ElasticError(NO_STIFFNESS)

@@ -15,6 +15,9 @@ from .mesh import Mesh
 from .points import Coordinate
 from .policy import Policy, elastic_arrays, notch_in_units
 
+#: Part of the compliance of all elements in parallel that is rounding.
+_ROUNDING = 1.0e-6
+
 Held = frozenset[Coordinate]
 
 
@@ -99,6 +102,13 @@ class Solver:
     def elastic(self) -> tuple[FloatArray, FloatArray]:
         """Stiffness (pieces, 6, 6) without what is rigid, and torsion-elongation constants."""
         return element_stiffness(self.model(frozenset()), self.arrays)
+
+    @cached_property
+    def least_compliance(self) -> float:
+        """What is more compliant than this [m/N] is so for a reason; 0 without any stiffness."""
+        stiffness = np.diagonal(self.elastic[0], axis1=1, axis2=2)
+        whole = float(stiffness[self.is_elastic.T].sum())
+        return _ROUNDING / whole if whole > 0.0 else 0.0
 
     def loads(self, factor: float) -> tuple[FloatArray, FloatArray]:
         """(3, nodes) forces and (3,) gravity of the deck, times a factor."""

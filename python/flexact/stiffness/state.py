@@ -10,8 +10,8 @@ from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.configuration import Configuration
 from ..model.data import ModelData
+from .drives import force_of, reaction_of, value_at
 from .estimate import Estimate
-from .paths import force_of, reaction_of, value_at
 from .reduced import Reduced
 from .response import Response
 from .resultants import Resultants, peak_stress, resultants_of

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much may be off: buckling and shift of the first frequency, to first order in the stress.
 
-The stress is proportional to the error about the undeformed state. The square of the first
-frequency is the smallest eigenvalue of K + d G with M, a concave function of the error d: it
-falls to any level at most once on each side, before it is 0 where the mechanism buckles.
+The stress is proportional to the error d about the undeformed state. The square of the first
+frequency is the smallest eigenvalue of K + d G with M, a concave function of d: it falls to any
+level at most once on each side, before it is 0 where the mechanism buckles.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -20,22 +19,16 @@ from ..core.elastic import ElasticState
 from .errors import ElasticError
 from .imperfections import Imperfection
 from .paths import at_rest
-from .roots import falls_to, rises_to
-from .solution import MULTIPLIERS, Solution
+from .roots import rises_to
+from .solution import Solution
 from .solver import Held, Solver
 
 #: Errors larger than so many lengths of the model, or radians, are none that a design meets.
 _FAR = 1.0e3
 #: What rigid parts cannot follow, of what was asked, beyond rounding.
 _MISMATCH = 1.0e-8
-#: Multipliers beyond so many times the nearest are rounding.
-_ROUNDING = 1.0e6
 #: The part of the nearest critical error with which a rise is looked for.
 _BEGIN = 1.0e-2
-#: So many multipliers are looked at first; mostly there are both signs among them.
-_FEW = 4
-#: Critical errors of both signs are alike up to this part.
-_ALIKE = 1.0e-6
 
 Pair = tuple[float, float]
 
@@ -74,15 +67,24 @@ class Linear:
     @cached_property
     def critical(self) -> Pair:
         """The errors of both signs at which it buckles; infinite where it does not."""
-        for count in (_FEW, MULTIPLIERS):
-            values = self.stressed.multipliers(count).values
-            nearest = float(np.abs(values).min(initial=math.inf))
-            there = values[np.abs(values) < min(self._far, _ROUNDING * nearest)]
-            low = float(there[there < 0.0].max(initial=-math.inf))
-            high = float(there[there > 0.0].min(initial=math.inf))
-            if values.size < count or math.isfinite(low) == math.isfinite(high):
-                break
-        return low, high
+        return self._errors(0.0)
+
+    def _errors(self, square: float) -> Pair:
+        """The errors of both signs at which a frequency has this square; 0: it buckles."""
+        at = self.stressed
+        s, rest = at.solver, self._rest
+        found = elastic.errors(
+            s.model(at.held),
+            s.arrays,
+            rest.raw,
+            rest.way.gravity,
+            at.raw.stress[:, :, None],
+            square,
+        )
+        if found.negative:
+            raise ElasticError("the undeformed state is unstable, so that no error makes it so")
+        low, high = float(found.below[0]), float(found.above[0])
+        return low if -low < self._far else -math.inf, high if high < self._far else math.inf
 
     @property
     def _far(self) -> float:
@@ -114,41 +116,32 @@ class Linear:
             )
         return float(found.values[0])
 
-    def shifted(self, shift: float, near: Pair | None = None) -> Pair:
+    def shifted(self, shift: float) -> Pair:
         """The errors at which the first frequency has shifted by a part of itself.
+
+        A lower frequency is reached where K - square M + d G is singular first, on either side;
+        a higher one is looked for.
 
         Args:
             shift: Relative, above -1 and not 0.
-            near: As parts of the critical errors, where the answer is expected.
         """
         if shift not in self._shifted:
             wanted = self.first * (1.0 + shift) ** 2
-            low = self._one_way(-1.0, wanted, None if near is None else near[0])
-            part = None if near is None else near[1]
-            if abs(sum(self.critical)) <= _ALIKE * abs(self.critical[0]):
-                part = self.parts((low, low))[0]
-            self._shifted[shift] = low, self._one_way(1.0, wanted, part)
+            self._shifted[shift] = (
+                self._errors(wanted)
+                if shift < 0.0
+                else (self._rise(-1.0, wanted), self._rise(1.0, wanted))
+            )
         return self._shifted[shift]
 
-    def _one_way(self, sign: float, wanted: float, near: float | None) -> float:
-        limit = abs(self.critical[0 if sign < 0.0 else 1])
-        square: Callable[[float], float] = lambda d: self.square(sign * d)  # noqa: E731
-        if wanted < self.first:
-            return sign * falls_to(square, wanted, self.first, limit, near)
+    def _rise(self, sign: float, wanted: float) -> float:
         nearest = min(map(abs, self.critical))
         if math.isinf(nearest):
             # It falls on neither side, and is concave: it does not change.
             return sign * math.inf
-        far = min(limit, self._far)
-        return sign * rises_to(square, wanted, self.first, _BEGIN * nearest, far)
-
-    def parts(self, errors: Pair) -> Pair:
-        """Errors as parts of the critical ones; NaN where there is none."""
-        made = [
-            abs(error / limit) if math.isfinite(limit) and math.isfinite(error) else math.nan
-            for error, limit in zip(errors, self.critical, strict=True)
-        ]
-        return made[0], made[1]
+        far = min(abs(self.critical[0 if sign < 0.0 else 1]), self._far)
+        begin = _BEGIN * nearest
+        return sign * rises_to(lambda d: self.square(sign * d), wanted, self.first, begin, far)
 
 
 def finite(pair: FloatArray) -> Pair:

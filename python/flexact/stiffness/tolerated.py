@@ -15,6 +15,7 @@ from ..base.plain_text import in_short
 from ..core.arrays import FloatArray
 from . import paths
 from .compliance import kept
+from .drives import strokes_given
 from .errors import ElasticError
 from .estimate import Estimate
 from .imperfections import Imperfection, misalignment
@@ -42,7 +43,7 @@ class Tolerated(Setting):
             UnknownError: there is no such coordinate.
             ElasticError: it is not fixed; or it is over-constrained, and held rigid.
         """
-        return self._tolerated(node, coordinate, about, lambda each, _: each.critical)
+        return self._tolerated(node, coordinate, about, lambda each: each.critical)
 
     def misalignment_for(
         self, shift: float, node: object, coordinate: str, about: object = None
@@ -67,34 +68,26 @@ class Tolerated(Setting):
             ElasticError: it is not fixed; nothing has a mass; the first frequency is 0; the shift
                 is none; or it is over-constrained, and held rigid.
         """
-        part = paths.strokes_given(shift, False)[0]
+        part = strokes_given(shift, False)[0]
         if not part > -1.0 or part == 0.0:
             raise ElasticError(
                 f"a shift is above -1 and not 0 (-0.05: -5 %), not {in_short(shift)}"
             )
         self.require_mass()
-
-        def shifted(each: Linear, before: tuple[Linear, Pair] | None) -> Pair:
-            near = None if before is None else before[0].parts(before[1])
-            return each.shifted(part, near)
-
-        return self._tolerated(node, coordinate, about, shifted)
+        return self._tolerated(node, coordinate, about, lambda each: each.shifted(part))
 
     def _tolerated(
         self,
         node: object,
         coordinate: str,
         about: object,
-        of: Callable[[Linear, tuple[Linear, Pair] | None], Pair],
+        of: Callable[[Linear], Pair],
     ) -> Pair:
         off = misalignment(self.points, node, coordinate, 1.0, about)
+        self.require_stiffness()
         self.require_determined()
-        before: tuple[Linear, Pair] | None = None
-        found = []
-        for solver in self.solvers:
-            linear = self._linear(solver, off, (self.points.coordinate(node, coordinate), about))
-            found.append(of(linear, before))
-            before = linear, found[-1]
+        what = self.points.coordinate(node, coordinate), about
+        found = [of(self._linear(solver, off, what)) for solver in self.solvers]
         return found[0] if len(found) == 1 else finite(Estimate.of(*found).value)
 
     def _linear(self, solver: Solver, off: Imperfection, what: tuple[object, object]) -> Linear:
@@ -127,6 +120,7 @@ class Tolerated(Setting):
             ElasticError: nothing has a stiffness.
         """
         both = {**self.release, **numbered(self.data, releases_given(self.points, release))}
+        self.require_stiffness()
         other = replace(self, release=both)
         point = self.points.of(node)
         coordinates = self.points.coordinates(point)
@@ -136,7 +130,6 @@ class Tolerated(Setting):
                 paths.at_rest(each, self.locked).compliance(point, coordinates)
                 for each in (mine, its)
             )
-            paths.at_rest(mine, self.locked).require_stiffness()
             found.append(kept(before, after))
         if len(found) == 1 or found[0].shape != found[1].shape:
             return found[-1]

@@ -25,7 +25,10 @@ _MOST = 6_000_000
 
 
 class Verdict(NamedTuple):
-    """Counts in a configuration, and the smallest singular value of D(c) in the deck's units."""
+    """Counts in a configuration, and the smallest singular value of D(c) in the deck's units.
+
+    It is infinite where D(c) has no rows or no columns.
+    """
 
     under_constrained: int
     over_constrained: int
@@ -67,8 +70,7 @@ class Verdicts:
                 f"D(c) has {m} rows and {n} columns: it is not decomposed away from the reference"
             )
         dense = self._dense(configuration, held, free)
-        smallest = np.linalg.svd(dense, compute_uv=False).min(initial=math.inf)
-        value = float(smallest) if min(m, n) else 0.0
+        value = float(np.linalg.svd(dense, compute_uv=False).min(initial=math.inf))
         if at_rest:
             return Verdict(*self._counts_at_rest, value)
         turns = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)[free]

@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.arrays import FloatArray
 from .errors import ElasticError
+from .estimate import Estimate, matched_by_order, matched_by_sign
 
 if TYPE_CHECKING:
     from .state import State
 
 #: How many eigenvalues are told.
 _MOST = 6
+#: An uncertainty below this part of the value is not told.
+_SHOWN = 1.0e-6
 
 
 def describe(state: State) -> str:
@@ -52,16 +54,15 @@ def _stability(state: State) -> str:
 
 
 def _listed(state: State, name: str) -> str:
-    """Such as "9.92 (+- 0.01), 403"; the nearest to zero."""
-    estimate = state.estimate(lambda at: getattr(at, name)) if _same(state, name) else None
-    values: FloatArray = getattr(state, name)
-    off = np.zeros_like(values) if estimate is None else estimate.uncertainty
-    chosen = sorted(np.argsort(np.abs(values), kind="stable")[:_MOST].tolist())
+    """Such as "9.92 (+- 0.01), 403"; the nearest to zero, ascending."""
+    every = [getattr(each, name) for each in state.alone]
+    match = matched_by_sign if name == "multipliers" else matched_by_order
+    found = Estimate.of(*match(*every)) if len(every) > 1 else Estimate.fixed(every[0])
+    least = _SHOWN * np.abs(found.value)
+    nearest = np.argsort(np.abs(found.value), kind="stable")[:_MOST]
+    chosen = sorted(nearest.tolist(), key=lambda k: float(found.value[k]))
     return ", ".join(
-        f"{values[k]:.5g}" + (f" (+- {off[k]:.1g})" if off[k] > 0.0 else "") for k in chosen
+        f"{found.value[k]:.5g}"
+        + (f" (+- {found.uncertainty[k]:.1g})" if found.uncertainty[k] > least[k] else "")
+        for k in chosen
     )
-
-
-def _same(state: State, name: str) -> bool:
-    sizes = {np.size(getattr(each, name)) for each in state.alone}
-    return len(sizes) == 1

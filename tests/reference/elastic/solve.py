@@ -187,10 +187,10 @@ class Solver:
         turns = {node: place.turn[node].copy() for node in whole}
         return Load(load.force, load.gravity, load.misfit, targets, turns)
 
-    def equilibrium(self, start: Solution, end: Load) -> Solution:
-        """From one equilibrium to another; steps are halved where Newton fails."""
+    def equilibrium(self, start: Solution, end: Load, first: float = 1.0) -> Solution:
+        """From one equilibrium to another; steps, at most `first`, are halved where it fails."""
         begin = start.load
-        t, step, now = 0.0, 1.0, start
+        t, step, now = 0.0, first, start
         while t < 1:
             t_next = min(1.0, t + step)
             load = begin.between(end, t_next)
@@ -201,7 +201,7 @@ class Solver:
                     raise NoAnswerError(f"no equilibrium beyond {t:.6g} of the way")
                 continue
             now, t = found, t_next
-            step *= 1.5
+            step = min(1.5 * step, first)
         return Solution(now.place, now.stress, now.parameter_force, now.reaction, end)
 
     def _residual_of_place(self, place: Place, load: Load, free: list[int]) -> Real:
@@ -277,6 +277,7 @@ class Solver:
     def _finish(
         self, place: Place, load: Load, stress: Real, forces: dict[tuple[int, int], float]
     ) -> Solution | None:
+        """The state, if rigid deformations and equilibrium hold there."""
         m = self.mechanics
         e, d, _, _, weight = self.tangent_parts(place, stress, forces, load.gravity)
         strain = e - load.misfit
@@ -286,7 +287,13 @@ class Solver:
         exact[self.rigid] = stress[self.rigid]
         reaction = d.T @ exact - load.force - weight
         held = set(load.place) | {(node, a) for node in load.turn for a in range(3)}
-        free, _, _ = self.split(held)
+        free, parameters, _ = self.split(held)
+        rows = self.parameter_rows(place, parameters)
+        left = (reaction + rows.T @ np.array([forces[label] for label in parameters]))[free]
+        size = np.max(np.abs(d).T @ np.abs(exact), initial=0.0)
+        rounding = 1e-13 * np.max(np.abs(d).T @ np.diag(self.s), initial=0.0) * m.length
+        if np.max(np.abs(left), initial=0.0) > 1e-7 * size + rounding:
+            return None
         reaction[free] = 0
         return Solution(place, exact, forces, reaction, load)
 

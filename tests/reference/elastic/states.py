@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from jets import Real
@@ -11,7 +11,15 @@ from mechanics import matrix_of, product, quaternion, vector_of
 from solve import Load, NoAnswerError, Solution, Solver, critical_values, squared_frequencies
 from structure import AXES, read, refine
 
-Release = Iterable[tuple[int, int] | tuple[tuple[int, int], float]]
+Pair = tuple[int, int]
+Release = Iterable[Pair] | Mapping[Pair, float]
+
+
+def _pairs(release: Release) -> list[tuple[Pair, float]]:
+    """Deformations with the stiffness in series, 0 for a perfect hinge."""
+    if isinstance(release, Mapping):
+        return list(release.items())
+    return [(pair, 0.0) for pair in release]
 
 
 class Oracle:
@@ -27,11 +35,9 @@ class Oracle:
         misfit: tuple[int, int, float] | None = None,
     ) -> None:
         self.text, self.policy, self.drive = text, held, drive
-        pairs = release.items() if isinstance(release, dict) else release
-        self.release, self.beams = list(pairs), beams
+        self.release, self.beams = _pairs(release), beams
         deck = read(text)
-        for entry in self.release:
-            pair, stiffness = entry if isinstance(entry[0], tuple) else (entry, 0.0)
+        for pair, stiffness in self.release:
             deck.parts[pair[0]].notches[pair[1] - 1] = stiffness
         if misfit:
             deck.parts[misfit[0]].misfit[misfit[1] - 1] = misfit[2]
@@ -77,7 +83,9 @@ class Oracle:
                 force[self.mechanics.column[label]] = value
         return force
 
-    def along(self, node: int, coordinate: str, values: Sequence[float]) -> tuple[State, ...]:
+    def along(
+        self, node: int, coordinate: str, values: Sequence[float], steps: int = 1
+    ) -> tuple[State, ...]:
         axis = AXES[coordinate]
         held = self.held | {(node, axis)}
         state, states = self.at_rest(held), []
@@ -93,7 +101,7 @@ class Oracle:
             else:
                 place[node, axis] = float(np.sin(value / 2))
             end = Load(load.force, load.gravity, load.misfit, place, turn)
-            state = self.solver.equilibrium(state, end)
+            state = self.solver.equilibrium(state, end, 1 / steps)
             states.append(State(self, state, (node, axis)))
         return tuple(states)
 
@@ -103,7 +111,7 @@ class Oracle:
             self.text,
             self.policy,
             self.drive,
-            self.release,
+            dict(self.release),
             self.beams,
             (element, deformation, value),
         )
@@ -208,9 +216,14 @@ class Oracle:
         self, node: int, coordinate: str, about: Sequence[float] | None = None
     ) -> tuple[float, float]:
         _, k, g, _ = self._prestress(self.shift(node, coordinate, about))
+        return self._critical(k, g)
+
+    def _critical(self, k: Real, g: Real) -> tuple[float, float]:
+        """Of both signs; what is beyond a thousand lengths or radians is rounding."""
         values = critical_values(k, g)
-        values = values[np.abs(values) < 1e6 * np.min(np.abs(values), initial=np.inf)]
-        return _nearest(values)
+        far = 1e3 * max(1.0, self.mechanics.length)
+        near = 1e6 * np.min(np.abs(values), initial=np.inf)
+        return _nearest(values[np.abs(values) < min(far, near)])
 
     def misalignment_for(
         self, shift: float, node: int, coordinate: str, about: Sequence[float] | None = None
@@ -218,7 +231,7 @@ class Oracle:
         _, k, g, mass = self._prestress(self.shift(node, coordinate, about))
         aim = squared_frequencies(k, mass)[0][0] * (1 + shift) ** 2
         # the first frequency reaches the aim where K - aim M + d G is singular: bisect on d
-        low, high = _nearest(critical_values(k, g))
+        low, high = self._critical(k, g)
         bounds = []
         for limit in (low, high):
             a, b = 0.0, limit if np.isfinite(limit) else np.sign(limit) * 1.0
@@ -233,8 +246,11 @@ class Oracle:
 
     def kept(self, node: int, release: Release) -> Real:
         before = self.undeformed().compliance(node)
-        both = [*self.release, *release]
-        other = Oracle(self.text, self.policy, self.drive, both, self.beams)
+        both = [*self.release, *_pairs(release)]
+        other = Oracle(self.text, self.policy, self.drive, dict(both), self.beams)
+        if other.solver.s.shape == self.solver.s.shape:
+            # what a release leaves loose keeps next to nothing, not exactly nothing
+            other.solver.s = other.solver.s + 1e-8 * self.solver.s
         after = other.undeformed().compliance(node)
         free = np.diag(before) > 1e-14 * np.diag(before).max()
         before, after = before[np.ix_(free, free)], after[np.ix_(free, free)]
@@ -311,13 +327,16 @@ class State:
         return float(whole.deformations(self.solution.place)[0][whole.row[element, k - 1]])
 
     def stress(self, element: int, k: int) -> float:
+        """Forces and torques are means along the pieces of an element."""
         pieces = self.oracle.structure.ends[element]
         part = self.oracle.deck.parts[element]
         m, n = self.oracle.mechanics, len(pieces)
         at_q = k in ((3,) if part.keyword == "PLBEAM" else (4, 6))
-        label = pieces[-1] if at_q else pieces[0]
-        value = self.solution.stress[m.row[label, k - 1]]
-        return float(value / n if k > 1 else value)
+        at_end = k in ((2, 3) if part.keyword == "PLBEAM" else (3, 4, 5, 6))
+        values = [self.solution.stress[m.row[label, k - 1]] for label in pieces]
+        if at_end:
+            return float(values[-1 if at_q else 0] / n)
+        return float(np.mean(values) / (n if k > 1 else 1))
 
     @property
     def force(self) -> float:
