@@ -97,7 +97,7 @@ contains
       call largest_pairs(operator, size(operator%matrix, 1), wanted, values, vectors, error)
       call tally%check(.not. allocated(error), name//': converged')
       call tally%near(abs(values), abs(expected(:found)), 1.0e-12_wp, name//': values')
-      call tally%near([sum(values)], [sum(expected(:found))], merge(1.0e-11_wp, 3.0_wp, name(:5) /= 'in pa'), name//': signs')
+      call tally%near([sum(values)], [sum(expected(:found))], merge(1.0e-11_wp, 3.0_wp, index(name, 'in pa') /= 1), name//': signs')
       if (size(values) /= found) return
       call tally%near([matmul(operator%matrix, vectors)], [vectors*spread(values, 1, size(vectors, 1))], 1.0e-9_wp, &
                       name//': vectors')

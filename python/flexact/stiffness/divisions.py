@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal
 
 import numpy as np
@@ -76,8 +77,8 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
     if beams == 1:
         return (np.ones(which.shape, np.int32),)
     there = np.ones(which.shape, np.int32)
-    for chain in data.chains:
-        there[list(chain.elements)] = len(chain.elements)
+    for row in _uniform_rows(data):
+        there[row] = len(row)
     wanted = COARSE if beams == "auto" else beams
     pieces = np.where(which, -(-wanted // there), 1).astype(np.int32)
     if beams != "auto":
@@ -85,6 +86,32 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
     if not which.any():
         return (pieces,)
     return pieces, np.where(which, 2 * pieces, 1).astype(np.int32)
+
+
+def _uniform_rows(data: ModelData) -> Iterator[list[int]]:
+    """Elements of each sheet that the deck divides.
+
+    Where stiffness or mass changes, or a load or a mass stands between two beams, another
+    sheet begins.
+    """
+    said = data.properties
+    for chain in data.chains:
+        row = [chain.elements[0]]
+        for k, element in enumerate(chain.elements[1:], start=1):
+            joint = [chain.positions[k], chain.orientations[k]]
+            alike = said is None or (
+                np.array_equal(said.stiffness[element], said.stiffness[row[-1]], equal_nan=True)
+                and np.array_equal(said.mass[element], said.mass[row[-1]], equal_nan=True)
+                and not (np.nan_to_num(said.node_mass[joint]) != 0).any()
+            )
+            loads = data.loads
+            if loads is not None:
+                alike &= not (loads.force[joint].any() or loads.increment[joint].any())
+            if not alike:
+                yield row
+                row = []
+            row.append(element)
+        yield row
 
 
 def rigid_of_pieces(
