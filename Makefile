@@ -12,7 +12,8 @@ PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist workstea
 QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
          derivatives certainty accuracy json advice advice_on_declarations modes broken_decks no_cascades \
          diagnostics_rendering reading regress engine cli outputs wording docs version package_files parts screws \
-         builder_words builder_bodies builder_edits gallery sweep crossings notebooks
+         builder_words builder_bodies builder_edits gallery sweep crossings notebooks elastic_core \
+         stiffness_cases
 
 # Tests that compare words with files.
 WORDED := wording advice_wording broken_decks appearance docs element_table gallery
@@ -22,6 +23,8 @@ WORDED := wording advice_wording broken_decks appearance docs element_table gall
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
 	$(BIN)/flexact report input_decks/paper/six_folded_sheets.dat -o results/six_folded_sheets.html
+	$(BIN)/flexact cost input_decks/paper/six_folded_sheets.dat --stroke 1:z=0.026..0.034 \
+	  -o results/six_folded_sheets_cost.png
 	@echo
 	@echo "Written to the folder results:"
 	@ls results

@@ -28,7 +28,7 @@ REFUSED: dict[str, Callable[[], Any]] = {
         -0.05, 1, "x"
     ),
     "over-constrained by 1": lambda: elastic(guide(), held="rigid").misaligned(1, "x", 1e-5),
-    'ask with held="elastic"': lambda: elastic(guide(), held="rigid").misfit(1, 1, 1e-5),
+    "ask with held elastic": lambda: elastic(guide(), held="rigid").misfit(1, 1, 1e-5),
     "not determined": lambda: elastic(guide(), held="rigid").critical_misalignment(1, "x"),
     "is not held": lambda: elastic(guide()).misaligned(9, "x", 1e-5),
     "is fixed": lambda: elastic(guide()).along(1, "x", [0]),

@@ -128,7 +128,7 @@ class Setting(Frozen):
             raise ElasticError(
                 f"the mechanism is over-constrained by {self.verdicts.over_constrained} and what "
                 "is fixed is held rigid: the stress that something off causes is then not "
-                'determined; ask with held="elastic"'
+                "determined; ask with held elastic"
             )
 
     def drive_of(self, drive: Coordinate | None) -> Coordinate:
