@@ -21,9 +21,19 @@ says of them. `make gallery` writes these pages anew, and those that move to `re
 """
 TAIL = """
 
+What over-constraint costs, and what a release gains, as
+[one picture](../pictures.md#what-over-constraint-costs):
+
+![Six folded sheets as built, and with each of three releases](cost.png)
+
 Sweeps, as notebooks:
 
 """
+
+
+#: The deck of which the cost is drawn, and its stroke.
+COSTS = GALLERY.parents[1] / "input_decks" / "paper" / "six_folded_sheets.dat"
+STROKE = "1:z+=-4mm..4mm"
 
 
 def scripts() -> list[Path]:
@@ -67,6 +77,11 @@ def main(folder: Path | None) -> None:
         if folder is not None:
             analysis.save(folder / f"{script.stem}.html")
         print(f"{script.stem}: {analysis.verdict}")
+    cost = flexact.cost(COSTS, stroke=STROKE)
+    cost.save(GALLERY / "cost.png")
+    if folder is not None:
+        cost.save(folder / "cost.html")
+    print("cost: drawn")
     notebooks.main()
 
 

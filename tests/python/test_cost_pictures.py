@@ -80,6 +80,7 @@ VARIANTS = {
     "neither": lambda cost: without_stroke(without_masses(cost)),
     "six designs with notches": with_notches,
     "as built alone": lambda cost: replace(cost, designs=cost.designs[:1]),
+    "with notes": lambda cost: replace(cost, left_out=("no masses are given " * 12, "a note")),
 }
 
 

@@ -17,7 +17,7 @@ from .bars import bars_of
 from .curves import charts_of
 from .designs import CostValues
 from .key import key_of, typeset
-from .plot_head import draw_head, head_height
+from .plot_head import draw_head, draw_notes, head_height, notes_of
 from .plot_table import HEAD, table_of
 from .words import first_line
 
@@ -52,17 +52,19 @@ def plot_of(cost: CostValues) -> Any:
     FigureCanvasAgg(measure)
     table = table_of(measure, key_of(cost), typeset(first_line(cost)))
     rows = max((bars_height(each) for each in bars), default=0.0)
-    head = head_height(table)
+    head, notes = head_height(table), notes_of(measure, cost)
     heights = (
         head,
         (_ABOVE + _CHART + _BELOW) * bool(charts),
         (_ABOVE + _ROW * rows + _END) * bool(bars),
     )
-    figure: Any = Shown(figsize=(_WIDTH, sum(heights)), dpi=_DPI, facecolor="white")
+    below = (HEAD.second * len(notes) + HEAD.room) * bool(notes)
+    figure: Any = Shown(figsize=(_WIDTH, sum(heights) + below), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     draw_head(figure, cost, table)
     _draw_charts(figure, charts, heights[0])
     _draw_bars(figure, bars, heights[0] + heights[1])
+    draw_notes(figure, notes)
     return figure
 
 

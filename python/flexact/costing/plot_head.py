@@ -5,11 +5,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..base.plain_text import harmless
 from ..drawing.charts.series import style_of
 from ..picture.charts import INK, SOFT, written
 from .designs import CostValues
 from .key import KeyRow, choices_of
-from .plot_table import HEAD, Table
+from .plot_table import HEAD, Table, wrapped
+
+#: How many notes stand in the picture; the words have them all.
+_NOTES = 4
 
 
 def head_height(table: Table) -> float:
@@ -33,6 +37,24 @@ def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
     for row, told, height in zip(table.rows, table.words, table.heights, strict=True):
         _draw_row(figure, table, row, told, top)
         top += height
+
+
+def notes_of(figure: Any, cost: CostValues) -> list[str]:
+    """What the deck does not allow, in lines that fit; measured on any figure."""
+    room = HEAD.end - HEAD.left
+    return [
+        line
+        for note in cost.left_out[:_NOTES]
+        for line in wrapped(figure, harmless(f"{note[:1].upper()}{note[1:]}."), room, HEAD.small)
+    ]
+
+
+def draw_notes(figure: Any, notes: list[str]) -> None:
+    """Lines at the lower edge."""
+    top = figure.get_figheight() - HEAD.second * len(notes) - HEAD.room
+    for line in notes:
+        _text(figure, HEAD.left, top, line, HEAD.small, SOFT)
+        top += HEAD.second
 
 
 def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: float) -> None:

@@ -23,6 +23,7 @@ class Head(NamedTuple):
     room: float = 0.12
     headline: float = 16.0
     words: float = 10.5
+    small: float = 9.0
 
 
 HEAD = Head()
