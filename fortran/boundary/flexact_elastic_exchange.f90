@@ -46,12 +46,38 @@ contains
       logical, intent(in) :: free
       type(elastic_model_t), intent(out) :: elastic
       type(model_t) :: model
+      type(properties_t) :: given
 
       call unpack_model(nodes, places, elements, vectors, model)
       if (free) model%deformation_class = 0
-      call make_elastic_model(model, properties_t(of_elements(:6, :), of_elements(7:11, :), of_nodes(:6, :), &
-                                                  of_elements(12:17, :)), elastic)
+      ! Assigned one by one: gfortran 12 copies sections wrongly in a constructor.
+      given%stiffness = of_elements(:6, :)
+      given%mass = of_elements(7:11, :)
+      given%notch = of_elements(12:17, :)
+      given%node_mass = of_nodes(:6, :)
+      call make_elastic_model(model, given, elastic)
    end subroutine unpack
+
+   !> Configuration, reactions and stress as they stand in of_nodes and of_elements.
+   pure subroutine take_state(of_nodes, of_elements, state)
+      real(wp), intent(in) :: of_nodes(:, :), of_elements(:, :)
+      type(state_t), intent(out) :: state
+
+      state%configuration = of_nodes(7:10, :)
+      state%reaction = of_nodes(11:13, :)
+      state%stress = of_elements(18:23, :)
+   end subroutine take_state
+
+   !> of_nodes (7): target and force.
+   pure subroutine take_waypoint(of_nodes, misfit, gravity, waypoint)
+      real(wp), intent(in) :: of_nodes(:, :), misfit(:, :), gravity(:)
+      type(waypoint_t), intent(out) :: waypoint
+
+      waypoint%target = of_nodes(:4, :)
+      waypoint%force = reshape(of_nodes(5:7, :), [3*size(of_nodes, 2)])
+      waypoint%misfit = misfit
+      waypoint%gravity = gravity
+   end subroutine take_waypoint
 
    !> of_nodes: from row 7 configuration (4) and reaction (3) of the start, then target (4) and
    !> force (3) of the beginning and of the end; of_elements: from row 18 stress of the start,
@@ -64,8 +90,8 @@ contains
       type(elastic_model_t) :: elastic
       type(waypoint_t) :: begin, end
       type(path_t) :: path
+      type(state_t) :: state
       type(blas_work_t) :: work
-      integer :: n
 
       configuration = of_nodes(7:10, :)
       reaction = of_nodes(11:13, :)
@@ -73,10 +99,10 @@ contains
       facts = -1.0_wp
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       call unpack(nodes, places, elements, vectors, of_nodes, of_elements, .false., elastic)
-      n = 3*size(nodes, 2)
-      begin = waypoint_t(of_nodes(14:17, :), of_elements(24:29, :), reshape(of_nodes(18:20, :), [n]), gravity(:, 1))
-      end = waypoint_t(of_nodes(21:24, :), of_elements(30:35, :), reshape(of_nodes(25:27, :), [n]), gravity(:, 2))
-      call follow(elastic, state_t(of_nodes(7:10, :), of_elements(18:23, :), of_nodes(11:13, :)), begin, end, path)
+      call take_waypoint(of_nodes(14:20, :), of_elements(24:29, :), gravity(:, 1), begin)
+      call take_waypoint(of_nodes(21:27, :), of_elements(30:35, :), gravity(:, 2), end)
+      call take_state(of_nodes, of_elements, state)
+      call follow(elastic, state, begin, end, path)
       configuration = path%state%configuration
       reaction = path%state%reaction
       stress = path%state%stress
@@ -92,8 +118,8 @@ contains
    !> elements) and shift (3 nodes), of displacement, stress and reaction; modes are
    !> displacements alone, and of matrices given(1, :) has the coordinates and answer(:q, :3q)
    !> three matrices. For errors given(1, 1) has the square and the rows of misfits have stresses;
-   !> answer(:2, :) the errors below and above zero. Behind answers stand motions without stiffness, as many as there is room
-   !> for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
+   !> answer(:2, :) the errors below and above zero. Behind answers stand motions without
+   !> stiffness, as many as there is room for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
    !> negative stiffnesses, 1 where coordinates determine all others or
    !> no mode is missing, 1 where the arithmetic fails.
    subroutine run_task(nodes, places, elements, vectors, of_nodes, of_elements, wishes, given, answer, values, facts)
@@ -110,7 +136,7 @@ contains
       if (blas_begin(1, 0.0_wp, work) /= 0) return
       facts(5) = 0.0_wp
       call unpack(nodes, places, elements, vectors, of_nodes, of_elements, .false., elastic)
-      state = state_t(of_nodes(7:10, :), of_elements(18:23, :), of_nodes(11:13, :))
+      call take_state(of_nodes, of_elements, state)
       call make_base(elastic, state, wishes(3:5), base)
       select case (nint(wishes(1)))
       case (1); call run_linear(elastic, base, given, answer, values, facts)

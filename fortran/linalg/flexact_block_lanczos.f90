@@ -107,6 +107,7 @@ contains
       end do
       if (restarts > most_restarts) call fail(error_not_found, error)
       found = min(wanted, count(abs(theta) > zero*maxval(abs(theta))))
+      if (found == 0) return
       values = theta(:found)
       vectors = product_with(process%space(:, :process%used), turn(:, :found))
    end subroutine largest_pairs

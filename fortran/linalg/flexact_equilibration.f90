@@ -15,7 +15,7 @@ contains
       type(sparse_t), intent(in) :: matrix
       real(wp), intent(out) :: scale(:)
       real(wp), intent(in), optional :: least(:)
-      real(wp) :: largest(size(scale)), unscaled(size(scale))
+      real(wp) :: largest(size(scale)), unit(size(scale))
       integer :: i, j, entry, round
 
       scale = 0.0_wp
@@ -29,16 +29,17 @@ contains
       end do
       scale = sqrt(scale)
       do round = 1, 2
-         unscaled = merge(scale, 1.0_wp, scale > 0)
+         unit = 1/merge(scale, 1.0_wp, scale > 0)
          largest = 0.0_wp
          do j = 1, matrix%columns
             do entry = matrix%start(j), matrix%start(j + 1) - 1
                i = matrix%place(entry)
                if (i <= j) cycle
-               largest(i) = max(largest(i), abs(matrix%value(entry)/unscaled(j)))
-               largest(j) = max(largest(j), abs(matrix%value(entry)/unscaled(i)))
+               largest(i) = max(largest(i), abs(matrix%value(entry)*unit(j)))
+               largest(j) = max(largest(j), abs(matrix%value(entry)*unit(i)))
             end do
          end do
+         if (all(largest <= scale)) exit
          scale = max(scale, largest)
       end do
       where (.not. scale > 0) scale = 1.0_wp

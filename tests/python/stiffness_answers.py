@@ -314,7 +314,7 @@ known(
 known("kept-of-four-bars", _BAR_DECK,
       np.sort(np.linalg.eigvals(np.linalg.solve(_BAR_K, _BAR_K - 1e4 / np.linalg.norm(_BARS[2])
               ** 3 * np.outer(_BARS[2], _BARS[2]))).real),
-      "eigenvalues of K^-1 (K - EA/L n n')")(
+      "eigenvalues of K^-1 (K - EA/L n n')", 1e-7)(
     lambda model: model().kept(1, [(3, 1)]))  # fmt: skip
 known("kept-of-a-guide", guide(1), None,
       "the oracle of tests/reference/elastic")(

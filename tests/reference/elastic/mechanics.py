@@ -156,14 +156,13 @@ class Mechanics:
             jets = FUNCTIONS[keyword](self.batch(place, labels))
             for i, label in enumerate(labels):
                 part = self.structure.parts[label]
-                where = self.columns_of(part)
+                where = np.array(self.columns_of(part))
+                there = np.flatnonzero(where >= 0)
                 for k, jet in enumerate(jets):
                     row = self.row[label, k]
                     e[row] = jet.value[i]
                     second[row] = jet.hessian[i]
-                    for j, column in enumerate(where):
-                        if column >= 0:
-                            d[row, column] += jet.gradient[i, j]
+                    np.add.at(d[row], where[there], jet.gradient[i, there])
         return e, d, second
 
     def geometric(self, second: Real, stress: Real) -> Real:
@@ -176,9 +175,8 @@ class Mechanics:
 
     def _add(self, matrix: Real, part: Part, block: Real) -> None:
         where = np.array(self.columns_of(part))
-        for i in np.flatnonzero(where >= 0):
-            for j in np.flatnonzero(where >= 0):
-                matrix[where[i], where[j]] += block[i, j]
+        there = np.flatnonzero(where >= 0)
+        np.add.at(matrix, np.ix_(where[there], where[there]), block[np.ix_(there, there)])
 
     def mass(self, place: Place) -> Real:
         m = np.zeros((self.size, self.size))

@@ -250,7 +250,7 @@ class Oracle:
         other = Oracle(self.text, self.policy, self.drive, dict(both), self.beams)
         if other.solver.s.shape == self.solver.s.shape:
             # what a release leaves loose keeps next to nothing, not exactly nothing
-            other.solver.s = other.solver.s + 1e-8 * self.solver.s
+            other.solver.s = other.solver.s + 1e-9 * self.solver.s
         after = other.undeformed().compliance(node)
         free = np.diag(before) > 1e-14 * np.diag(before).max()
         before, after = before[np.ix_(free, free)], after[np.ix_(free, free)]
