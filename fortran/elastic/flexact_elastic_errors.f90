@@ -3,6 +3,7 @@
 !> lowest stiffness to zero: the values d nearest to zero at which K - square M + d H(stress) is
 !> singular. K with its factor serves all stresses.
 module flexact_elastic_errors
+   use flexact_block_lanczos, only: self_adjoint_t, largest_pairs
    use flexact_elastic_assembly, only: assemble_hessian, assemble_mass
    use flexact_elastic_model, only: elastic_model_t
    use flexact_elastic_operator, only: operator_t, make_operator, shift_operator
@@ -15,6 +16,9 @@ module flexact_elastic_errors
    use flexact_kinds, only: wp
    use flexact_projection, only: project
    use flexact_sparse, only: sparse_t
+   use flexact_symmetric_factor, only: symmetric_factor_t, factorise, solve
+   use flexact_symmetric_lanes, only: symmetric_times
+   use flexact_symmetric_pattern, only: symmetric_pattern_t
    use flexact_symmetric_pencil, only: pairs_t, pairs_next_to_zero
    implicit none
    private
@@ -27,14 +31,47 @@ module flexact_elastic_errors
       logical :: failed = .false.
    end type errors_t
 
+   !> inv(A) B in the inner product of A, which is definite.
+   type, extends(self_adjoint_t) :: definite_t
+      type(symmetric_pattern_t), pointer :: pattern => null()
+      type(operator_t), pointer :: a => null()
+      type(sparse_t), pointer :: b => null()
+   contains
+      procedure :: apply
+      procedure :: weigh
+   end type definite_t
+
    !> Pairs that are looked for at first, and at most, until there is one on either side.
    integer, parameter :: few = 2, many = 24
+   !> Vectors that are sent through the operator at a time, where the result is checked.
+   integer, parameter :: narrow = 2
+   !> Nearer to zero than this part of the nearest error there is none.
+   real(wp), parameter :: inside = 1 - 1.0e-6_wp
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
    real(wp), parameter :: accuracy = 1.0e-5_wp
    !> Values so many times the nearest are rounding.
    real(wp), parameter :: rounding = 1.0e6_wp
 
 contains
+
+   subroutine apply(self, x, weighed, y)
+      class(definite_t), intent(in) :: self
+      real(wp), intent(in), contiguous :: x(:, :), weighed(:, :)
+      real(wp), intent(out), contiguous :: y(:, :)
+
+      associate (unused => weighed)
+      end associate
+      call symmetric_times(self%b, x, y)
+      call solve(self%pattern, self%a%factor, y)
+   end subroutine apply
+
+   subroutine weigh(self, x, y)
+      class(definite_t), intent(in) :: self
+      real(wp), intent(in), contiguous :: x(:, :)
+      real(wp), intent(out), contiguous :: y(:, :)
+
+      call symmetric_times(self%a%matrix, x, y)
+   end subroutine weigh
 
    !> The base is that of a state without stress. No errors are found where K - square M has
    !> something negative, or K a motion without stiffness beside a square.
@@ -92,8 +129,9 @@ contains
       above = huge(1.0_wp)
       failed = .false.
       if (.not. any(abs(hessian%value) > 0)) return
+      call find_quickly(base, op, hessian, pairs)
       wanted = few
-      do
+      do while (.not. pairs%is_complete)
          call pairs_next_to_zero(base%space%projection%pattern, op%matrix, op%factor, hessian, wanted, pairs, error, op%least, &
                                  accuracy)
          failed = allocated(error)
@@ -109,6 +147,41 @@ contains
          if (pairs%values(i) > 0) above = min(above, settled(elastic, base, square, pairs%vectors(:, i)))
       end do
    end subroutine find_nearest
+
+   !> The same with few vectors at a time. is_complete: there is a value on either side, and none is
+   !> nearer than the nearest.
+   subroutine find_quickly(base, op, hessian, pairs)
+      type(base_t), target, intent(in) :: base
+      type(operator_t), target, intent(in) :: op
+      type(sparse_t), target, intent(in) :: hessian
+      type(pairs_t), intent(out) :: pairs
+      type(definite_t) :: operator
+      type(symmetric_factor_t) :: factor
+      type(sparse_t) :: matrix
+      type(error_t), allocatable :: error
+      real(wp) :: nearest
+      integer :: wanted
+
+      if (size(op%loose, 2) > 0) return
+      operator%pattern => base%space%projection%pattern
+      operator%a => op
+      operator%b => hessian
+      wanted = few
+      do
+         call largest_pairs(operator, base%space%motions, wanted, pairs%values, pairs%vectors, error, narrow, accuracy)
+         if (allocated(error)) return
+         if (any(pairs%values > 0) .and. any(pairs%values < 0)) exit
+         if (size(pairs%values) < wanted .or. wanted >= many) return
+         wanted = 3*wanted
+      end do
+      pairs%values = -1/pairs%values
+      nearest = pairs%values(minloc(abs(pairs%values), 1))
+      matrix = op%matrix
+      matrix%value = matrix%value + inside*nearest*hessian%value
+      call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
+      if (allocated(error)) return
+      pairs%is_complete = factor%negative == 0
+   end subroutine find_quickly
 
    !> The error of a vector by the elements' own products, which lose fewer digits.
    function settled(elastic, base, square, y) result(value)

@@ -337,6 +337,15 @@ def test_points_of_one_kind_of_coordinate_have_costs(deck: str) -> None:
     assert made.describe() and made.to_dict()["designs"]
 
 
+def test_what_cannot_move_at_all_has_no_frequencies() -> None:
+    made = cost(model("B04"), held="rigid", release=(), beams=1)
+    assert made.as_built.frequencies is not None
+    text = case("B04")["deck"].replace("RLSE", "% RLSE")
+    made = cost(flexact.read_text(text), held="rigid", release=(), beams=1, misalign=["1:x=1um"])
+    assert made.as_built.frequencies is None and made.describe()
+    assert made.as_built.effect is not None and made.as_built.effect.frequencies is None
+
+
 def with_stiffness(deck: str) -> Model:
     """A deck whose bars and planar beams get a stiffness."""
     text = (ROOT / "input_decks" / f"{deck}.dat").read_text(encoding="utf-8").split("END")[0]

@@ -105,6 +105,8 @@ def curve_of(
         frequencies = _stacked([row[4] for row in rows])
         drives = [_drives(measures, state, is_locked) for state in along.states]
         parasitic = _without(frequencies, drives)
+        if not frequencies.value.size:
+            frequencies = parasitic = None
     return StrokeCurve(
         along.values,
         stiffness,

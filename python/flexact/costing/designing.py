@@ -52,6 +52,8 @@ def frequencies_of(measures: Measures, bench: Bench) -> tuple[Numbers | None, tu
     if not measures.has_masses:
         return None, ()
     found = numbers(over_levels(measures.frequencies, bench.rest))
+    if not found.value.size:
+        return None, ()
     if bench.choice.drive == "locked":
         return found, (False,) * found.value.size
     return found, drives_of(measures, bench.rest, found.value.size)

@@ -35,10 +35,11 @@ def effect_of(bench: Bench, measures: Measures, given: Given, parts: Parts) -> E
     kept = over_levels(measures.worst, *both)
     carried = [numbers(over_levels(_largest, each)) for each in both]
     peak, where = _peaks(bench, both)
+    hertz = None
+    if measures.has_masses:
+        hertz = _both([numbers(over_levels(measures.frequencies, each)) for each in both])
     return Effect(
-        _both([numbers(over_levels(measures.frequencies, each)) for each in both])
-        if measures.has_masses
-        else None,
+        hertz if hertz is not None and hertz.value.size else None,
         _both([numbers(over_levels(measures.stiffness, each)) for each in both]),
         _first([numbers(over_levels(lambda s: np.array([s.energy]), each)) for each in both]),
         _both(carried),

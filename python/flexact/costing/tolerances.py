@@ -23,8 +23,9 @@ from .values import Misalignment, Number, Numbers, Tolerance
 _FAR = 10.0
 #: A design that buckles within so many times the reach is followed until it does.
 _NEAR = 1.5
-#: Places of a curve on each side of zero, closer where it falls steeply.
-_PLACES = 9
+#: Places of a curve on each side of zero, closer where it falls steeply; few where it does not
+#: fall to zero.
+_PLACES, _FEW_PLACES = 9, 3
 
 
 def tolerances_of(
@@ -102,8 +103,7 @@ def curve_against(bench: Bench, tolerance: Tolerance, reach: float) -> Misalignm
     first, last = (
         end if abs(end) <= _NEAR * reach else math.copysign(reach, end) for end in (low, high)
     )
-    bend = np.sin(np.linspace(0.0, math.pi / 2.0, _PLACES + 1)[1:])
-    values = np.concatenate([first * bend[::-1], [0.0], last * bend])
+    values = np.concatenate([_places(first, low)[::-1], [0.0], _places(last, high)])
     rows = []
     for level in bench.levels:
         stress = level.stresses((tolerance.misalignment,))[:, :, 0]
@@ -116,3 +116,10 @@ def curve_against(bench: Bench, tolerance: Tolerance, reach: float) -> Misalignm
         values,
         Numbers(measure, np.where(measure > 0.0, whole.uncertainty, 0.0)),
     )
+
+
+def _places(end: float, critical: float) -> FloatArray:
+    """Errors from near zero to an end: more of them where the design buckles there."""
+    count = _PLACES if end == critical else _FEW_PLACES
+    made: FloatArray = end * np.sin(np.linspace(0.0, math.pi / 2.0, count + 1)[1:])
+    return made
