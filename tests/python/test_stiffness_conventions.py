@@ -264,14 +264,13 @@ def test_size_and_place_do_not_matter(size: float, off: tuple[float, float, floa
     assert far.over_constrained == near.over_constrained
 
 
-def test_beams_of_other_stiffness_or_with_a_load_between_are_sheets_of_their_own() -> None:
-    """Beams a sheet are counted where a sheet is one: alike all along, and loaded at its ends."""
+def test_beams_of_other_stiffness_are_sheets_of_their_own() -> None:
+    """Beams a sheet are counted where a sheet is one: alike all along."""
     deck = (
         "X 1 0 0\nX 3 0.1 0\nX 5 0.2 0\nFIX 1\nFIX 2\n"
         "PLBEAM 1 1 2 3 4\nPLBEAM 2 3 4 5 6\nRLSE 1 2 3\nRLSE 2 2 3\nEND\nHALT\n"
-        "ESTIFF 1 1e6 0.1\nESTIFF 2 1e6 {}\n{}END\nEND\n"
+        "ESTIFF 1 1e6 0.1\nESTIFF 2 1e6 {}\nEND\nEND\n"
     )
-    for second, load, pieces in ((0.1, "", 2), (0.2, "", 4), (0.1, "XF 3 0 1\n", 4)):
-        model = flexact.read_text(deck.format(second, load))
-        elastic = flexact.elastic(model, beams=4)
-        assert elastic.undeformed().data.arrays.element_number.size == 2 * pieces
+    for second, pieces in ((0.1, 4), (0.2, 8)):
+        elastic = flexact.elastic(flexact.read_text(deck.format(second)), beams=4)
+        assert elastic.undeformed().data.arrays.element_number.size == pieces

@@ -89,25 +89,15 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
 
 
 def _uniform_rows(data: ModelData) -> Iterator[list[int]]:
-    """Elements of each sheet that the deck divides.
-
-    Where stiffness or mass changes, or a load or a mass stands between two beams, another
-    sheet begins.
-    """
+    """Elements of each sheet that the deck divides; where `ESTIFF` or `EM` change, another begins."""
     said = data.properties
     for chain in data.chains:
         row = [chain.elements[0]]
-        for k, element in enumerate(chain.elements[1:], start=1):
-            joint = [chain.positions[k], chain.orientations[k]]
-            alike = said is None or (
-                np.array_equal(said.stiffness[element], said.stiffness[row[-1]], equal_nan=True)
-                and np.array_equal(said.mass[element], said.mass[row[-1]], equal_nan=True)
-                and not (np.nan_to_num(said.node_mass[joint]) != 0).any()
-            )
-            loads = data.loads
-            if loads is not None:
-                alike &= not (loads.force[joint].any() or loads.increment[joint].any())
-            if not alike:
+        for element in chain.elements[1:]:
+            if said is not None and not all(
+                np.array_equal(numbers[element], numbers[row[-1]], equal_nan=True)
+                for numbers in (said.stiffness, said.mass)
+            ):
                 yield row
                 row = []
             row.append(element)
