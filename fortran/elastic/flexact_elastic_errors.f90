@@ -48,7 +48,7 @@ module flexact_elastic_errors
    !> Nearer to zero than this part of the nearest error there is none.
    real(wp), parameter :: inside = 1 - 1.0e-6_wp
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
-   real(wp), parameter :: accuracy = 1.0e-5_wp
+   real(wp), parameter :: accuracy = 1.0e-6_wp
    !> Values so many times the nearest are rounding.
    real(wp), parameter :: rounding = 1.0e6_wp
 

@@ -89,7 +89,7 @@ def divisions(data: ModelData, beams: Beams, which: BoolArray) -> tuple[IntArray
 
 
 def _uniform_rows(data: ModelData) -> Iterator[list[int]]:
-    """Elements of each sheet that the deck divides; where `ESTIFF` or `EM` change, another begins."""
+    """Elements of each sheet that the deck divides; others begin where `ESTIFF` or `EM` change."""
     said = data.properties
     for chain in data.chains:
         row = [chain.elements[0]]
