@@ -80,6 +80,11 @@ MODELS: dict[str, Callable[[], Analysis]] = {
 }
 
 
+def without_costs(words: str) -> str:
+    """The words about a result, but for the last paragraph: the JSON of `flexact cost` has that."""
+    return words.partition("\n\nIt costs:")[0]
+
+
 @pytest.mark.parametrize("name", MODELS)
 def test_results_of_models_are_valid_and_hold_what_the_text_says(name: str) -> None:
     analysis = MODELS[name]()
@@ -87,7 +92,7 @@ def test_results_of_models_are_valid_and_hold_what_the_text_says(name: str) -> N
     assert_valid(made)
     text = analysis.to_json()
     assert json.loads(text) == made and text == json.dumps(made)
-    assert_all_told(analysis.describe(), made)
+    assert_all_told(without_costs(analysis.describe()), made)
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
@@ -96,7 +101,7 @@ def test_results_of_decks_are_valid_and_hold_what_the_text_says(path: Path) -> N
         analysis = analyse(path, **chosen)
         made = json.loads(analysis.to_json())
         assert_valid(made)
-        assert_all_told(analysis.describe(), made)
+        assert_all_told(without_costs(analysis.describe()), made)
 
 
 def test_a_number_that_the_json_lacks_is_found() -> None:

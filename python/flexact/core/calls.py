@@ -103,8 +103,8 @@ def _require_room(needed: float) -> None:
     """
     if needed > (left := address_space()):
         raise MemoryError(
-            f"about {needed / 1e6:.3g} MB are needed, but the limits of the process leave "
-            f"{left / 1e6:.3g} MB"
+            f"about {needed / 1e6:.3g} MB of memory are needed, but the limits of the process "
+            f"leave {left / 1e6:.3g} MB"
         )
 
 
