@@ -41,7 +41,11 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "from 1 to 1000": lambda: elastic(guide(), beams=0),
     "a number from 0": lambda: elastic(guide(), release={(1, 5): -1.0}),
     "above -1": lambda: elastic(guide()).misalignment_for(-1.5, 1, "x"),
-    "no drive acts": lambda: elastic(guide()).undeformed().force,
+    "no drive acts": lambda: (
+        elastic(deck("TRUSS 1 1 2\nX 2 1 0 0\nFIX 1", "ESTIFF 1 5\nXM 2 1"), drive="locked")
+        .undeformed()
+        .force
+    ),
     "the frequency 0": lambda: elastic(
         deck("TRUSS 1 1 2\nX 2 1 0 0\nFIX 1", "ESTIFF 1 5\nXM 2 1")
     ).misalignment_for(-0.05, 1, "x"),
@@ -83,3 +87,7 @@ def test_a_load_on_a_motion_without_stiffness_has_no_equilibrium() -> None:
     with pytest.raises(flexact.StrokeError, match="nothing resists") as caught:
         elastic(text).equilibrium()
     assert caught.value.reached < 1.0
+
+
+def test_a_drive_that_is_free_has_no_force_at_rest() -> None:
+    assert elastic(guide()).undeformed().force == 0.0

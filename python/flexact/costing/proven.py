@@ -9,7 +9,7 @@ from ..advice.change import Change
 from ..advice.proposal import tried
 from ..advice.releases.releases import releases_of
 from ..base.errors import FlexactError
-from ..core.elements import Class
+from ..core.elements import Class, Member, member_table
 from ..diagnostics.errors import model_error
 from ..result.result import Result
 from ..text.deformation import deformation_word
@@ -42,16 +42,28 @@ def as_built(result: Result) -> Candidate:
 
 
 def proven(result: Result) -> tuple[Candidate, ...]:
-    """Minimal sets of releases that were each tried, the likeliest first; none without need."""
+    """Minimal sets of releases that were each tried, the likeliest first; none without need.
+
+    Beams inside of bodies may be released as well, as by a hinge between two halves of a body;
+    rigid links only where nothing else does it.
+    """
     if not result.over_constrained:
         return ()
     made = []
-    for proposal in releases_of(result).sets[:LOOKED_AT]:
+    sets = releases_of(result, with_links=True).sets
+    of_members = [each for each in sets if not _releases_a_link(result, each.change)]
+    for proposal in (of_members or sets)[:LOOKED_AT]:
         alike = tuple(_label(_released(result, change)) for change in proposal.alternatives)
         after = proposal.after
         released = _released(result, proposal.change)
         made.append(Candidate(released, alike, after.under_constrained, after.over_constrained))
     return tuple(made)
+
+
+def _releases_a_link(result: Result, change: Change) -> bool:
+    index, kinds = result.given.element_index, result.given.arrays.element_kind
+    members = member_table()[[kinds[index[element]] for element, *_ in change.deformations]]
+    return bool((members == Member.LINK).any())
 
 
 def given(result: Result, asked: ReleaseAsked) -> Candidate:

@@ -11,7 +11,7 @@ from .measuring import Measures
 from .proven import MOST, Candidate
 
 #: Values that agree to so many digits are equal.
-_DIGITS = 4
+_DIGITS = 6
 
 
 def best(

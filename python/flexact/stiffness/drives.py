@@ -75,7 +75,7 @@ def freed(at: Solution, held: Held, drive: Coordinate) -> Solution:
 
 
 def strokes_given(values: object, is_turn: bool) -> list[float]:
-    """The values of a stroke; `is_turn`: of an Euler parameter.
+    """The values of a stroke, or the only one; `is_turn`: of an Euler parameter.
 
     Raises:
         ElasticError: one is no finite number, or an angle of more than half a turn.

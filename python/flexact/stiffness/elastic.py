@@ -4,10 +4,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-
-import numpy as np
 
 from ..core.elements import Class, NodeKind
 from ..deck.models import read
@@ -16,7 +14,7 @@ from . import paths
 from .divisions import beams_given
 from .drives import strokes_given
 from .errors import ElasticError
-from .imperfections import Imperfection, misalignment, misfit, warmth
+from .imperfections import Imperfection, misalignment, misfit, number_given, warmth
 from .points import Points
 from .policy import DRIVES, HELD, Release, choice, numbered, releases_given
 from .solution import Solution
@@ -52,7 +50,7 @@ class Elastic(Tolerated):
             StrokeError: no equilibrium was found.
             ElasticError: the factor is no finite number.
         """
-        factor = strokes_given(load, False)[0]
+        factor = number_given(load, "the load")
         made = tuple(paths.loaded(at, factor) for at in self._assembled())
         under = (
             f"under {factor:g} times the loads" if self.data.loads else "without loads in the deck"
@@ -83,7 +81,7 @@ class Elastic(Tolerated):
             raise ElasticError(
                 f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
             )
-        given = values if isinstance(values, (list, tuple, np.ndarray)) else list(values)
+        given = list(values) if isinstance(values, (range, Iterator)) else values
         turns = self.points.kinds[drive.node] == NodeKind.ORIENTATION
         there = strokes_given(given, bool(turns))
         ways = [

@@ -84,7 +84,12 @@ class Imperfection(Frozen):
         return made
 
 
-def _number(value: object, what: str) -> float:
+def number_given(value: object, what: str) -> float:
+    """A finite number.
+
+    Raises:
+        ElasticError: it is none.
+    """
     if (
         isinstance(value, bool)
         or not isinstance(value, (int, float, np.number))
@@ -110,7 +115,7 @@ def misalignment(
         UnknownError: there is no such node or coordinate.
         ElasticError: the coordinate is not held, or the value is no finite number.
     """
-    size = _number(value, "a misalignment")
+    size = number_given(value, "a misalignment")
     coordinate = points.coordinate(node, name)
     data = points.data
     is_turn = data.arrays.node_kind[coordinate.node] > NodeKind.POSITION
@@ -130,7 +135,7 @@ def misalignment(
     elif about is not None:
         raise ElasticError("only a turn is about a point: leave out `about` of a displacement")
     made = replace(
-        _none(data, _words(points, coordinate), size),
+        _none(data, _words(points, coordinate, node), size),
         axis=coordinate.axis,
         is_turn=bool(is_turn),
         centre=centre,
@@ -155,8 +160,9 @@ def _turned_nodes(points: Points, node: object) -> list[int]:
     return [each for each in every if held[each]] or every[:1]
 
 
-def _words(points: Points, coordinate: Coordinate) -> str:
-    return f"{points.name(coordinate)} of clamp {points.number(coordinate.node)}"
+def _words(points: Points, coordinate: Coordinate, node: object) -> str:
+    """With the clamp by the number that was given for it."""
+    return f"{points.name(coordinate)} of clamp {points.number(points.node(node))}"
 
 
 def misfit(points: Points, element: object, k: object, value: object) -> Imperfection:
@@ -171,7 +177,7 @@ def misfit(points: Points, element: object, k: object, value: object) -> Imperfe
     off = np.zeros((6, data.arrays.element_number.size))
     off[number, index] = 1.0
     words = f"deformation {number + 1} of element {int(data.arrays.element_number[index])}"
-    return replace(_none(data, words, _number(value, "a misfit")), misfit=off)
+    return replace(_none(data, words, number_given(value, "a misfit")), misfit=off)
 
 
 def warmth(
@@ -183,8 +189,8 @@ def warmth(
         UnknownError: there is no such element.
         ElasticError: a value is no finite number.
     """
-    step = _number(kelvin, "a temperature step")
-    alpha = _number(expansion, "an expansion")
+    step = number_given(kelvin, "a temperature step")
+    alpha = number_given(expansion, "an expansion")
     data = points.data
     if elements is None:
         which = np.arange(data.arrays.element_number.size)

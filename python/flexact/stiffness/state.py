@@ -118,9 +118,13 @@ class State(Response):
     def force(self) -> float:
         """Force of the drive on the mechanism [N], or moment on its angle [N m]; signed.
 
+        0 where the drive is free and no stroke was asked for.
+
         Raises:
-            ElasticError: nothing is driven or locked, or several coordinates are.
+            ElasticError: several coordinates are locked, or none is declared that could be.
         """
+        if self.drive is None and self.model.drive == "free":
+            return 0.0
         drive = self.model.drive_of(self.drive)
         return float(self.best(lambda at: force_of(at, drive)))
 

@@ -15,10 +15,9 @@ from ..base.plain_text import in_short
 from ..core.arrays import FloatArray
 from . import paths
 from .compliance import kept
-from .drives import strokes_given
 from .errors import ElasticError
 from .estimate import Estimate
-from .imperfections import Imperfection, misalignment
+from .imperfections import Imperfection, misalignment, number_given
 from .policy import Release, numbered, releases_given
 from .setting import Setting
 from .solver import Solver
@@ -68,7 +67,7 @@ class Tolerated(Setting):
             ElasticError: it is not fixed; nothing has a mass; the first frequency is 0; the shift
                 is none; or it is over-constrained, and held rigid.
         """
-        part = strokes_given(shift, False)[0]
+        part = number_given(shift, "a shift")
         if not part > -1.0 or part == 0.0:
             raise ElasticError(
                 f"a shift is above -1 and not 0 (-0.05: -5 %), not {in_short(shift)}"

@@ -47,7 +47,7 @@ class Releases(Frozen):
     left_out: LeftOut = NOTHING_LEFT_OUT
 
 
-def releases_of(result: Result) -> Releases:
+def releases_of(result: Result, with_links: bool = False) -> Releases:
     """What may be released so that no self-stress is left, the best first.
 
     A set of s deformations works exactly when the s x s block of their rows in the left null
@@ -61,7 +61,7 @@ def releases_of(result: Result) -> Releases:
     Where the stiffness of what is stressed is known, sets come first that cost little of it
     (`flexact.advice.releases.cost`); else those of a condition within ten times the best,
     flexures before bodies, ties by names and places. Links inside of bodies are listed where
-    nothing else does it.
+    nothing else does it, or `with_links`.
 
     Without a self-stress there is one set, the empty one.
 
@@ -83,7 +83,7 @@ def releases_of(result: Result) -> Releases:
     count = counted(stands, reach, lambda after: after.over_constrained)
     tried = Outcome((), NOTHING_LEFT_OUT)
     for source in _sources(result, stands):
-        tried = _listed(result, source) if count != 0 else tried
+        tried = _listed(result, source, with_links) if count != 0 else tried
         if tried.proposals:
             break
     supports = _supports(result, _whole(result, stands))
@@ -108,7 +108,7 @@ def _whole(result: Result, stands: Result) -> Result:
     return complete(result) if result.condensed.chains else stands
 
 
-def _listed(result: Result, source: Result) -> Outcome:
+def _listed(result: Result, source: Result, with_links: bool) -> Outcome:
     reach = reaches.of_rows(source)
     tiers = _tiers(source, reach)
     cost = cost_of(source, reach)
@@ -119,7 +119,8 @@ def _listed(result: Result, source: Result) -> Outcome:
 
     found = candidates(reach, ranking, tiers)
     without_links = [one for one in found if tiers[list(one.members)].max() < LINK]
-    return listed(result, reach, Purpose.RELEASE, without_links or found)
+    chosen = found if with_links else without_links or found
+    return listed(result, reach, Purpose.RELEASE, chosen)
 
 
 def _tiers(source: Result, reach: Reach) -> FloatArray:
