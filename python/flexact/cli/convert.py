@@ -92,6 +92,15 @@ def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
     return made
 
 
+def _failed(error: FlexactError, code: ExitCode) -> ExitCode:
+    """Say what is wrong; with the file as a deck or a table, that is the file's fault."""
+    if isinstance(error, ProblemsError):
+        complain(str(error))
+        return ExitCode.DECK_ERROR
+    complain(f"flexact: error: {harmless(str(error))}")
+    return code
+
+
 def convert_file(chosen: argparse.Namespace) -> ExitCode:
     """Convert the file that was asked for, and say what the other format cannot."""
     source, target = chosen.file, chosen.output
@@ -100,13 +109,12 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
     plan_file(DeckFile(str(source), Path(source.stem)), target)
     try:
         model = read_any(source, **options)
-        content, notes = bytes_of(model, target)
-    except ProblemsError as error:
-        complain(str(error))
-        return ExitCode.DECK_ERROR
     except FlexactError as error:
-        complain(f"flexact: error: {harmless(str(error))}")
-        return ExitCode.OTHER
+        return _failed(error, ExitCode.DECK_ERROR)
+    try:
+        content, notes = bytes_of(model, target)
+    except FlexactError as error:
+        return _failed(error, ExitCode.OTHER)
     report_problems(model.data)
     name = harmless(str(target))
     for note in notes:
