@@ -97,4 +97,4 @@ class _Work:
         if self.chosen.json:
             text: str = load("json").dumps(line_of(advice), allow_nan=False)
             return text
-        return f"{describe(advice)}\n"
+        return f"{describe(advice, width=text_width())}\n"
