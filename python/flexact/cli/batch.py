@@ -19,11 +19,12 @@ from flexact.cli.batch_run import BatchRun
 from flexact.cli.batch_work import Work
 from flexact.cli.decks import add_decks
 from flexact.cli.outcome import ExitCode
+from flexact.cli.targets import folder
 from flexact.cli.terminal import complain, say
 from flexact.cli.workers import add_workers
 from flexact.engine.processors import processors
 from flexact.files.decks import DeckFile, find_decks
-from flexact.files.outputs import OutputError, plan_file, require_replaceable
+from flexact.files.outputs import STDOUT, OutputError, plan_file, require_replaceable
 from flexact.result.decompose import asked_for
 from flexact.variants.batches.journal import Journal, JournalError
 from flexact.variants.writing import require_table
@@ -64,13 +65,19 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="rows, files and pages of some decks alone, such as 'over_constrained > 0'",
     )
     parser.add_argument(
-        "--files", type=Path, metavar="DIR", help="write what analyse -o writes of each deck there"
+        "--files",
+        type=folder,
+        metavar="DIR",
+        help="write what analyse -o writes of each deck there",
     )
     parser.add_argument(
         "--format", metavar="FORMAT", help="mesh format of --files: vtu (default), vtk, xdmf, ..."
     )
     parser.add_argument(
-        "--report", type=Path, metavar="DIR", help="write a page of each deck and index.html there"
+        "--report",
+        type=folder,
+        metavar="DIR",
+        help="write a page of each deck and index.html there",
     )
     add_decision(parser)
     add_accuracy(parser)
@@ -82,6 +89,11 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     if chosen.format and not chosen.files:
         raise BatchError("--format is for the meshes of --files DIR")
     table: Path = chosen.output
+    if table == STDOUT:
+        raise BatchError(
+            "a batch keeps a journal beside its table, which needs a name; for a line a deck on "
+            "standard output say flexact analyse --summary or --json"
+        )
     require_table(table)
     decks = find_decks(chosen.decks)
     _require_place(table, decks)

@@ -20,6 +20,7 @@ from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.regress_summary import summary
+from flexact.cli.targets import file, folder
 from flexact.cli.terminal import end_progress, say, show_progress
 from flexact.cli.workers import add_workers, in_order
 from flexact.core.progress import Progress
@@ -35,7 +36,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = "Compare what does not depend on sign, order or basis with stored answers."
     add_decks(parser)
     parser.add_argument(
-        "--against", type=Path, metavar="DIR", required=True, help="folder of the stored answers"
+        "--against", type=folder, metavar="DIR", required=True, help="folder of the stored answers"
     )
     parser.add_argument(
         "--store", action="store_true", help="store the answers that are new or differ instead"
@@ -48,7 +49,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "(default 1e-9), and of entries of projectors (default 1e-8)",
     )
     parser.add_argument(
-        "--junit", type=Path, metavar="FILE", help="write what came of each deck as JUnit XML"
+        "--junit", type=file, metavar="FILE", help="write what came of each deck as JUnit XML"
     )
     add_workers(parser)
     add_method(parser)
