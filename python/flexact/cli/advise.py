@@ -53,8 +53,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE",
-        help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; or a picture "
-        "(.png, .svg) of the freedom and the constraint of the body",
+        help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; "
+        "or a picture (.png, .svg) of the freedom and the constraint of the body",
     )
     add_decision(parser)
     add_accuracy(parser)

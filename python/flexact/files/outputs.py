@@ -16,7 +16,6 @@ from ..base.interruption import undisturbed
 from .decks import DeckFile
 from .temporary import remove_left, temporary_name
 
-
 #: What stands for standard output.
 STDOUT = Path("-")
 
