@@ -19,6 +19,7 @@ from flexact.cli.batch_run import BatchRun
 from flexact.cli.batch_work import Work
 from flexact.cli.decks import add_decks
 from flexact.cli.outcome import ExitCode
+from flexact.cli.renamed import add_renamed
 from flexact.cli.targets import folder
 from flexact.cli.terminal import complain, say
 from flexact.cli.workers import add_workers
@@ -29,8 +30,10 @@ from flexact.result.decompose import asked_for
 from flexact.variants.batches.journal import Journal, JournalError
 from flexact.variants.writing import require_table
 
+#: What the table may hold.
+_COLUMNS = ("verdict", "values")
 #: Number of the form of the journal.
-_FORM = 1
+_FORM = 2
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -53,11 +56,12 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--resume", action="store_true", help="go on where an interrupted run has stopped"
     )
     parser.add_argument(
-        "--want",
-        choices=("verdict", "values"),
+        "--columns",
+        choices=_COLUMNS,
         default="values",
-        help="columns: the verdict alone, or singular values and margins as well (default)",
+        help="the verdict alone, or singular values and margins as well (default)",
     )
+    add_renamed(parser, "--want", "--columns", dest="columns", choices=_COLUMNS)
     parser.add_argument(
         "--where",
         default="",
@@ -99,7 +103,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     _require_place(table, decks)
     outputs = Outputs(decks, chosen.files, chosen.format or "vtu", chosen.report)
     asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    work = Work(asked, chosen.want, chosen.where, outputs.mesh_format, outputs.has_pages)
+    work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, outputs.has_pages)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
     with _threads(chosen):
         words = run.make(table, chosen.dask, chosen.workers)
@@ -144,7 +148,7 @@ def _head(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> dict[str, An
         "journal": _FORM,
         "flexact": VERSION,
         "options": {
-            "--want": chosen.want,
+            "--columns": chosen.columns,
             "--where": chosen.where or None,
             "--method": chosen.method,
             "--tolerance": chosen.zero_tolerance,

@@ -122,6 +122,15 @@ def _source(file: Path) -> DeckFile:
     return source
 
 
+def _failed(error: FlexactError, code: ExitCode) -> ExitCode:
+    """Say what is wrong; with the file as a deck or a table, that is the file's fault."""
+    if isinstance(error, ProblemsError):
+        complain(str(error))
+        return ExitCode.DECK_ERROR
+    complain(f"flexact: error: {harmless(str(error))}")
+    return code
+
+
 def convert_file(chosen: argparse.Namespace) -> ExitCode:
     """Convert the file that was asked for, and say what the other format cannot."""
     source, target = _source(chosen.file), chosen.output
@@ -137,13 +146,12 @@ def convert_file(chosen: argparse.Namespace) -> ExitCode:
             model = read_any(chosen.file, **options)
         else:
             model = read_content(source.content, source.name, **options)
-        content, notes = bytes_of(model, named)
-    except ProblemsError as error:
-        complain(str(error))
-        return ExitCode.DECK_ERROR
     except FlexactError as error:
-        complain(f"flexact: error: {harmless(str(error))}")
-        return ExitCode.OTHER
+        return _failed(error, ExitCode.DECK_ERROR)
+    try:
+        content, notes = bytes_of(model, named)
+    except FlexactError as error:
+        return _failed(error, ExitCode.OTHER)
     report_problems(model.data)
     name = "<stdout>" if target == STDOUT else harmless(str(target))
     for note in notes:

@@ -148,7 +148,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             complain(text) if chosen.json or to_stdout else say(text)
         if made.stroke is not None and made.stroke.why:
             complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
-            return Outcome(deck.name, ExitCode.OTHER, "costed in part", "stroke beyond reach")
+            return Outcome(deck.name, ExitCode.DECK_ERROR, "costed in part", "stroke beyond reach")
         return Outcome(deck.name, ExitCode.ANALYSED, "costed")
 
     return take([deck], step, as_json=chosen.json)

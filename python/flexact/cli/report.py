@@ -33,7 +33,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Write the result of a deck as one HTML page that opens without a network: "
         "verdict, drawing in motion, self-stresses in colour, tables, deck. A deck with errors "
-        "gives a page with its diagnostics, and exit code 2."
+        "gives a page with its diagnostics, and exit code 1."
     )
     add_decks(parser)
     parser.add_argument(
