@@ -163,7 +163,7 @@ def has_pyarrow() -> bool:
 
 def test_less_is_wanted(decks: Path, tmp_path: Path) -> None:
     table = tmp_path / "t.csv"
-    assert main(["batch", str(decks), "-o", str(table), "--want", "verdict"]) == 0
+    assert main(["batch", str(decks), "-o", str(table), "--columns", "verdict"]) == 0
     assert tuple(rows_of(table)[0]) == (*COLUMNS[:8], "error", "seconds")
 
 
@@ -218,7 +218,7 @@ def test_pages_are_those_of_report(decks: Path, tmp_path: Path) -> None:
         (["-o", "decks/exact.dat/t.csv"], "is not a folder"),
         (["-o", "folder.csv"], "it is a folder"),
         (["-o", "t.csv", "--where", "over_constraind > 0"], "did you mean over_constrained"),
-        (["-o", "t.csv", "--want", "verdict", "--where", "margin > 0"], "--want values"),
+        (["-o", "t.csv", "--columns", "verdict", "--where", "margin > 0"], "--columns values"),
         (["-o", "t.csv", "--format", "vtk"], "--files DIR"),
         (["-o", "t.csv", "--files", "f", "--format", "nonsense"], "nonsense"),
         (["-o", "t.csv", "-j", "0"], "a whole number from 1"),

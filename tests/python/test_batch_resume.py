@@ -242,7 +242,7 @@ def test_a_journal_is_not_passed_over(
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        (["--want", "verdict"], "--want was values, now verdict"),
+        (["--columns", "verdict"], "--columns was values, now verdict"),
         (["--where", "rank > 0"], "--where was not given, now rank > 0"),
         (["--tolerance", "1e-9"], "--tolerance was not given, now 1e-09"),
         (["--method", "jacobi"], "--method was auto, now jacobi"),

@@ -10,7 +10,7 @@ from flexact.cli.analysed import report_problems
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import say
-from flexact.deck.reading import read_file
+from flexact.deck.reading import read_deck
 from flexact.files.decks import DeckFile, find_decks
 
 
@@ -27,7 +27,7 @@ def check_decks(chosen: argparse.Namespace) -> ExitCode:
 
 
 def _check(deck: DeckFile) -> Outcome:
-    model = read_file(deck.path)
+    model = read_deck(deck)
     report_problems(model)
     say(f"{harmless(deck.name)}: no errors")
     return Outcome(deck.name, ExitCode.ANALYSED, "without errors")

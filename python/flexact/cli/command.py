@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import os
-import re
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
@@ -14,6 +12,7 @@ from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.base.version import VERSION
+from flexact.cli import colour
 from flexact.cli.outcome import ExitCode
 from flexact.cli.terminal import (
     ResultsError,
@@ -21,7 +20,9 @@ from flexact.cli.terminal import (
     complain,
     discard,
     finish_results,
-    say,
+    give,
+    speak,
+    text_width,
 )
 
 if TYPE_CHECKING:
@@ -59,36 +60,41 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         """Take the width where somebody looks."""
-        stated = os.environ.get("COLUMNS", "")
-        width = int(stated) if stated.isdigit() else 0
-        if not width and sys.stdout is not None and sys.stdout.isatty():
-            width = os.get_terminal_size(sys.stdout.fileno()).columns
-        super().__init__(prog, width=(width or 80) - 2)
+        super().__init__(prog, width=text_width(80), max_help_position=20)
 
 
 class Parser(argparse.ArgumentParser):
     """A parser that says what was meant."""
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong with the usage, and what was meant or how to get help."""
-        self.print_usage(sys.stderr)
-        text = f"{self.prog}: error: {harmless(message)}{_hint(message)}\n"
-        self.exit(ExitCode.OTHER, text)
+        """Say what is wrong with the usage, what may have been meant, and how to get help."""
+        told = load("flexact.cli.usage").told(harmless(message), self)
+        self.exit(ExitCode.OTHER, f"{told}\n")
 
     def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
         # argparse's own is silent where stdout cannot be written.
         if file is sys.stdout:
-            say(message.removesuffix("\n"))
+            give(message.removesuffix("\n"))
         else:
             complain(message.removesuffix("\n"))
 
 
-def _hint(message: str) -> str:
-    found = re.search(r"invalid choice: '(.*)' \(choose from (.*)\)", message)
-    if found is None:
-        return ""
-    near = load("difflib").get_close_matches(found[1], re.findall(r"[\w-]+", found[2]), 1)
-    return f"; did you mean {near[0]}?" if near else ""
+def _add_manner(parser: argparse.ArgumentParser) -> None:
+    """Add to a verb's parser how it speaks."""
+    manner = parser.add_argument_group("how it speaks")
+    manner.add_argument(
+        "--color",
+        choices=colour.CHOICES,
+        default="auto",
+        help="whether to colour; auto: a terminal, unless NO_COLOR is set",
+    )
+    loud = manner.add_mutually_exclusive_group()
+    loud.add_argument(
+        "-q", "--quiet", action="store_true", help="say errors alone, and write what is asked for"
+    )
+    loud.add_argument(
+        "-v", "--verbose", action="count", default=0, help="say what is done, and how long it takes"
+    )
 
 
 def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.ArgumentParser:
@@ -111,6 +117,7 @@ def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.Argume
         )
         if verb == called:
             load(f"flexact.cli.{verb}", for_good=for_good).fill(parser_of_verb)
+            _add_manner(parser_of_verb)
     return parser
 
 
@@ -138,7 +145,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
 def _obey(arguments: Sequence[str] | None) -> int:
     try:
         words = sys.argv[1:] if arguments is None else arguments
+        speak()
         chosen = make_parser(words, for_good=arguments is None).parse_args(words)
+        speak(chosen.color, chosen.quiet, chosen.verbose)
         return int(chosen.run(chosen))
     except BatchError as error:
         complain(f"flexact: error: {harmless(str(error))}")

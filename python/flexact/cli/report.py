@@ -15,6 +15,7 @@ from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
+from flexact.cli.targets import folder_or
 from flexact.cli.terminal import complain, say
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
@@ -38,7 +39,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=folder_or(*PAGES),
         metavar="PAGE",
         required=True,
         help="the page, NAME.html; or a folder for a page of each deck and index.html",
