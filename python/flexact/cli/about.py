@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from importlib import metadata
 
 import numpy as np
-import threadpoolctl
 
+from flexact.base.loading import load
 from flexact.base.version import VERSION
-from flexact.core import _core, calls
+from flexact.core import calls
 from flexact.deck.reading import read_bytes
 from flexact.result.decompose import AnalysisError, asked_for
-from flexact.result.result import result_of
+from flexact.result.result import Result, result_of
 
 #: Extras that users have no need of.
 _OF_DEVELOPERS = {"test", "lint", "bench"}
@@ -36,7 +36,7 @@ def about(*, paths: bool = False) -> str:
     """
     lines = [("flexact", VERSION), *_system(), *_built_in(), *_blas(paths), *_packages()]
     if paths:
-        lines += [("interpreter", sys.executable), ("core", str(_core.__file__))]
+        lines += [("interpreter", sys.executable), ("core", _core_file())]
         lines += [("package", os.path.dirname(os.path.dirname(calls.__file__)))]
     return "\n".join(f"{name:{_WIDTH}} {value}" for name, value in lines)
 
@@ -45,7 +45,7 @@ def _system() -> Iterator[tuple[str, str]]:
     yield "Python", f"{platform.python_version()} ({platform.python_implementation()})"
     yield "platform", f"{platform.system()} {platform.release()}, {platform.machine()}"
     yield "processors", str(len(os.sched_getaffinity(0)) if _counts() else os.cpu_count())
-    yield "numpy", np.__version__
+    yield "numpy", str(np.__version__)
 
 
 def _counts() -> bool:
@@ -54,16 +54,20 @@ def _counts() -> bool:
 
 def _built_in() -> Iterator[tuple[str, str]]:
     """What is found out by using it; versions are those of the libraries at hand."""
-    library = ctypes.CDLL(str(_core.__file__))
+    library = ctypes.CDLL(_core_file())
     sparse, proofs = _works(method="sparse"), _works(prove=True)
     yield "sparse method", f"SuiteSparse {_suitesparse(library)}" if sparse else "not built in"
     yield "proofs", f"FLINT {_flint(library)}" if proofs else "not built in"
 
 
+def _core_file() -> str:
+    return str(load("flexact.core._core").__file__)
+
+
 def _works(method: str = "svd", prove: bool | None = None) -> bool:
     model = read_bytes(_DECK, "a bar")
     try:
-        result = result_of(model, asked_for(method, None, prove, None), "a bar", None)
+        result: Result = result_of(model, asked_for(method, None, prove, None), "a bar", None)
     except AnalysisError:
         return False
     return prove is None or result.proof is not None
@@ -87,7 +91,7 @@ def _flint(library: ctypes.CDLL) -> str:
 
 def _blas(paths: bool) -> Iterator[tuple[str, str]]:
     """The libraries of linear algebra that are loaded: that of the core, and numpy's own."""
-    for found in threadpoolctl.threadpool_info():
+    for found in load("threadpoolctl").threadpool_info():
         if found["user_api"] != "blas":
             continue
         of_numpy = "numpy" in os.path.dirname(found["filepath"]).split(os.sep)[-1]

@@ -54,7 +54,8 @@ exit codes:
   1  a deck has errors, cannot be read, or has not what was asked of it
   2  wrong usage, output that cannot be written, too little memory, ...
   3  the verdict is not the expected one, or an answer differs from the stored one
-Of several decks one bad deck does not stop the rest; the code is 2 if any gave 2, else 1 if any gave 1, else 3 if any gave 3.
+Of several decks one bad deck does not stop the rest; the code is 2 if any gave 2, else 1 \
+if any gave 1, else 3 if any gave 3.
 """
 
 

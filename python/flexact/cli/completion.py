@@ -46,7 +46,9 @@ def complete(chosen: argparse.Namespace) -> ExitCode:
 def words_of(verb: str) -> VerbWords:
     """The words of a verb; of the command itself where it is empty."""
     parser = parser_of(verb)
-    options, choices, takes = [], (), ""
+    options: list[OptionWords] = []
+    choices: tuple[str, ...] = ()
+    takes = ""
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction) or action.help == argparse.SUPPRESS:
             continue

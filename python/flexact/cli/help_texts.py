@@ -16,6 +16,8 @@ _HEAD = "examples, in a clone:"
 _STEP = "    "
 #: What hangs behind a number or a prompt at the start of a line.
 _LEAD = re.compile(r" *(?:\d  |\$ )?")
+#: A word of the shell.
+_WORD = r"(?:'[^']*'|\"[^\"]*\"|\S)+"
 _LEAST, _USUAL = 24, 80
 
 
@@ -72,7 +74,13 @@ def _wrapped(text: str, width: int, indent: str, *, break_long_words: bool = Tru
 
 def _shell_lines(line: str, width: int, indent: str) -> str:
     """A line of the shell, which goes on behind a backslash where it is too long."""
-    words = re.findall(r"(?:'[^']*'|\"[^\"]*\"|\S)+", line)
+    words = re.findall(_WORD, line)
+    for place in range(len(words) - 2, 1, -1):
+        # An option and its value stay together where they fit.
+        word, value = words[place : place + 2]
+        fits = len(indent) + len(word) + len(value) + 3 <= width
+        if fits and word.startswith("-") and value[0] not in "-|<":
+            words[place : place + 2] = [f"{word} {value}"]
     rows, row = [], line[: len(line) - len(line.lstrip())] + " ".join(words[:2])
     for place, word in enumerate(words[2:], start=2):
         tail = 0 if place == len(words) - 1 else 2
