@@ -87,7 +87,7 @@ def test_every_verb_that_reads_a_deck_reads_stdin(
 
 
 def test_a_closed_stdin_is_told() -> None:
-    line = f'exec {sys.executable} -m flexact analyse - <&-'
+    line = f"exec {sys.executable} -m flexact analyse - <&-"
     done = subprocess.run(["sh", "-c", line], capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "<stdin>" in done.stderr and "Traceback" not in done.stderr

@@ -63,16 +63,16 @@ def fill(parser: argparse.ArgumentParser) -> None:
         parser,
         (
             "What is wrong, and steps that mend it",
-            "flexact advise input_decks/paper/twelve_trusses.dat",
+            "flexact advise input_decks/flexures/parallel_guide.dat",
         ),
         (
             "The deck that step 1 makes",
-            "flexact advise input_decks/paper/six_folded_sheets.dat --apply 1 "
+            "flexact advise input_decks/flexures/parallel_guide.dat --apply 1 "
             "-o results/mended.dat",
         ),
         (
             "A page of before and after",
-            "flexact advise input_decks/paper/six_folded_sheets.dat -o results/mended.html",
+            "flexact advise input_decks/flexures/parallel_guide.dat -o results/mended.html",
         ),
     )
     parser.set_defaults(run=advise_decks)

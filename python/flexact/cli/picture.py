@@ -54,7 +54,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         ),
         (
             "One quantity of a self-stress, from the front",
-            "flexact picture input_decks/paper/six_folded_sheets.dat --quantity in-plane-moment "
+            "flexact picture input_decks/flexures/parallel_guide.dat --quantity in-plane-moment "
             "--view front -o results/moment.svg",
         ),
     )

@@ -54,8 +54,9 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "flexact report input_decks/paper/five_wires.dat -o results/wires.html",
         ),
         (
-            "A page of each deck in a folder, and an index",
-            "flexact report input_decks/linkages -o results/pages",
+            "Pages of several decks, and an index",
+            "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
+            "-o results/pages",
         ),
     )
     parser.set_defaults(run=report_decks)
