@@ -133,7 +133,7 @@ def test_wrong_choices_are_told(
 @pytest.mark.parametrize("words", [["--length", "0"], ["--length", "x"], ["--steps", "0"], []])
 def test_wrong_usage_is_told(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert traced(*([TRUSSES, *words] if words else [])) == 2
-    assert "usage:" in capsys.readouterr().err
+    assert "Usage: flexact trace" in capsys.readouterr().err
 
 
 def test_the_deck_is_not_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -356,7 +356,7 @@ def test_words_of_the_command(
         code = main(line.split())
         out, err = capsys.readouterr()
         # How argparse quotes and wraps differs between versions of Python.
-        err = re.sub(r"^usage: .*\n(?: .*\n)*", "usage: ...\n", err, flags=re.MULTILINE)
+        err = re.sub(r"^Usage: .*\n(?: .*\n)*", "Usage: ...\n", err, flags=re.MULTILINE)
         err = re.sub(r"\(choose from .*\)", "(choose from ...)", err)
         err = re.sub(r"there are .*; ", "there are ...; ", err.replace(str(tmp_path), "FOLDER"))
         parts = [f"$ flexact {line}", out.strip(), err.strip(), f"exit code {code}"]
@@ -376,5 +376,5 @@ def test_words_where_the_memory_does_not_suffice(
     write(tmp_path / "exact.dat", DECKS["exact"])
     code = main(["analyse", "exact.dat", "--method", "svd"])
     out, err = capsys.readouterr()
-    assert (code, out) == (1, "")
+    assert (code, out) == (2, "")
     as_stored(err, GOLDEN / "messages" / "memory.txt")
