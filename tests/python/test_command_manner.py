@@ -1,6 +1,7 @@
 """How the command speaks: as wide as the terminal, in colour where it is wanted, quiet, verbose."""
 
 import fcntl
+import itertools
 import os
 import pty
 import re
@@ -72,7 +73,7 @@ def test_carets_stay_below_what_they_mark(
     deck = write(tmp_path / "x.dat", f"{'BEAM 1 1 2 3 4'} {'0 ' * 40}1..5\n")
     main(["check", str(deck)])
     rows = capsys.readouterr().err.split("\n")
-    for above, below in zip(rows, rows[1:], strict=False):
+    for above, below in itertools.pairwise(rows):
         if set(below.partition("| ")[2].strip()) == {"^"}:
             marked = above[below.index("^") : below.rindex("^") + 1]
             assert marked.strip() == marked != ""
@@ -187,4 +188,4 @@ def test_rows() -> None:
     assert refitted("  aa bb cc", 7) == "  aa bb\ncc"
     rows = [("", "one", "two"), ("x", "1", "22")]
     assert table(rows, 12) == "   one  two\nx    1   22"
-    assert table(rows, 8) == "x\n  one: 1\n  two:\n    22"
+    assert table(rows, 9) == "x\n  one: 1\n  two: 22"

@@ -94,11 +94,11 @@ def test_the_view_reaches_the_picture(tmp_path: Path) -> None:
         (["--freedom", "1"], "there is no degree of freedom 1"),
         (
             ["--motion", "0"],
-            "invalid value for '--motion': a whole number from 1 is wanted, not '0'",
+            "'--motion': a whole number from 1 is wanted, not '0'",
         ),
         (
             ["--stress", "x"],
-            "invalid value for '--stress': a whole number from 1 is wanted, not 'x'",
+            "'--stress': a whole number from 1 is wanted, not 'x'",
         ),
         (["--motion", "1", "--freedom", "1"], "not allowed with"),
         (["--view", "side"], "there is no view 'side'"),

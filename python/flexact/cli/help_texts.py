@@ -19,7 +19,7 @@ _STEP = "    "
 _LEAD = re.compile(r" *(?:\d  |\$ )?")
 #: A word of the shell.
 _WORD = r"(?:'[^']*'|\"[^\"]*\"|\S)+"
-_LEAST, _USUAL = 24, 80
+_LEAST, _NARROW, _USUAL = 24, 60, 80
 
 
 class Formatter(argparse.RawDescriptionHelpFormatter):
@@ -27,7 +27,7 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         """Take the width where somebody looks."""
-        super().__init__(prog, width=max(columns_of_help() - 2, _LEAST))
+        super().__init__(prog, width=max(columns_of_help() - 1, _LEAST))
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "\n".join(_fitted(line, width) for line in text.splitlines())
@@ -55,7 +55,8 @@ def _fitted(line: str, width: int) -> str:
     found = _LEAD.match(line)
     lead = found[0] if found else ""
     if lead.endswith(PROMPT):
-        return _shell_lines(line, width, " " * len(lead))
+        # A path that is alone in its row is to have room in it.
+        return _shell_lines(line, width, " " * (len(lead) if width > _NARROW else 1))
     return _wrapped(line, width, " " * len(lead)) if line.strip() else ""
 
 
