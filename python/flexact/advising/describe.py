@@ -9,6 +9,7 @@ from itertools import groupby, islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..advice.proposal import Purpose
+from ..base.columns import USUAL
 from ..base.plain_text import harmless
 from ..result.verdict import Verdict
 from ..text.advising.causes import both_in_words
@@ -53,15 +54,19 @@ class Told(NamedTuple):
 Section = tuple[Told, ...]
 
 
-def describe(advice: Advice, most: int | None = MOST_STEPS) -> str:
-    """The advice for people, in lines of at most about a hundred characters.
+def describe(advice: Advice, most: int | None = MOST_STEPS, width: int = USUAL) -> str:
+    """The advice for people, in rows of a width.
 
     Args:
         advice: The advice.
         most: How many steps of one aim and outcome are given; None: all.
+        width: Of the rows, in columns of a terminal.
     """
-    blocks = ("\n".join(map(_filled, section)) for section in sections_of(advice, most))
-    return "\n\n".join((_verdict(advice), *blocks))
+    blocks = (
+        "\n".join(filled(told.line, hanging=told.hangs, width=width) for told in section)
+        for section in sections_of(advice, most)
+    )
+    return "\n\n".join((_verdict(advice, width), *blocks))
 
 
 def html_of(advice: Advice) -> str:
@@ -88,13 +93,9 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
     return tuple(section for section in made if section)
 
 
-def _filled(told: Told) -> str:
-    return filled(told.line, hanging=told.hangs)
-
-
-def _verdict(advice: Advice) -> str:
+def _verdict(advice: Advice, width: int) -> str:
     result = advice.analysis
-    words = filled(sentence(str(verdict_in_words(result))))
+    words = filled(sentence(str(verdict_in_words(result))), width=width)
     return f"{harmless(result.name)}\n{words}" if result.name else words
 
 

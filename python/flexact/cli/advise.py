@@ -18,7 +18,7 @@ from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.terminal import complain, say
+from flexact.cli.terminal import complain, say, text_width
 from flexact.diagnostics.errors import ModelError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.text.margin import verdict_word
@@ -117,4 +117,4 @@ class _Work:
         if self.chosen.json:
             text: str = load("json").dumps(line_of(advice), allow_nan=False)
             return text
-        return f"{describe(advice)}\n"
+        return f"{describe(advice, width=text_width())}\n"

@@ -17,7 +17,7 @@ from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.targets import folder
-from flexact.cli.terminal import complain, say
+from flexact.cli.terminal import complain, say, text_width
 from flexact.files.decks import DeckFile, find_decks
 from flexact.result.result import Result
 from flexact.result.verdict import Verdict
@@ -139,8 +139,9 @@ class _Work:
             log: str = load("flexact.text.spacar_log").spacar_log(analysis)
             return log
         # What concerns the deck stands on stderr already.
-        words = describe(analysis, about_model=False, most=MOST_MODES)
+        width = text_width()
+        words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
         if analysis.over_constrained and analysis.given.properties is not None:
             # It takes a while to load.
-            words = load("flexact.costing.glance").with_glance(words, analysis)
+            words = load("flexact.costing.glance").with_glance(words, analysis, width)
         return f"{words}\n"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..base.columns import USUAL
 from ..base.errors import FlexactError
 from ..base.plain_text import harmless
 from ..result.result import Result
@@ -22,10 +23,10 @@ _MOST, _MOST_ERRORS = 1000, 600
 _PART = 1.0e-3
 
 
-def with_glance(words: str, result: Result) -> str:
+def with_glance(words: str, result: Result, width: int = USUAL) -> str:
     """The words about a result, and a paragraph of what over-constraint costs, if it is known."""
     told = glance(result)
-    return f"{words}\n\n{filled(sentence(told))}" if told else words
+    return f"{words}\n\n{filled(sentence(told), width=width)}" if told else words
 
 
 def glance(result: Result) -> str:

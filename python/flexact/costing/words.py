@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterator
 
+from ..base.columns import columns
 from ..base.plain_text import harmless
 from .designs import CostValues, Design
 from .quantities import in_words, percent
+from .told import WIDTH, Row, Table, Told, shown
 from .values import FREQUENCY, Number, Tolerance, words_of_direction
 from .words_of_paths import effects, stroke
 
-_WIDTH = 80
 _HEADINGS = ("design", "worst stiffness", "first parasitic", "tightest", "buckles at")
 _SECOND = ("", "kept", "frequency", "tolerance", "")
 #: A part of a stiffness from which all of it is kept.
@@ -23,19 +23,20 @@ _LONGEST, _KNOWN = 16, 2
 _GAP = 2
 
 
-def describe(cost: CostValues) -> str:
-    """The cost for people, in lines of at most 80 characters."""
+def describe(cost: CostValues, width: int = WIDTH) -> str:
+    """The cost for people, in rows of a width."""
     blocks = (
         _first(cost),
         _choices(cost),
-        _table(cost),
+        _table(cost, width),
         _where(cost),
         _legend(cost),
         stroke(cost),
         effects(cost),
         _left_out(cost),
     )
-    return "\n\n".join("\n".join(block) for block in map(list, blocks) if block)
+    told = ([shown(each, width) for each in block] for block in blocks)
+    return "\n\n".join("\n".join(block) for block in told if block)
 
 
 def first_line(cost: CostValues) -> str:
@@ -63,15 +64,15 @@ def _off(each: Tolerance) -> str:
     return f"{harmless(where.clamp.words)} {turn} by {size} {direction}{pivot}"
 
 
-def _first(cost: CostValues) -> Iterator[str]:
+def _first(cost: CostValues) -> Iterator[Told]:
     if cost.name:
-        yield harmless(cost.name)
-    yield _filled(first_line(cost))
+        yield Row(harmless(cost.name))
+    yield Row(first_line(cost))
     if cost.tightest is not None and not cost.as_built.over_constrained:
-        yield _filled("It is not over-constrained: only what is compliant is stressed.")
+        yield Row("It is not over-constrained: only what is compliant is stressed.")
 
 
-def _choices(cost: CostValues) -> Iterator[str]:
+def _choices(cost: CostValues) -> Iterator[Told]:
     beams = (
         "8 and 16 beams a sheet, extrapolated"
         if cost.beams == "auto"
@@ -79,25 +80,20 @@ def _choices(cost: CostValues) -> Iterator[str]:
         if cost.beams == 1
         else f"{cost.beams} beams a sheet, uncertainty not known"
     )
-    yield _filled(
+    yield Row(
         f"At {harmless(cost.point.words)}, {cost.point.reason}. Held deformations {cost.held}, "
         f"drive {cost.drive}, {beams}."
     )
 
 
-def _table(cost: CostValues) -> Iterator[str]:
+def _table(cost: CostValues, width: int) -> Iterator[Told]:
     """The designs, with as many uncertainties as there is room for: the last columns first."""
     for first in range(len(_HEADINGS) + 1):
-        rows = [_HEADINGS, _SECOND, *(_row(design, first) for design in cost.designs)]
-        widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
-        if sum(widths) + _GAP * (len(widths) - 1) <= _WIDTH:
+        rows = [_SECOND, *(_row(design, first) for design in cost.designs)]
+        widths = (max(map(columns, cells)) for cells in zip(_HEADINGS, *rows, strict=True))
+        if sum(widths) + _GAP * (len(_HEADINGS) - 1) <= width:
             break
-    for row in rows:
-        cells = (
-            cell.ljust(width) if k == 0 else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
-        )
-        yield (" " * _GAP).join(cells).rstrip()
+    yield Table((_HEADINGS, *rows), second=True)
 
 
 def _row(design: Design, first: int) -> tuple[str, ...]:
@@ -122,7 +118,7 @@ def _row(design: Design, first: int) -> tuple[str, ...]:
     return tuple(cells)
 
 
-def _where(cost: CostValues) -> Iterator[str]:
+def _where(cost: CostValues) -> Iterator[Told]:
     """Which clamp and direction, which weakest direction, and what is alike."""
     for design in cost.designs:
         told = []
@@ -142,15 +138,15 @@ def _where(cost: CostValues) -> Iterator[str]:
             told.append(f"the same by symmetry: {shown}{more}")
         what = "" if not design.released else f" ({harmless(design.words)})"
         text = f"{design.label}{what}: {'; '.join(told)}." if told else f"{design.label}{what}."
-        yield _filled(" ".join((text, *design.remarks)), "  ")
+        yield Row(" ".join((text, *design.remarks)), "  ")
 
 
-def _legend(cost: CostValues) -> Iterator[str]:
+def _legend(cost: CostValues) -> Iterator[Told]:
     kept = "worst stiffness kept: the smallest mu of C_before v = mu C_after v at the point; "
     shift = percent(abs(cost.shift))
     way = "fall" if cost.shift < 0 else "rise"
     what = FREQUENCY if cost.measure == FREQUENCY else "lowest stiffness of that point"
-    yield _filled(
+    yield Row(
         f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
         f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "
         "a stiffness is lost. Stress is taken in proportion to the error, about the undeformed "
@@ -158,16 +154,6 @@ def _legend(cost: CostValues) -> Iterator[str]:
     )
 
 
-def _left_out(cost: CostValues) -> Iterator[str]:
+def _left_out(cost: CostValues) -> Iterator[Told]:
     for sentence in cost.left_out:
-        yield _filled(f"Note: {sentence}")
-
-
-def _filled(text: str, indent: str = "") -> str:
-    return textwrap.fill(
-        text,
-        _WIDTH,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
+        yield Row(f"Note: {sentence}")

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a stroke and given misalignments do, in plain English and tables of 80 columns."""
+"""What a stroke and given misalignments do, in plain English and tables."""
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -11,12 +10,11 @@ import numpy as np
 from ..base.plain_text import harmless
 from .designs import CostValues, Design, Effect, StrokeCurve
 from .quantities import in_words, scale_of
+from .told import Row, Table, Told
 from .values import Number, Numbers, unit_of_direction
 
-_WIDTH = 80
 
-
-def stroke(cost: CostValues) -> Iterator[str]:
+def stroke(cost: CostValues) -> Iterator[Told]:
     """What the stroke costs, a line a design at its worst."""
     asked = cost.stroke
     if asked is None:
@@ -25,9 +23,9 @@ def stroke(cost: CostValues) -> Iterator[str]:
     reached = [value / factor for value in asked.reached]
     words = f"Stroke of {harmless(asked.words)} from {reached[0]:.6g} to {reached[1]:.6g} {unit}"
     rest = f"{asked.rest / factor:.6g} {unit}"
-    yield _filled(f"{words}; it rests at {rest}.")
+    yield Row(f"{words}; it rests at {rest}.")
     if asked.why:
-        yield _filled(f"{asked.beyond[:1].upper()}{asked.beyond[1:]}.")
+        yield Row(f"{asked.beyond[:1].upper()}{asked.beyond[1:]}.")
     rows: list[Sequence[str]] = [
         ("design", "stiffness kept", "at", "lowest parasitic", "drive force"),
     ]
@@ -40,7 +38,7 @@ def stroke(cost: CostValues) -> Iterator[str]:
         rows.append(
             (design.label, in_words(_at(curve.kept, k)), where, _parasitic(curve), _force(curve))
         )
-    yield from _aligned(rows)
+    yield _without_empty(rows)
     for design in cost.designs:
         yield from _along(design)
 
@@ -57,25 +55,25 @@ def _force(curve: StrokeCurve) -> str:
     return f"{abs(float(curve.force.value[k])):.4g}"
 
 
-def _along(design: Design) -> Iterator[str]:
+def _along(design: Design) -> Iterator[Told]:
     """Where a design buckles or its counts change on the way."""
     curve = design.stroke
     if curve is None:
         return
     lost = [float(v) for v, fine in zip(curve.values, curve.is_stable, strict=True) if not fine]
     if lost:
-        yield _filled(
+        yield Row(
             f"{design.label}: a stiffness is negative from {min(lost):.6g} to {max(lost):.6g}: it "
             "has buckled there."
         )
     counts = set(zip(curve.under_constrained, curve.over_constrained, strict=True))
     if len(counts) > 1:
-        yield _filled(
+        yield Row(
             f"{design.label}: the verdict changes on the way; the table that -o writes says where."
         )
 
 
-def effects(cost: CostValues) -> Iterator[str]:
+def effects(cost: CostValues) -> Iterator[Told]:
     """What the given misalignments do, with all of the nonlinearity."""
     if not cost.misaligned:
         return
@@ -83,14 +81,14 @@ def effects(cost: CostValues) -> Iterator[str]:
         f"{harmless(each.words)} by {in_words(Number(value), each.unit)}"
         for each, value in cost.misaligned
     )
-    yield _filled(f"With {given}, all of the nonlinearity:")
+    yield Row(f"With {given}, all of the nonlinearity:")
     rows: list[Sequence[str]] = [
         ("design", "first frequency", "stiffness kept", "moment", "stress"),
     ]
     for design in cost.designs:
         if design.effect is not None:
             rows.append((design.label, *_effect(design.effect)))
-    yield from _aligned(rows)
+    yield _without_empty(rows)
     for design in cost.designs:
         yield from _state(design)
 
@@ -103,7 +101,7 @@ def _effect(effect: Effect) -> tuple[str, ...]:
     return frequency, in_words(effect.kept), moment, peak
 
 
-def _state(design: Design) -> Iterator[str]:
+def _state(design: Design) -> Iterator[Told]:
     effect = design.effect
     if effect is None:
         return
@@ -115,26 +113,17 @@ def _state(design: Design) -> Iterator[str]:
     if effect.where:
         told.append(f"most stressed: {harmless(effect.where)}")
     if told:
-        yield _filled(f"{design.label}: {'; '.join(told)}.", "  ")
+        yield Row(f"{design.label}: {'; '.join(told)}.", "  ")
 
 
 def _at(numbers: Numbers, *place: int) -> Number:
     return Number(float(numbers.value[place]), float(numbers.uncertainty[place]))
 
 
-def _aligned(rows: list[Sequence[str]]) -> Iterator[str]:
-    """Rows of a table; columns in which nothing stands are left out."""
-    shown = [k for k in range(len(rows[0])) if k == 0 or any(row[k] for row in rows[1:])]
-    widths = {k: max(len(row[k]) for row in rows) for k in shown}
-    for row in rows:
-        cells = (row[k].ljust(widths[k]) if k == 0 else row[k].rjust(widths[k]) for k in shown)
-        yield "  ".join(cells).rstrip()
-
-
-def _filled(text: str, indent: str = "") -> str:
-    return textwrap.fill(
-        text, _WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
-    )
+def _without_empty(rows: list[Sequence[str]]) -> Table:
+    """A table; columns in which nothing stands are left out."""
+    kept = [k for k in range(len(rows[0])) if k == 0 or any(row[k] for row in rows[1:])]
+    return Table(tuple(tuple(row[k] for k in kept) for row in rows))
 
 
 def stiffness_words(value: float, direction: str) -> str:

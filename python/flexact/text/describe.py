@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import NamedTuple
 
+from ..base.columns import TIE, USUAL, table
 from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
@@ -23,8 +24,20 @@ MOST_MODES = 12
 _PARTS = 6
 
 
-def describe(result: Result, *, about_model: bool = True, most: int | None = None) -> str:
-    """The result for people, in lines of at most about a hundred characters.
+class _Table(NamedTuple):
+    """A table; its first row has its headings."""
+
+    rows: tuple[tuple[str, ...], ...]
+
+
+#: What a section is made of.
+_Told = Line | _Table
+
+
+def describe(
+    result: Result, *, about_model: bool = True, most: int | None = None, width: int = USUAL
+) -> str:
+    """The result for people, in rows of a width.
 
     Args:
         result: The result.
@@ -32,17 +45,24 @@ def describe(result: Result, *, about_model: bool = True, most: int | None = Non
             not on a screen where they have been shown already.
         most: How many motions, and how many self-stresses, are given one by one; by default
             all.
+        width: Of the rows, in columns of a terminal.
     """
     sections = (
         _verdict(result),
         _counts(result),
-        map(filled, decision(result)),
+        decision(result),
         _motions(result, most),
         _self_stresses(result, most),
         _notes(result, about_model),
     )
-    blocks = ("\n".join(section) for section in map(list, sections) if section)
-    return "\n\n".join(blocks)
+    blocks = ([_shown(told, width) for told in section] for section in sections)
+    return "\n\n".join("\n".join(block) for block in blocks if block)
+
+
+def _shown(told: _Told, width: int) -> str:
+    if isinstance(told, _Table):
+        return table(told.rows, width)
+    return filled(told, width=width)
 
 
 class VerdictInWords(NamedTuple):
@@ -74,25 +94,27 @@ def verdict_in_words(result: Result) -> VerdictInWords:
     return VerdictInWords(start, f"{'; '.join(reasons) or none}.")
 
 
-def _verdict(result: Result) -> Iterator[str]:
+def _verdict(result: Result) -> Iterator[Line]:
     if result.name:
-        yield harmless(result.name)
-    yield filled(sentence(str(verdict_in_words(result))))
-    yield filled(margin_line(result))
+        yield sentence(harmless(result.name).replace(" ", TIE))
+    yield sentence(str(verdict_in_words(result)))
+    yield margin_line(result)
 
 
-def _counts(result: Result) -> Iterator[str]:
-    yield f"{'':14}{'total':>8}{'fixed':>8}{'dependent':>11}{'independent':>13}"
-    for name, part in (
-        ("coordinates", result.counts.coordinates),
-        ("deformations", result.counts.deformations),
-    ):
-        total, fixed, dependent, independent = part
-        yield f"{name:14}{total:8d}{fixed:8d}{dependent:11d}{independent:13d}"
-    yield f"{counted(result.degrees_of_freedom, 'degree', '', 's')} of freedom declared."
+def _counts(result: Result) -> Iterator[_Told]:
+    counts = result.counts
+    yield _Table(
+        (
+            ("", "   total", " fixed", "dependent", "independent"),
+            ("coordinates", *map(str, counts.coordinates)),
+            ("deformations", *map(str, counts.deformations)),
+        )
+    )
+    freedoms = counted(result.degrees_of_freedom, "degree", "", "s")
+    yield sentence(f"{freedoms} of freedom declared.")
 
 
-def _motions(result: Result, most: int | None) -> Iterator[str]:
+def _motions(result: Result, most: int | None) -> Iterator[Line]:
     told = result.motions[:most]
     internal = internal_in_words(result)
     if internal:
@@ -100,29 +122,29 @@ def _motions(result: Result, most: int | None) -> Iterator[str]:
     modes = (Line((), motion_in_parts(motion, _PARTS)) for motion in told)
     kind = _Kind("motion", "s", "kinematically")
     yield from _modes(kind, result.under_constrained, len(result.motions), modes, internal)
-    yield from map(filled, lines_on_motions(result))
+    yield from lines_on_motions(result)
 
 
-def _self_stresses(result: Result, most: int | None) -> Iterator[str]:
+def _self_stresses(result: Result, most: int | None) -> Iterator[Line]:
     modes = (
         Line(_lead(conflict_in_words(stress)), stress_in_parts(stress, _PARTS))
         for stress in result.self_stresses[:most]
     )
     kind = _Kind("self-stress", "es", "statically")
     yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes)
-    yield from map(filled, lines_on_self_stresses(result))
+    yield from lines_on_self_stresses(result)
 
 
 def _lead(words: Pieces) -> Pieces:
     return (*words, ": ") if words else ()
 
 
-def _notes(result: Result, about_model: bool) -> Iterator[str]:
+def _notes(result: Result, about_model: bool) -> Iterator[Line]:
     known = 0 if about_model else len(result.data.problems.kept)
     lines = []
     for item in islice(warnings_of(result), known, None):
         place = f" (line {item.line})" if item.line else ""
-        lines.append(filled(sentence(f"{item.severity}: {harmless(item.message)}{place}")))
+        lines.append(sentence(f"{item.severity}: {harmless(item.message)}{place}"))
     yield from dict.fromkeys(lines)
 
 
@@ -136,22 +158,26 @@ class _Kind(NamedTuple):
 
 def _modes(
     kind: _Kind, count: int, given: int, modes: Iterable[Line], internal: str = ""
-) -> Iterator[str]:
+) -> Iterator[Line]:
     """Modes one by one, and how many there are besides: nothing where there are none."""
     if not count:
         return
     what, many = kind.what, kind.what + kind.ending
     heading = (many if count > 1 else what).capitalize()
-    yield f"{heading} ({kind.how} indeterminate; relative values, only their ratios matter)"
+    how = f"{kind.how} indeterminate; relative values, only their ratios matter"
+    yield sentence(f"{heading} ({how})")
     if internal:
-        yield filled(sentence(f"  {internal}"))
+        yield sentence(f"  {internal}")
     shown = 0
     for shown, line in enumerate(modes, start=1):
         numbered = line._replace(head=(f"  {shown}. ", *line.head))
-        yield filled(numbered.shortened(_PARTS))
+        yield numbered.shortened(_PARTS)
     if count > shown and not internal:
-        yield f"  ... and {counted(count - shown, 'more ' + what, '', kind.ending)}"
+        more = counted(count - shown, f"more {what}", "", kind.ending)
+        yield sentence(f"  ... and {more}")
     if count > given:
-        yield f"Of these {count} {many} {given} are given; the method svd gives all."
+        told = f"Of these {count} {many} {given} are given; the method svd gives all."
+        yield sentence(told)
     if count > 1:
-        yield f"These {many} are one basis of many: any combination of them is also one."
+        told = f"These {many} are one basis of many: any combination of them is also one."
+        yield sentence(told)

@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Iterable
 from typing import NamedTuple
 
-_WIDTH = 100
+from ..base.columns import TIE, USUAL, wrapped
+
 _INDENT = "     "
-#: Holds the words of one item together while lines are broken.
-_TIE = "\N{NO-BREAK SPACE}"
 
 
 class Named(NamedTuple):
@@ -63,23 +61,19 @@ def plain(pieces: Iterable[Piece]) -> str:
     return "".join(map(str, pieces))
 
 
-def _tied(words: str) -> str:
+def _tied(words: str, width: int) -> str:
     """Words that are not to be torn apart, unless they are longer than a row."""
-    return words.replace(" ", _TIE) if len(words) < _WIDTH - 2 * len(_INDENT) else words
+    return words.replace(" ", TIE) if len(words) < width - 2 * len(_INDENT) else words
 
 
-def filled(line: Line, *, hanging: bool = False) -> str:
-    """A line as text of at most a hundred characters a row; items are not torn apart.
+def filled(line: Line, *, hanging: bool = False, width: int = USUAL) -> str:
+    """A line as text in rows of a width; items are not torn apart.
 
     Further rows are indented where there are items, or where they are to hang.
     """
-    items = [_tied(plain(item)) + note[:1] + _tied(note[1:]) for item, note in line.listed()]
+    items = [
+        _tied(plain(item), width) + note[:1] + _tied(note[1:], width)
+        for item, note in line.listed()
+    ]
     text = plain(line.head) + "; ".join(items + ["..."] * line.more)
-    indent = _INDENT if line.items or hanging else ""
-    return textwrap.fill(
-        text,
-        _WIDTH,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    ).replace(_TIE, " ")
+    return wrapped(text, width, _INDENT if line.items or hanging else "")
