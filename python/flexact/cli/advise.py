@@ -18,7 +18,7 @@ from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.terminal import complain, say, text_width
+from flexact.cli.terminal import complain, give, say, text_width
 from flexact.diagnostics.errors import ModelError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.text.margin import verdict_word
@@ -108,7 +108,7 @@ class _Work:
                 raise in_short(error) from None
             words = "" if written and not self.chosen.json else self._words(advice)
         if words:
-            say(words)
+            give(words) if self.chosen.json else say(words)
         if written:
             complain(written) if self.chosen.json or self.file.to_stdout else say(written)
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(result))

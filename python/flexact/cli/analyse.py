@@ -4,20 +4,22 @@
 from __future__ import annotations
 
 import argparse
+import re
+import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
-from flexact.cli import failures
+from flexact.cli import colour, failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.targets import folder
-from flexact.cli.terminal import complain, say, text_width
+from flexact.cli.terminal import complain, give, is_coloured, say, text_width
 from flexact.files.decks import DeckFile, find_decks
 from flexact.result.result import Result
 from flexact.result.verdict import Verdict
@@ -114,8 +116,8 @@ class _Work:
             analysis = read_and_analysed(deck, self.chosen, bar)
             bar.show("writing")
             failure = self.files.write(deck, analysis) if self.files else None
-            words = self._words(analysis)
-        say(words)
+            words, is_data = self._words(analysis)
+        give(words) if is_data else say(words)
         outcome = self._judge(deck, analysis)
         if failure is None:
             return outcome
@@ -131,17 +133,28 @@ class _Work:
             complain(f"{harmless(deck.name)}: {found}; expected {wanted}")
         return Outcome(deck.name, code, word)
 
-    def _words(self, analysis: Result) -> str:
+    def _words(self, analysis: Result) -> tuple[str, bool]:
+        """What is said, and whether it is data."""
         if self.chosen.json:
-            text: str = load("flexact.text.json_result").text_of(analysis)
-            return text
+            return load("flexact.text.json_result").text_of(analysis), True
         if self.chosen.log and not self.files:
-            log: str = load("flexact.text.spacar_log").spacar_log(analysis)
-            return log
+            return load("flexact.text.spacar_log").spacar_log(analysis), True
         # What concerns the deck stands on stderr already.
         width = text_width()
         words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
         if analysis.over_constrained and analysis.given.properties is not None:
             # It takes a while to load.
             words = load("flexact.costing.glance").with_glance(words, analysis, width)
-        return f"{words}\n"
+        return f"{_coloured(words, analysis)}\n", False
+
+
+def _coloured(words: str, analysis: Result) -> str:
+    """The words with the verdict in its colour, where colour is wanted."""
+    if not is_coloured(sys.stdout):
+        return words
+    # The words may be broken into rows anywhere.
+    verdict = r"\s+".join(map(re.escape, verdict_in_words(analysis).start.split()))
+    style = "bad"
+    if analysis.verdict is Verdict.EXACT:
+        style = "unsure" if analysis.is_marginal else "good"
+    return re.sub(verdict, lambda found: colour.painted(found[0], style), words, count=1)

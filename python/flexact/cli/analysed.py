@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
+import time
 
 from flexact.base import memory
 from flexact.base.plain_text import harmless
 from flexact.cli.bar import Bar
-from flexact.cli.terminal import complain
+from flexact.cli.terminal import columns_of, complain, is_verbose
 from flexact.core.calls import METHODS
 from flexact.deck.reading import read_deck
 from flexact.diagnostics.rendering import render_problems
@@ -93,7 +95,8 @@ def opened(deck: DeckFile, bar: Bar) -> ModelData:
 def report_problems(model: ModelData) -> None:
     """Render the warnings and notes about a deck."""
     if model.problems.kept:
-        complain(render_problems(model.problems, model.name, model.source))
+        width = columns_of(sys.stderr)
+        complain(render_problems(model.problems, model.name, model.source, width))
 
 
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
@@ -109,9 +112,24 @@ def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: 
 
 def read_and_analysed(deck: DeckFile, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Read a deck, report its problems, and analyse it."""
+    begun = time.perf_counter()
     model = opened(deck, bar)
     report_problems(model)
-    return analysed(deck, model, chosen, bar)
+    read = time.perf_counter()
+    result = analysed(deck, model, chosen, bar)
+    if is_verbose():
+        complain(_done(deck, result, read - begun, time.perf_counter() - read))
+    return result
+
+
+def _done(deck: DeckFile, result: Result, reading: float, analysing: float) -> str:
+    """What was done to a deck, and how long it took [s]."""
+    a = result.given.arrays
+    return (
+        f"{harmless(deck.name)}: read in {reading:.2g} s: {a.node_number.size} nodes, "
+        f"{a.element_number.size} elements; D(c) {result.rows} x {result.columns} decomposed by "
+        f"{result.method} in {analysing:.2g} s: {result.certainty.value}"
+    )
 
 
 def announce_wait(deck: DeckFile, model: ModelData, method: str) -> None:

@@ -13,6 +13,7 @@ from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.base.version import VERSION
+from flexact.cli import colour
 from flexact.cli.help_texts import Formatter, set_usage
 from flexact.cli.outcome import ExitCode
 from flexact.cli.terminal import (
@@ -21,7 +22,8 @@ from flexact.cli.terminal import (
     complain,
     discard,
     finish_results,
-    say,
+    give,
+    speak,
 )
 
 if TYPE_CHECKING:
@@ -63,25 +65,34 @@ class Parser(argparse.ArgumentParser):
     """A parser that says what was meant."""
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong with the usage, and what was meant or how to get help."""
-        self.print_usage(sys.stderr)
-        text = f"{self.prog}: error: {harmless(message)}{_hint(message)}\n"
-        self.exit(ExitCode.OTHER, text)
+        """Say what is wrong with the usage, what may have been meant, and how to get help."""
+        told = load("flexact.cli.usage").told(harmless(message), self)
+        self.exit(ExitCode.OTHER, f"{told}\n")
 
     def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
         # argparse's own is silent where stdout cannot be written.
         if file is sys.stdout:
-            say(message.removesuffix("\n"))
+            give(message.removesuffix("\n"))
         else:
             complain(message.removesuffix("\n"))
 
 
-def _hint(message: str) -> str:
-    found = re.search(r"invalid choice: '(.*)' \(choose from (.*)\)", message)
-    if found is None:
-        return ""
-    near = load("difflib").get_close_matches(found[1], re.findall(r"[\w-]+", found[2]), 1)
-    return f"; did you mean {near[0]}?" if near else ""
+def _add_manner(parser: argparse.ArgumentParser) -> None:
+    """Add to a verb's parser how it speaks."""
+    manner = parser.add_argument_group("how it speaks")
+    manner.add_argument(
+        "--color",
+        choices=colour.CHOICES,
+        default="auto",
+        help="whether to colour; auto: a terminal, unless NO_COLOR is set",
+    )
+    loud = manner.add_mutually_exclusive_group()
+    loud.add_argument(
+        "-q", "--quiet", action="store_true", help="say errors alone, and write what is asked for"
+    )
+    loud.add_argument(
+        "-v", "--verbose", action="count", default=0, help="say what is done, and how long it takes"
+    )
 
 
 def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.ArgumentParser:
@@ -125,6 +136,7 @@ def parser_of(verb: str) -> argparse.ArgumentParser:
 
 def _fill(parser: argparse.ArgumentParser, verb: str, for_good: bool = False) -> None:
     load(f"flexact.cli.{verb}", for_good=for_good).fill(parser)
+    _add_manner(parser)
     parser._positionals.title = "arguments"
     set_usage(parser)
 
@@ -137,9 +149,9 @@ class _Version(argparse.Action):
         asked = [word for word in self.const or () if _VERBOSE.fullmatch(word)]
         count = sum(1 if word == "--verbose" else len(word) - 1 for word in asked)
         if count:
-            say(load("flexact.cli.about").about(paths=count > 1))
+            give(load("flexact.cli.about").about(paths=count > 1))
         else:
-            say(f"flexact {VERSION}")
+            give(f"flexact {VERSION}")
         parser.exit()
 
 
@@ -168,10 +180,12 @@ def run(arguments: Sequence[str] | None = None) -> int:
 def _obey(arguments: Sequence[str] | None) -> int:
     try:
         words = sys.argv[1:] if arguments is None else arguments
+        speak()
         if not words:
             complain(make_parser(()).format_help().removesuffix("\n"))
             return ExitCode.OTHER
         chosen = make_parser(words, for_good=arguments is None).parse_args(words)
+        speak(chosen.color, chosen.quiet, chosen.verbose)
         return int(chosen.run(chosen))
     except BatchError as error:
         complain(f"flexact: error: {harmless(str(error))}")

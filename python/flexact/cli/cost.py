@@ -16,12 +16,14 @@ from flexact.cli.decks import take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import number, one_deck
-from flexact.cli.terminal import complain, put, say
+from flexact.cli.terminal import complain, give, put, say, text_width
 from flexact.costing.asked import DRIVE, HELD, POINTS, Asked
 from flexact.costing.asking import AskedError
 from flexact.costing.cost import Cost
 from flexact.costing.making import cost_of
 from flexact.costing.saving import content_of, require_suffix, save
+from flexact.costing.told import WIDTH
+from flexact.costing.words import describe
 from flexact.diagnostics.errors import ModelError, ProblemsError
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import STDOUT, plan_file
@@ -159,7 +161,10 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
         if to_stdout:
             put(content_of(made, ".csv"))
         else:
-            say(made.to_json() if chosen.json else f"{made.describe()}\n")
+            if chosen.json:
+                give(made.to_json())
+            else:
+                say(f"{describe(made, text_width(WIDTH))}\n")
         for target in files:
             text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
             complain(text) if chosen.json or to_stdout else say(text)

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.terminal import complain, say
+from flexact.cli.terminal import columns_of, complain, give
 from flexact.diagnostics.diagnostic import Diagnostic, Severity
 from flexact.diagnostics.errors import DeckError
+from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile, FolderError
 
 #: Failures that are none of the deck's.
@@ -40,7 +42,7 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
         failure = {"diagnostics": records, "errors": total}
         # Loaded where it is wanted: a command that starts does not wait for it.
         head = load("flexact.text.json_result").header(deck.name)
-        say(load("json").dumps({**head, "error": failure}))
+        give(load("json").dumps({**head, "error": failure}))
     code = ExitCode.OTHER if type(error).__name__ in CODES else ExitCode.DECK_ERROR
     return Outcome(deck.name, code, "failed", _remark(error))
 
@@ -48,7 +50,8 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
 def report_failure(deck: DeckFile, error: Exception) -> None:
     """Report on stderr why a deck failed."""
     if isinstance(error, DeckError):
-        complain(str(error))
+        width = columns_of(sys.stderr)
+        complain(render_problems(error.problems, error.name, error.source, width))
     elif isinstance(error, FolderError):
         complain(_reason(error))
     else:

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
-import sys
 import textwrap
 from collections.abc import Iterable
+
+from flexact.cli.terminal import text_width
 
 #: Begins a line of the shell among the examples.
 PROMPT = "$ "
@@ -18,7 +18,7 @@ _STEP = "    "
 _LEAD = re.compile(r" *(?:\d  |\$ )?")
 #: A word of the shell.
 _WORD = r"(?:'[^']*'|\"[^\"]*\"|\S)+"
-_LEAST, _USUAL = 24, 80
+_USUAL = 80
 
 
 class Formatter(argparse.RawDescriptionHelpFormatter):
@@ -26,7 +26,7 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         """Take the width where somebody looks."""
-        super().__init__(prog, width=max(columns_of_help() - 2, _LEAST))
+        super().__init__(prog, width=text_width(_USUAL), max_help_position=20)
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "\n".join(_fitted(line, width) for line in text.splitlines())
@@ -43,15 +43,6 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
             made = _wrapped(words, self._width, "       ", break_long_words=False)
             return f"{made}\n\n"
         return super()._format_usage(usage, actions, groups, prefix)
-
-
-def columns_of_help() -> int:
-    """How many columns help may take: those stated, those of the terminal, or eighty."""
-    stated = os.environ.get("COLUMNS", "")
-    width = int(stated) if stated.isascii() and stated.isdigit() else 0
-    if not width and sys.stdout is not None and sys.stdout.isatty():
-        width = os.get_terminal_size(sys.stdout.fileno()).columns
-    return width or _USUAL
 
 
 def _fitted(line: str, width: int) -> str:

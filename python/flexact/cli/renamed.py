@@ -26,7 +26,7 @@ def add_renamed(
         action=_Renamed,
         const=new,
         dest=dest,
-        type=kind,
+        type=str if kind is None else kind,
         choices=choices,
         default=argparse.SUPPRESS,
         help=argparse.SUPPRESS,

@@ -7,18 +7,91 @@ import contextlib
 import os
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TextIO
 
+from flexact.base.columns import USUAL, refitted
 from flexact.base.errors import reason_of
 from flexact.base.plain_text import harmless
+from flexact.cli import colour
+
+#: No terminal counts as narrower.
+_LEAST = 20
 
 
 class ResultsError(Exception):
     """Results cannot be written to stdout, so that going on has no use."""
 
 
-def say(text: str) -> None:
-    """Print results, seen at once however the output is buffered.
+@dataclass
+class _Manner:
+    """How the present run speaks, as was chosen.
+
+    Attributes:
+        colour: Of `colour.CHOICES`.
+        quiet: Whether words are left out, so that errors and the exit code are left.
+        verbose: How much is told of what is done.
+    """
+
+    colour: str = "auto"
+    quiet: bool = False
+    verbose: int = 0
+
+
+_MANNER = _Manner()
+
+
+def speak(colour: str = "auto", quiet: bool = False, verbose: int = 0) -> None:
+    """Choose how the run speaks that begins."""
+    _MANNER.colour, _MANNER.quiet, _MANNER.verbose = colour, quiet, verbose
+
+
+def is_verbose() -> bool:
+    """Whether somebody wants to know what is done, and how long it takes."""
+    return _MANNER.verbose > 0
+
+
+def is_coloured(stream: TextIO | None) -> bool:
+    """Whether a stream is to be coloured."""
+    return colour.is_wanted(stream, _MANNER.colour, os.environ)
+
+
+def text_width(usual: int = USUAL, stream: TextIO | None = None) -> int:
+    """Columns for words: those of the terminal, as many as are read with ease; else `usual`."""
+    seen = columns_of(sys.stdout if stream is None else stream)
+    return usual if seen is None else max(_LEAST, min(seen, USUAL))
+
+
+def columns_of(stream: TextIO | None) -> int | None:
+    """The columns that COLUMNS states, or the terminal has; None where nobody looks."""
+    stated = os.environ.get("COLUMNS", "")
+    if stated.isdigit() and int(stated) > 0:
+        return int(stated)
+    if stream is None or not stream.isatty():
+        return None
+    with contextlib.suppress(OSError, ValueError):
+        # Some terminals say that they have no columns.
+        return os.get_terminal_size(stream.fileno()).columns or None
+    return None
+
+
+def _fitted(text: str, stream: TextIO | None) -> str:
+    """A text of which no row is wider than the terminal."""
+    seen = columns_of(stream)
+    return text if seen is None else refitted(text, max(_LEAST, seen))
+
+
+def say(text: str, style: str = "") -> None:
+    """Print what results are in words, as wide as the terminal; errors as for `give`."""
+    if not _MANNER.quiet:
+        text = _fitted(text, sys.stdout)
+        if style and is_coloured(sys.stdout):
+            text = colour.painted(text, style)
+        give(text)
+
+
+def give(text: str) -> None:
+    """Print results as they are, seen at once however the output is buffered.
 
     Raises:
         BrokenPipeError: Nobody reads on.
@@ -59,7 +132,16 @@ def complain(text: str) -> None:
     """Print problems and remarks, behind the results that came before them."""
     if text:
         _clear_progress()
+        text = _fitted(text, sys.stderr)
+        if is_coloured(sys.stderr):
+            text = colour.painted_problems(text)
         _to_stderr(f"{text}\n")
+
+
+def remark(text: str) -> None:
+    """Print what is done, where somebody wants to know."""
+    if is_verbose():
+        complain(text)
 
 
 def show_progress(number: int, total: int, deck: str) -> None:

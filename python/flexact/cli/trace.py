@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -116,7 +117,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
             if target is not None and target != STDOUT:
                 with unwinding():
                     save(made, target)
-        tell = say
+        tell: Callable[[str], None] = say
         if target == STDOUT:
             write_text(target, csv_bytes(made))
             tell = complain

@@ -93,6 +93,9 @@ def _table(cost: CostValues, width: int) -> Iterator[Told]:
         widths = (max(map(columns, cells)) for cells in zip(_HEADINGS, *rows, strict=True))
         if sum(widths) + _GAP * (len(_HEADINGS) - 1) <= width:
             break
+    else:
+        # A list has room for all of them.
+        rows = [_SECOND, *(_row(design, 0) for design in cost.designs)]
     yield Table((_HEADINGS, *rows), second=True)
 
 

@@ -3,27 +3,33 @@
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Sequence
 
+from ..base.columns import columns
 from ..base.plain_text import harmless
 from .diagnostic import Diagnostic, Place, Problems
 from .source import Source, decode
 
 MOST_SHOWN = 20
+#: Columns of a source line, and in front of the place in a longer one.
 _WIDTH = 110
 _BEFORE = 40
+#: Columns of a source line that are left however narrow a terminal is.
+_LEAST = 12
 _CUT = "..."
 
 
-def render_problems(problems: Problems, name: str = "", source: Source | None = None) -> str:
+def render_problems(
+    problems: Problems, name: str = "", source: Source | None = None, width: int | None = None
+) -> str:
     """All problems: the first twenty, how many more there are, and a closing count.
 
     Errors go before warnings and notes when not all can be shown; what is shown
-    stands in the order of the text.
+    stands in the order of the text. Source lines with their carets are not wider than `width`,
+    where there is one; words are not broken here.
     """
     shown = _choose(problems.kept)
-    blocks = [render(item, name, source) for item in shown]
+    blocks = [render(item, name, source, width) for item in shown]
     if problems.total > len(shown):
         more = problems.total - len(shown)
         blocks.append(f"... and {more} more problem{'s' if more > 1 else ''}")
@@ -50,7 +56,9 @@ def _closing(problems: Problems, name: str) -> str:
     return where + (", ".join(words) or "no problems")
 
 
-def render(item: Diagnostic, name: str = "", source: Source | None = None) -> str:
+def render(
+    item: Diagnostic, name: str = "", source: Source | None = None, width: int | None = None
+) -> str:
     """One diagnostic; without a source it has no source lines."""
     lines = [f"{item.severity}[{harmless(item.code)}]: {harmless(item.message)}"]
     numbers = [item.line] + ([item.other.line] if item.other else [])
@@ -59,11 +67,11 @@ def render(item: Diagnostic, name: str = "", source: Source | None = None) -> st
     if item.line > 0:
         place = Place(item.line, item.column, item.last_column)
         lines.append(f"{gutter}--> {name}:{item.line}:{item.column}")
-        lines += _excerpt(source, place, gutter, "^", harmless(item.label))
+        lines += _excerpt(source, place, gutter, "^", harmless(item.label), width)
         if item.other is not None:
             lines.append(f"{gutter}::: {name}:{item.other.line}:{item.other.column}")
             label = "first here" if item.other < place else "and here"
-            lines += _excerpt(source, item.other, gutter, "-", label)
+            lines += _excerpt(source, item.other, gutter, "-", label, width)
     else:
         if name:
             lines.append(f"{gutter}--> {name}")
@@ -74,39 +82,41 @@ def render(item: Diagnostic, name: str = "", source: Source | None = None) -> st
     return "\n".join(lines)
 
 
-def _excerpt(source: Source | None, place: Place, gutter: str, mark: str, label: str) -> list[str]:
+def _excerpt(
+    source: Source | None, place: Place, gutter: str, mark: str, label: str, width: int | None
+) -> list[str]:
     if source is None:
         return [f"{gutter} = {label}"] if label else []
-    text, first, last = _window(decode(source.line(place.line)), place)
-    padding = "".join("\t" if c == "\t" else " " * _columns(c) for c in text[: first - 1])
-    carets = mark * max(1, sum(_columns(c) for c in text[first - 1 : last]))
+    room = _WIDTH if width is None else max(_LEAST, width - len(gutter) - 3)
+    line = decode(source.line(place.line))
+    if width is not None:
+        line = line.replace("\t", " ")
+    text, first, last = _window(line, place, room)
+    padding = "".join("\t" if c == "\t" else " " * columns(c) for c in text[: first - 1])
+    carets = mark * max(1, columns(text[first - 1 : last]))
     number = str(place.line).rjust(len(gutter))
+    marked = f"{gutter} | {padding}{carets}"
+    apart = width is not None and columns(f"{marked} {label}") > width
     return [
         f"{gutter} |",
         f"{number} | {text}".rstrip(),
-        f"{gutter} | {padding}{carets} {label}".rstrip(),
+        *([marked, f"{gutter} = {label}"] if apart else [f"{marked} {label}".rstrip()]),
     ]
 
 
-def _window(text: str, place: Place) -> tuple[str, int, int]:
-    """The line, or of a very long one the part around the place; and the place in it."""
+def _window(text: str, place: Place, room: int) -> tuple[str, int, int]:
+    """The line, or of one that is too long the part around the place; and the place in it."""
     first = min(place.column, len(text) + 1)
     last = min(max(place.last_column, first), max(len(text), first))
     text = harmless(text, keep_tabs=True)
-    if len(text) <= _WIDTH:
+    if columns(text) <= room or len(text) <= room == _WIDTH:
         return text, first, last
-    start = max(0, min(first - 1 - _BEFORE, len(text) - _WIDTH))
+    if room != _WIDTH:
+        # The cuts take room, and characters of two columns leave room for half as many.
+        room = max(1, (room - 2 * len(_CUT)) * len(text) // columns(text))
+    start = max(0, min(first - 1 - min(_BEFORE, room // 2), len(text) - room))
     head = _CUT if start else ""
-    tail = _CUT if start + _WIDTH < len(text) else ""
+    tail = _CUT if start + room < len(text) else ""
     shift = len(head) - start
-    last = min(last, start + _WIDTH)
-    return head + text[start : start + _WIDTH] + tail, first + shift, last + shift
-
-
-def _columns(c: str) -> int:
-    """How many columns of a terminal a character takes."""
-    if c.isascii():
-        return 1
-    if unicodedata.combining(c):
-        return 0
-    return 2 if unicodedata.east_asian_width(c) in "WF" else 1
+    last = min(last, start + room)
+    return head + text[start : start + room] + tail, first + shift, last + shift
