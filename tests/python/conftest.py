@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fixtures that several tests share, and what a build without SuiteSparse leaves out."""
 
+import os
 import signal
 from collections.abc import Generator
 from pathlib import Path
@@ -12,6 +13,9 @@ from small_decks import DECKS, write
 from wording import AsStored
 
 import flexact
+
+# Texts are as wide as where nobody looks; pytest-xdist states a width.
+os.environ.pop("COLUMNS", None)
 
 # Shells start what runs in the background deaf to Control-C, and its children with it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
