@@ -104,6 +104,15 @@ def test_the_bare_command_says_how_it_is_used(capsys: pytest.CaptureFixture[str]
     assert all(verb in err for verb in VERBS)
 
 
+def test_an_unknown_option_of_a_verb_is_told_with_its_usage(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["analyse", "x.dat", "--jsn"]) == 2
+    err = capsys.readouterr().err
+    assert "'--jsn'" in err and "'--json'" in err
+    assert "flexact analyse [OPTIONS]" in err and "flexact analyse --help" in err
+
+
 # The version
 
 

@@ -69,6 +69,15 @@ class Parser(argparse.ArgumentParser):
         told = load("flexact.cli.usage").told(harmless(message), self)
         self.exit(ExitCode.OTHER, f"{told}\n")
 
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Parse words; what a verb does not know is told with the verb's own usage."""
+        made, rest = super().parse_known_args(args, namespace)
+        if rest:
+            self.error(f"unrecognized arguments: {' '.join(rest)}")
+        return made, rest
+
     def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
         # argparse's own is silent where stdout cannot be written.
         if file is sys.stdout:

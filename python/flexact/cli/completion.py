@@ -10,7 +10,7 @@ from flexact.cli.command import VERBS, parser_of
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
 from flexact.cli.shell_words import OptionWords, VerbWords
-from flexact.cli.terminal import say
+from flexact.cli.terminal import give
 
 SHELLS = ("bash", "zsh", "fish")
 #: What the values of options and arguments are, by what help calls them.
@@ -39,7 +39,7 @@ def complete(chosen: argparse.Namespace) -> ExitCode:
     verbs = [words_of(verb) for verb in VERBS]
     # Those of the command itself.
     module = load("flexact.cli.shell_scripts")
-    say(module.SCRIPTS[chosen.shell](words_of(""), verbs).removesuffix("\n"))
+    give(module.SCRIPTS[chosen.shell](words_of(""), verbs).removesuffix("\n"))
     return ExitCode.ANALYSED
 
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 import textwrap
 from collections.abc import Iterable
 
-from flexact.cli.terminal import columns_of
+from flexact.cli.terminal import text_width
 
 #: Begins a line of the shell among the examples.
 PROMPT = "$ "
@@ -19,7 +18,7 @@ _STEP = "    "
 _LEAD = re.compile(r" *(?:\d  |\$ )?")
 #: A word of the shell.
 _WORD = r"(?:'[^']*'|\"[^\"]*\"|\S)+"
-_LEAST, _NARROW, _USUAL = 24, 60, 80
+_NARROW, _USUAL = 60, 80
 
 
 class Formatter(argparse.RawDescriptionHelpFormatter):
@@ -27,7 +26,7 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         """Take the width where somebody looks."""
-        super().__init__(prog, width=max(columns_of_help() - 1, _LEAST))
+        super().__init__(prog, width=text_width(_USUAL), max_help_position=20)
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "\n".join(_fitted(line, width) for line in text.splitlines())
@@ -44,11 +43,6 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
             made = _wrapped(words, self._width, "       ", break_long_words=False)
             return f"{made}\n\n"
         return super()._format_usage(usage, actions, groups, prefix)
-
-
-def columns_of_help() -> int:
-    """How many columns help may take: those stated, those of the terminal, or eighty."""
-    return columns_of(sys.stdout) or _USUAL
 
 
 def _fitted(line: str, width: int) -> str:

@@ -18,6 +18,7 @@ from flexact.drawing import quantity_named
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import plan_file, write_together
 from flexact.picture import check_packages, check_suffix, check_view, picture_bytes
+from flexact.picture.subject import refuse_zero
 
 _QUANTITIES = ("normal-force", "twist-moment", "in-plane-moment", "out-of-plane-moment")
 
@@ -80,6 +81,7 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
         with Bar(deck.name, deck.path) as bar:
             analysis = read_and_analysed(deck, chosen, bar)
             with unwinding():
+                refuse_zero(analysis, chosen.stress, chosen.quantity)
                 content = picture_bytes(
                     analysis,
                     target.suffix,

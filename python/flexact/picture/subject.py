@@ -15,6 +15,7 @@ from ..drawing import (
     Drawing,
     Movement,
     Resultants,
+    drawing_of,
     move,
     names_in,
     quantity_named,
@@ -166,10 +167,31 @@ def _stressed(analysis: Result, drawing: Drawing, number: int, quantity: str | N
     require_there(number, len(stresses), "self-stress", "self-stresses")
     values = resultants(drawing, stresses[number - 1])
     known = None if quantity is None else quantity_named(quantity)
-    if known is not None and not values.largest(known) > 0.0:
-        raise SubjectError(_zero(drawing, values, str(quantity), number))
     words = f"self-stress {number} of {analysis.over_constrained}"
     return Subject(_heading(words), stress=stress_of(values, known))
+
+
+def refuse_zero(analysis: Result, number: int | None, quantity: str | None) -> None:
+    """Raise where a quantity of a self-stress is zero everywhere, so that there is none to see.
+
+    Args:
+        analysis: The result.
+        number: Of the self-stress, from 1; None: the first.
+        quantity: Its name; None: the dominant one, which is not zero.
+
+    Raises:
+        SubjectError: It is zero; this names the quantities that are not.
+        NotThereError: There is no such self-stress.
+    """
+    if quantity is None:
+        return
+    number = 1 if number is None else number
+    require_there(number, len(analysis.self_stresses), "self-stress", "self-stresses")
+    drawing = drawing_of(analysis.given)
+    values = resultants(drawing, analysis.self_stresses[number - 1])
+    known = quantity_named(quantity)
+    if known is not None and not values.largest(known) > 0.0:
+        raise SubjectError(_zero(drawing, values, quantity, number))
 
 
 def _zero(drawing: Drawing, values: Resultants, asked: str, number: int) -> str:
