@@ -42,6 +42,7 @@ VERBS = {
     "trace": "the path of a motion, both ways, with its dead points",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
+    "lsp": "a language server for editors, which start it",
 }
 EPILOG = """\
 exit codes:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..advising import Advice, advice_of
 from ..base.errors import FlexactError
 from ..base.plain_text import harmless
 from ..model.data import ModelData
@@ -18,6 +17,7 @@ from ..text.naming import counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
 from ..text.sentences import Named, Piece, plain
 from ..text.warnings import warnings_of
+from .advisor import Advice, Advisor
 from .deck import Deck
 from .document import Range
 from .index import Key
@@ -70,15 +70,15 @@ def _analysed(data: ModelData) -> Result:
     return made
 
 
-def advice_on(opinion: Opinion) -> Advice | None:
+def advice_on(opinion: Opinion, advisor: Advisor) -> Advice | None:
     """Steps that mend the mechanism; None where nothing is to be mended, or it is too large."""
     result = opinion.result
     if result is None or result.verdict is Verdict.EXACT:
         return None
     if result.given.arrays.element_number.size > LARGEST_FOR_STEPS:
         return None
-    advice = advice_of(result)
     try:
+        advice = advisor(result)
         _ = advice.steps
     except (FlexactError, MemoryError):
         return None
