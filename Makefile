@@ -16,7 +16,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
          stiffness_cases
 
 # Tests that compare words with files.
-WORDED := wording advice_wording broken_decks appearance docs element_table gallery
+WORDED := wording advice_wording broken_decks appearance docs element_table gallery keywords
 
 .PHONY: demo test check core-test lint wording gallery attack fuzz bench reference clean
 

@@ -45,7 +45,7 @@ class Keyword(NamedTuple):
     name: str
     block: Block
     form: str
-    """A letter an operand, the last one repeated: e element, n node, i component, r real, w word."""
+    """A letter an operand, the last repeated: e element, n node, i component, r real, w word."""
     least: int
     """How many operands it takes at the least."""
     most: int | None
@@ -62,7 +62,7 @@ class Words(NamedTuple):
     operands: str
     says: str
     table: str
-    """Which table of the page it stands in: classes, values, properties, loads, pictures, unused."""
+    """Where the page has it: classes, values, properties, loads, pictures, unused, uncovered."""
 
 
 @cache
@@ -99,6 +99,12 @@ _INDEPENDENT = Words(
     "n [i…]", "independent coordinates: degrees of freedom, prescribed motions", "classes"
 )
 _DEFORMATION = Words("e [i…]", "independent deformations", "classes")
+_FORCE = Words(
+    "n …",
+    "of a position a force Fx, Fy, Fz (N), in the plane Fx, Fy; of an orientation a moment "
+    "Mx, My, Mz (N m), in the plane M",
+    "loads",
+)
 _GROUP = Words(
     "[e…]",
     "the elements of the options that follow; without a number all, as before the first group",
@@ -138,13 +144,8 @@ _WORDS: dict[tuple[str, Block | None], Words] = {
     ("EMASS", None): Words("e …", "", "properties"),
     ("XM", None): Words("n …", "", "properties"),
     ("MASS", None): Words("n …", "", "properties"),
-    ("XF", None): Words(
-        "n …",
-        "of a position a force Fx, Fy, Fz (N), in the plane Fx, Fy; of an orientation a moment "
-        "Mx, My, Mz (N m), in the plane M",
-        "loads",
-    ),
-    ("FORCE", None): Words("n …", "the older spelling of `XF`", "loads"),
+    ("XF", None): _FORCE,
+    ("FORCE", None): _FORCE,
     ("DELXF", None): Words("n …", "the same, added in the course of loading", "loads"),
     ("GRAVITY", None): Words(
         "gx gy gz", "acceleration of free fall (m/s^2); two numbers in the plane", "loads"

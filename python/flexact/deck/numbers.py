@@ -27,7 +27,7 @@ def _all(names: str, unit: str) -> tuple[Quantity, ...]:
 
 _AXES = _all("x, y, z", "m")
 _EULER = tuple(Quantity(f"Euler parameter {i}") for i in range(4))
-_BEAM_MASS = (Quantity("mass per length", "kg/m"), *_all("Jxx, Jyy, Jzz, Jyz per length", "kg m"))
+_BEAM_MASS = (Quantity("mass per length", "kg/m"), *_all("Jxx, Jyy, Jzz, Jyz", "kg m"))
 _BAR_MASS = _BEAM_MASS[:1]
 #: By keyword of the element; what is not here has no stiffness.
 STIFFNESS: dict[str, tuple[Quantity, ...]] = {
@@ -39,19 +39,23 @@ STIFFNESS: dict[str, tuple[Quantity, ...]] = {
     "PLBEAM": (Quantity("EA", "N"), Quantity("EI", "N m^2"), Quantity("EI/(G A k)", "m^2")),
     "TRUSS": (Quantity("EA", "N"),),
     "PLTRUSS": (Quantity("EA", "N"),),
-    "HINGE": _all("stiffness about its axis, that of its first tilt, of its second", "N m/rad"),
+    "HINGE": _all(
+        "stiffness about its axis, stiffness of its first tilt, stiffness of its second tilt",
+        "N m/rad",
+    ),
     "PLHINGE": _all("stiffness about its axis", "N m/rad"),
     "BEARING": (
-        *_all("stiffness along its x, y, z", "N/m"),
-        *_all("about its axis, of its first tilt, of its second", "N m/rad"),
+        *_all("stiffness along x, stiffness along y, stiffness along z", "N/m"),
+        *_all(
+            "stiffness about its axis, stiffness of its first tilt, stiffness of its second tilt",
+            "N m/rad",
+        ),
     ),
 }
 #: Likewise; what is not here has no mass.
 MASS: dict[str, tuple[Quantity, ...]] = {
     **dict.fromkeys(("BEAM", "RBEAM", "PINBODY"), _BEAM_MASS),
-    **dict.fromkeys(
-        ("PLBEAM", "PLRBEAM"), (_BEAM_MASS[0], Quantity("moment of inertia per length", "kg m"))
-    ),
+    **dict.fromkeys(("PLBEAM", "PLRBEAM"), (_BEAM_MASS[0], Quantity("moment of inertia", "kg m"))),
     **dict.fromkeys(("TRUSS", "PLTRUSS"), _BAR_MASS),
 }
 #: By the kind of node.

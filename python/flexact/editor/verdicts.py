@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..base.errors import FlexactError
@@ -15,7 +16,7 @@ from ..text.margin import margin_in_short
 from ..text.motions import internal_in_words, motion_in_parts
 from ..text.naming import counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
-from ..text.sentences import Named, Piece, plain
+from ..text.sentences import Named, Pieces, plain
 from ..text.warnings import warnings_of
 from .advisor import Advice, Advisor
 from .deck import Deck
@@ -90,25 +91,31 @@ def _remarks(deck: Deck, result: Result) -> list[Remark]:
     internal = internal_in_words(result)
     motions = [one for one in result.motions if not (internal and one.is_internal)]
     for number, motion in enumerate(motions[:_MOST], start=1):
-        parts = motion_in_parts(motion, _PARTS)
-        made.append(_remark(deck, f"motion {number}: ", [piece for one in parts for piece in one]))
+        moving = _listed(motion_in_parts(motion, _PARTS))
+        made.append(_remark(deck, f"motion {number}: ", moving, moving))
     if internal:
         made.append(Remark(first_line(deck.document), internal))
     for number, stress in enumerate(result.self_stresses[:_MOST], start=1):
-        parts = stress_in_parts(stress, _PARTS)
-        words = conflict_in_words(stress) or tuple(piece for one in parts for piece in (*one, "; "))
-        made.append(_remark(deck, f"self-stress {number}: ", list(words)))
+        carried = _listed(stress_in_parts(stress, _PARTS))
+        words = conflict_in_words(stress) or carried
+        made.append(_remark(deck, f"self-stress {number}: ", words, carried))
     known = len(result.data.problems.kept)
     for item in warnings_of(result)[known:]:
         made.append(Remark(first_line(deck.document), harmless(item.message)))
     return made
 
 
-def _remark(deck: Deck, head: str, pieces: list[Piece]) -> Remark:
-    named = next((piece for piece in pieces if isinstance(piece, Named)), None)
+def _listed(parts: Sequence[Pieces]) -> Pieces:
+    """Several pieces as one list."""
+    apart = [piece for one in parts for piece in ("; ", *one)]
+    return tuple(apart[1:])
+
+
+def _remark(deck: Deck, head: str, words: Pieces, carried: Pieces) -> Remark:
+    """A remark where the first of what takes part stands."""
+    named = next((piece for piece in (*carried, *words) if isinstance(piece, Named)), None)
     where: list[Range] = []
     if named is not None:
         key: Key = (named.kind, named.number)
         where = deck.index.definition(key)
-    text = f"{head}{plain(pieces).removesuffix('; ')}"
-    return Remark(where[0] if where else first_line(deck.document), text)
+    return Remark(where[0] if where else first_line(deck.document), f"{head}{plain(words)}")
