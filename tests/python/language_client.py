@@ -6,6 +6,7 @@ It shares no code with the server: JSON-RPC with its headers, and UTF-16 unless 
 
 from __future__ import annotations
 
+import contextlib
 import json
 import queue
 import subprocess
@@ -150,7 +151,5 @@ class Client:
         self.process.wait()
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             if stream is not None:
-                try:
+                with contextlib.suppress(OSError):
                     stream.close()
-                except OSError:
-                    pass

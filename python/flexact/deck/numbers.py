@@ -34,9 +34,9 @@ STIFFNESS: dict[str, tuple[Quantity, ...]] = {
     "BEAM": (
         Quantity("EA", "N"),
         *_all("G It, E Iy, E Iz", "N m^2"),
-        *_all("E Iy/(G A k), E Iz/(G A k)", "m^2"),
+        *_all("shear E Iy/(G A k), shear E Iz/(G A k)", "m^2"),
     ),
-    "PLBEAM": (Quantity("EA", "N"), Quantity("EI", "N m^2"), Quantity("EI/(G A k)", "m^2")),
+    "PLBEAM": (Quantity("EA", "N"), Quantity("EI", "N m^2"), Quantity("shear EI/(G A k)", "m^2")),
     "TRUSS": (Quantity("EA", "N"),),
     "PLTRUSS": (Quantity("EA", "N"),),
     "HINGE": _all(

@@ -171,8 +171,9 @@ class Blocks:
             block = Block.IN_OUT
         elif block is Block.KINEMATICS:
             block = Block.DYNAMICS
-        self.starts.append(behind)
-        self.blocks.append(block)
+        if block is not self.blocks[-1]:
+            self.starts.append(behind)
+            self.blocks.append(block)
 
     def of_line(self, line: int) -> Block:
         """The block of a line, from 0."""
