@@ -80,19 +80,24 @@ def test_statements_are_those_that_the_core_reads(name: str) -> None:
         assert kind is element_kinds()[arrays.element_kind[i] - 1]
         made = index.element(number)
         assert made is not None
-        named = {ref.number for ref in made.says.references if ref.kind == "node"}
+        named = {ref.number for ref in made.says.facts.references if ref.kind == "node"}
         nodes = arrays.element_node[:, i]
         numbers = set(arrays.node_number[nodes[nodes > 0] - 1].tolist())
         assert {n for n in named if index.kinds[n] != WARPING} == numbers
     kinds = {n: int(k) for n, k in zip(arrays.node_number, arrays.node_kind, strict=True)}
     assert {n: k for n, k in index.kinds.items() if k != WARPING} == kinds
-    for statement in index.all:
-        says = statement.says
+    for line in range(len(index.facts)):
+        says = index.at(line).says
         number = says.number(1)
-        if says.name == "X" and number in model.data.node_index and kinds[number] <= 2:
+        if (
+            says.facts.is_statement
+            and says.name == "X"
+            and number in model.data.node_index
+            and kinds[number] <= 2
+        ):
             values = [float(w.text.replace("d", "e").replace("D", "e")) for w in says.words[2:]]
             mine = arrays.node_value[: len(values), model.data.node_index[number]]
-            if index.made["node", number][-1][0] is statement:
+            if index.made["node", number][-1][0] == line:
                 np.testing.assert_array_equal(mine, values)
 
 

@@ -95,7 +95,7 @@ def remedies_at(deck: Deck, advice: Advice, first: int, last: int) -> list[Remed
     keys = {
         (one.kind, one.number)
         for line in range(max(first, 0), min(last + 1, len(deck.document.bare)))
-        for one in deck.statements.at(line).says.references[:1]
+        for one in deck.statements.at(line).says.facts.references[:1]
     }
     made = []
     for step in advice.steps:

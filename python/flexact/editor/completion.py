@@ -159,7 +159,7 @@ def _operands(deck: Deck, statement: Statement, place: int, typed: str) -> Itera
 def _nodes(deck: Deck, wanted: int | None, typed: str) -> Iterator[Offer]:
     for number, kind in sorted(deck.index.kinds.items()):
         if (wanted is None or kind == wanted) and str(number).startswith(typed):
-            comment = _comment(deck, (NODE, number))
+            comment = deck.index.comment((NODE, number))
             detail = f"{kind_words(kind)}{f', {comment}' if comment else ''}"
             yield Offer(str(number), Kind.NUMBER, detail)
 
@@ -168,15 +168,9 @@ def _elements(deck: Deck, typed: str) -> Iterator[Offer]:
     numbers = sorted(number for kind, number in deck.index.made if kind == ELEMENT)
     for number in numbers:
         if str(number).startswith(typed):
-            made = deck.index.element(number)
-            comment = _comment(deck, (ELEMENT, number))
-            name = made.says.name if made is not None else ""
+            comment = deck.index.comment((ELEMENT, number))
+            name = deck.index.facts[deck.index.made[ELEMENT, number][0][0]].name
             yield Offer(str(number), Kind.NUMBER, f"{name}{f', {comment}' if comment else ''}")
-
-
-def _comment(deck: Deck, key: tuple[str, int]) -> str:
-    made = deck.index.made.get(key)
-    return made[0][0].says.comment if made else ""
 
 
 def _components(deck: Deck, statement: Statement, place: int) -> Iterator[Offer]:

@@ -87,10 +87,10 @@ def element_words(deck: Deck, number: int) -> list[str]:
         return [f"There is no element {number}."]
     kind = made.says.element
     assert kind is not None
-    head = f"**element {number}**: {made.says.name}"
+    head, comment = f"**element {number}**: {made.says.name}", made.says.facts.comment
     told, index = _element(deck, number)
     if told is None or index is None:
-        return [f"{head}{f', {made.says.comment}' if made.says.comment else ''}"]
+        return [f"{head}{f', {comment}' if comment else ''}"]
     part = told.parts.of_element(index)
     lines = [f"{head}, {part.kind} *{part.name}*" if part.is_named else f"{head}, {part.kind}"]
     nodes = told.data.arrays.element_node[:, index]

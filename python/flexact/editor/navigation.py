@@ -31,7 +31,7 @@ def place_at(deck: Deck, position: Position) -> Place | None:
     position = deck.document.clamped(position)
     statement = deck.statements.at(position.line)
     word = statement.says.word_at(position.character)
-    for one in statement.says.references:
+    for one in statement.says.facts.references:
         if one.place == word:
             return Place((one.kind, one.number), statement.span(one.place))
     return None
@@ -73,15 +73,20 @@ def rename_at(deck: Deck, position: Position, new: str) -> list[Edit]:
         raise RenameError(
             f"there is {article} {kind} {number} already; {deck.index.free(kind)} is free"
         )
-    mixed = next((one for one in deck.index.all if one.says.name in _MIXED), None)
-    if mixed is not None and any(
-        word.number == old
-        for one in deck.index.all
-        for word in one.says.words[1:]
-        if one.says.name in _MIXED
-    ):
+    mixed = next((line for line in _mixed(deck) if _holds(deck, line, old)), None)
+    if mixed is not None:
+        name = deck.index.facts[mixed].name
         raise RenameError(
-            f"{mixed.says.name} in line {mixed.line + 1} has the number {old}, which may be this "
-            f"{kind}: change it there first"
+            f"{name} in line {mixed + 1} has the number {old}, which may be this {kind}: change "
+            "it there first"
         )
     return [Edit(where, str(number)) for where in deck.index.where(place.key)]
+
+
+def _mixed(deck: Deck) -> list[int]:
+    """Lines that name nodes or elements among other numbers."""
+    return [line for line, one in enumerate(deck.index.facts) if one.name in _MIXED]
+
+
+def _holds(deck: Deck, line: int, number: int) -> bool:
+    return any(word.number == number for word in deck.statements.at(line).says.words[1:])

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from enum import Enum
-from typing import NamedTuple
+from functools import partial
+from typing import NamedTuple, TypeVar
 
 from ..base.plain_text import harmless
 from ..deck.keywords import Block, words_of
@@ -14,8 +15,9 @@ from .deck import Deck
 from .document import Range
 from .index import is_position
 from .names import kind_words
-from .statements import Statement
+from .statements import Facts, Statement, plan_of
 
+One = TypeVar("One")
 #: Lines of one kind beyond which they are shown in stretches of so many.
 _MOST, _STRETCH = 1000, 500
 
@@ -69,78 +71,98 @@ _TABLES = {
 
 def outline_of(deck: Deck) -> list[Symbol]:
     """Parts by name with their elements, nodes, classes, stiffness and mass, loads, pictures."""
-    parts: dict[str, list[Symbol]] = {}
-    rest: dict[str, list[Symbol]] = {name: [] for name in ("nodes", *_TABLES.values())}
-    for statement in deck.index.all:
-        says = statement.says
-        if says.element is not None:
-            name = harmless(part_name(says.comment).strip())
-            parts.setdefault(name or _plain(statement), []).append(_element(statement))
-        elif says.name == "X":
-            rest["nodes"].append(_node(deck, statement))
-        elif says.keyword is not None:
-            table = words_of(says.keyword).table
+    parts: dict[str, list[int]] = {}
+    rest: dict[str, list[int]] = {name: [] for name in ("nodes", *_TABLES.values())}
+    for line, facts in enumerate(deck.index.facts):
+        if not facts.is_statement:
+            continue
+        if facts.element is not None:
+            name = harmless(part_name(facts.comment).strip()) if facts.comment else ""
+            parts.setdefault(name or f"\0{line}", []).append(line)
+        elif facts.name == "X":
+            rest["nodes"].append(line)
+        else:
+            keyword = plan_of(facts.name, deck.statements.blocks.of_line(line)).keyword
+            table = words_of(keyword).table if keyword is not None else ""
             if table in _TABLES:
-                rest[_TABLES[table]].append(_statement(statement))
-    made = [_part(name, elements) for name, elements in parts.items()]
-    groups = [_group("parts", _stretches(made))] if made else []
-    return groups + [_group(name, _stretches(each)) for name, each in rest.items() if each]
+                rest[_TABLES[table]].append(line)
+    groups = []
+    if parts:
+        named = list(parts.items())
+        groups.append(_group("parts", named, lambda one: _part(deck, *one)))
+    for name, lines in rest.items():
+        if lines:
+            make = _node if name == "nodes" else _statement
+            groups.append(_group(name, lines, partial(make, deck)))
+    return groups
+
+
+def _group(name: str, entries: list[One], make: Callable[[One], Symbol]) -> Symbol:
+    inner = _stretches(entries, make)
+    first = min(inner, key=lambda each: each.range)
+    return Symbol(name, "", Sort.GROUP, _around(inner), first.own, tuple(inner))
+
+
+def _stretches(entries: list[One], make: Callable[[One], Symbol]) -> list[Symbol]:
+    """The entries; of very many the stretches that they stand in."""
+    if len(entries) <= _MOST:
+        return [make(one) for one in entries]
+    made = []
+    length = max(_STRETCH, len(entries) // _STRETCH)
+    for k in range(0, len(entries), length):
+        some = entries[k : k + length]
+        first, last = make(some[0]), make(some[-1])
+        name = f"{first.name} to {last.name}"
+        around = _around((first, last))
+        made.append(Symbol(name, f"{len(some)}", Sort.GROUP, around, _own(first, around)))
+    return made
+
+
+def _own(first: Symbol, around: Range) -> Range:
+    return first.own if around.start <= first.own.start else Range(around.start, around.start)
 
 
 def _plain(statement: Statement) -> str:
     return " ".join(word.text for word in statement.says.words[:2])
 
 
-def _element(statement: Statement) -> Symbol:
-    says = statement.says
-    nodes = " ".join(word.text for word in says.words[2:])
-    own = statement.span(0)
-    return Symbol(_plain(statement), nodes, Sort.ELEMENT, statement.whole, own)
+def _element(deck: Deck, line: int) -> Symbol:
+    statement = deck.index.at(line)
+    nodes = " ".join(word.text for word in statement.says.words[2:])
+    return Symbol(_plain(statement), nodes, Sort.ELEMENT, statement.whole, statement.span(0))
 
 
-def _part(name: str, elements: list[Symbol]) -> Symbol:
-    if len(elements) == 1:
-        one = elements[0]
-        return one._replace(name=name, detail=f"{one.name}", sort=Sort.PART)
-    detail = f"{len(elements)} elements"
-    inner = tuple(_stretches(elements))
-    return Symbol(name, detail, Sort.PART, _around(elements), elements[0].own, inner)
+def _part(deck: Deck, name: str, lines: list[int]) -> Symbol:
+    if len(lines) == 1:
+        one = _element(deck, lines[0])
+        if name.startswith("\0"):
+            return one._replace(sort=Sort.PART)
+        return one._replace(name=name, detail=one.name, sort=Sort.PART)
+    inner = tuple(_stretches(lines, partial(_element, deck)))
+    first = min(inner, key=lambda each: each.range)
+    detail = f"{len(lines)} elements"
+    return Symbol(name, detail, Sort.PART, _around(inner), first.own, inner)
 
 
-def _node(deck: Deck, statement: Statement) -> Symbol:
-    says = statement.says
+def _node(deck: Deck, line: int) -> Symbol:
+    statement = deck.index.at(line)
+    says, comment = statement.says, deck.index.facts[line].comment
     number = says.number(1)
     kind = deck.index.kinds.get(number) if number is not None else None
     words = kind_words(kind) if kind is not None else "node"
     value = " ".join(word.text for word in says.words[2:])
     name = f"node {says.words[1].text}" if len(says.words) > 1 else "node"
-    if says.comment and kind is not None and is_position(kind):
-        name = f"{name}: {harmless(says.comment)}"
+    if comment and kind is not None and is_position(kind):
+        name = f"{name}: {harmless(comment)}"
     return Symbol(name, f"{words} {value}".strip(), Sort.POINT, statement.whole, statement.span(0))
 
 
-def _statement(statement: Statement) -> Symbol:
+def _statement(deck: Deck, line: int) -> Symbol:
+    statement = deck.index.at(line)
     words = " ".join(word.text for word in statement.says.words)
     name = words if len(words) <= 40 else f"{words[:37]}..."
-    detail = harmless(statement.says.comment)
+    detail = harmless(deck.index.facts[line].comment)
     return Symbol(name, detail, Sort.STATEMENT, statement.whole, statement.span(0))
-
-
-def _group(name: str, inner: list[Symbol]) -> Symbol:
-    first = min(inner, key=lambda each: each.range)
-    return Symbol(name, "", Sort.GROUP, _around(inner), first.own, tuple(inner))
-
-
-def _stretches(symbols: list[Symbol]) -> list[Symbol]:
-    """Of very many entries the stretches that they stand in."""
-    if len(symbols) <= _MOST:
-        return symbols
-    made = []
-    for k in range(0, len(symbols), _STRETCH):
-        some = symbols[k : k + _STRETCH]
-        name = f"{some[0].name} to {some[-1].name}"
-        made.append(Symbol(name, f"{len(some)}", Sort.GROUP, _around(some), some[0].own))
-    return made
 
 
 def _around(symbols: Iterable[Symbol]) -> Range:
@@ -159,9 +181,10 @@ def folds_of(deck: Deck) -> list[Fold]:
     for first, end, block in zip(edges, edges[1:], blocks.blocks, strict=False):
         if block is not Block.CLOSED and end - 1 > first:
             made.append(Fold(first, end - 1))
+    kinds = [_run(facts) for facts in deck.index.facts]
     start, run = 0, ""
     for line in range(last + 2):
-        kind = _run(deck, line) if line <= last else ""
+        kind = kinds[line] if line <= last else ""
         if kind != run:
             if run and line - start >= 3:
                 made.append(Fold(start, line - 1, run == "%"))
@@ -169,8 +192,7 @@ def folds_of(deck: Deck) -> list[Fold]:
     return sorted(dict.fromkeys(made))
 
 
-def _run(deck: Deck, line: int) -> str:
-    says = deck.statements.at(line).says
-    if says.words:
-        return "element" if says.element is not None else says.name
-    return "%" if deck.document.bare[line].strip() else ""
+def _run(facts: Facts) -> str:
+    if facts.name:
+        return "element" if facts.element is not None else facts.name
+    return "" if facts.is_blank else "%"

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 from collections.abc import Callable, Generator
 from typing import Any, BinaryIO, TypeVar
@@ -198,6 +199,9 @@ def serve(stdin: BinaryIO, stdout: BinaryIO, advisor: Advisor) -> bool:
     # What pygls has to say of editors is for those who look for it.
     logging.getLogger("pygls").addHandler(logging.NullHandler())
     logging.getLogger("pygls").propagate = False
+    # A long deck is a million values that live as long as the deck: no garbage.
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 50)
     server = make_server(advisor)
     server.start_io(stdin, stdout)
     return server.was_shut_down

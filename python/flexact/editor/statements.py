@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator
-from functools import cached_property
+from functools import cache
 from typing import NamedTuple
 
 from ..core.raw import ElementKind
@@ -15,11 +15,15 @@ from .document import Document, Range
 
 _WORD = re.compile(r"[^\x00-\x20]+")
 _NUMBER = re.compile(r"\+?0*([1-9]\d{0,9})\Z")
-_MARKS = {False: re.compile(r"[%#]"), True: re.compile(r"[%#;]")}
 _ENDING = re.compile(
     r"^[\x00-\x09\x0b-\x20]*(END|HALT|VISUALIZATION)(?=[\x00-\x20%#;]|\Z)",
     re.IGNORECASE | re.MULTILINE,
 )
+
+
+def _number(word: str) -> int | None:
+    found = _NUMBER.match(word)
+    return int(found[1]) if found else None
 
 
 class Word(NamedTuple):
@@ -33,8 +37,7 @@ class Word(NamedTuple):
     @property
     def number(self) -> int | None:
         """The positive number that it is; None where it is none."""
-        found = _NUMBER.match(self.text)
-        return int(found[1]) if found else None
+        return _number(self.text)
 
 
 class Reference(NamedTuple):
@@ -49,42 +52,112 @@ class Reference(NamedTuple):
     """Whether the statement makes the element, or gives the node its place."""
 
 
+class Plan(NamedTuple):
+    """What a keyword makes of the words behind it."""
+
+    element: ElementKind | None
+    """The kind of element that it makes."""
+    keyword: Keyword | None
+    """Its row in the table of keywords."""
+    letters: str
+    """A letter an operand, the last one repeated: those of keywords; of elements E the number
+    that the element gets, n its nodes, v its vector."""
+
+    def letter(self, place: int) -> str:
+        """What operand 1, 2, ... is; empty where that is not known."""
+        return self.letters[min(place, len(self.letters)) - 1] if self.letters and place else ""
+
+
+@cache
+def _known_plan(name: str, block: Block) -> Plan:
+    kind = element_of(name)
+    if kind is not None:
+        nodes = sum(slot > 0 for slot in kind.slots) + 2 * (name == WITH_WARPING)
+        return Plan(kind, None, f"E{'n' * nodes}v")
+    keyword = find_keyword(name, block)
+    return Plan(None, keyword, keyword.form if keyword is not None else "")
+
+
+_NO_PLAN = Plan(None, None, "")
+#: No keyword is longer, so that what is typed wrong is not remembered.
+_LONGEST = 13
+
+
+def plan_of(name: str, block: Block) -> Plan:
+    """What a word in capitals makes of the words behind it."""
+    return _known_plan(name, block) if len(name) <= _LONGEST and name.isalpha() else _NO_PLAN
+
+
+class Facts(NamedTuple):
+    """What an index wants to know of a line, wherever it stands."""
+
+    name: str
+    """The keyword in capitals; empty without one."""
+    element: ElementKind | None
+    references: tuple[Reference, ...]
+    is_statement: bool
+    """Whether it says something: not where it is behind the second END."""
+    is_blank: bool
+    comment: str
+    """What stands behind the mark of a comment, without blanks."""
+
+
+def _mark(text: str, block: Block) -> int:
+    """Where the comment of a line starts; its length where there is none."""
+    if text.startswith("*"):
+        return 0
+    mark = len(text)
+    for c in "%#;" if block is Block.PICTURE else "%#":
+        found = text.find(c, 0, mark)
+        mark = found if found >= 0 else mark
+    return mark
+
+
+def facts_of(text: str, block: Block) -> Facts:
+    """What an index wants to know of a line."""
+    mark = _mark(text, block)
+    words = _WORD.findall(text, 0, mark)
+    comment = text[mark:].strip("%#;* \t") if mark < len(text) else ""
+    name = words[0].upper() if words else ""
+    is_statement = bool(words) and name not in ENDINGS and block is not Block.CLOSED
+    if not is_statement:
+        return Facts(name, None, (), False, not words and mark == len(text), comment)
+    plan = plan_of(name, block)
+    made = []
+    for place, word in enumerate(words):
+        letter = plan.letter(place)
+        if letter and letter in "Een" and (number := _number(word)) is not None:
+            kind = "node" if letter == "n" else "element"
+            made.append(Reference(kind, number, place, letter == "E" or (name, place) == _X))
+    return Facts(name, plan.element, tuple(made), True, False, comment)
+
+
+_X = ("X", 1)
+
+
 class Words:
-    """What a line says, wherever it stands.
+    """The words of a line, and where they stand.
 
     Attributes:
         words: Its words before the comment; none in a line of comment.
         block: The block that it stands in.
-        comment: What stands behind the mark of a comment, without blanks.
         mark: Where the comment starts; the length of the line where there is none.
         name: Its keyword in capitals; empty without words.
+        facts: What is known of it besides.
+        element: The kind of element that it makes.
+        keyword: Its row in the table of keywords.
     """
 
     def __init__(self, text: str, block: Block) -> None:
         """Take a line apart."""
-        found = _MARKS[block is Block.PICTURE].search(text)
-        self.block = block
-        self.mark = 0 if text.startswith("*") else found.start() if found else len(text)
+        self.block, self.mark = block, _mark(text, block)
         self.words = tuple(
             Word(one[0], one.start(), one.end()) for one in _WORD.finditer(text, 0, self.mark)
         )
-        self.comment = text[self.mark :].strip("%#;* \t")
-        self.name = self.words[0].text.upper() if self.words else ""
-
-    @cached_property
-    def element(self) -> ElementKind | None:
-        """The kind of element that it makes."""
-        return element_of(self.name)
-
-    @cached_property
-    def keyword(self) -> Keyword | None:
-        """Its row in the table of keywords."""
-        return find_keyword(self.name, self.block)
-
-    @property
-    def is_statement(self) -> bool:
-        """Whether it says something: not where it is behind the second END."""
-        return bool(self.words) and self.name not in ENDINGS and self.block is not Block.CLOSED
+        self.facts = facts_of(text, block)
+        self.name = self.facts.name
+        self._plan = plan_of(self.name, block)
+        self.element, self.keyword = self._plan.element, self._plan.keyword
 
     def word_at(self, character: int) -> int | None:
         """The word that a place touches, 0 for the keyword."""
@@ -94,31 +167,8 @@ class Words:
         return None
 
     def letter(self, place: int) -> str:
-        """What operand 1, 2, ... is: e element, n node, i component, r real, w word, v vector.
-
-        E is the number that an element gets; empty where that is not known.
-        """
-        if place < 1:
-            return ""
-        kind = self.element
-        if kind is not None:
-            nodes = sum(slot > 0 for slot in kind.slots) + 2 * (self.name == WITH_WARPING)
-            return "E" if place == 1 else "n" if place <= nodes + 1 else "v"
-        return self.keyword.letter(place) if self.keyword is not None else ""
-
-    @cached_property
-    def references(self) -> tuple[Reference, ...]:
-        """The nodes and elements that it names."""
-        if not self.is_statement:
-            return ()
-        made = []
-        for place, word in enumerate(self.words):
-            letter = self.letter(place)
-            if letter and letter in "Een" and (number := word.number) is not None:
-                kind = "node" if letter == "n" else "element"
-                defines = letter == "E" or (self.name == "X" and place == 1)
-                made.append(Reference(kind, number, place, defines))
-        return tuple(made)
+        """What operand 1, 2, ... is, as `Plan.letters` says; empty where that is not known."""
+        return self._plan.letter(place)
 
     def number(self, place: int) -> int | None:
         """The positive number that word 0, 1, ... is; None where it is none."""
@@ -183,7 +233,7 @@ class Blocks:
 class Statements:
     """The lines of a document, each taken apart when it is asked for.
 
-    What was taken apart is kept for the next states of the document, in `Document.known`.
+    What is known of a line is kept for the next states of the document, in `Document.known`.
     """
 
     def __init__(self, document: Document) -> None:
@@ -193,16 +243,16 @@ class Statements:
 
     def at(self, line: int) -> Statement:
         """What a line says, of whatever kind it is."""
-        text, block = self.document.bare[line], self.blocks.of_line(line)
-        known = self.document.known
-        made = known.get((text, block))
-        if made is None:
-            made = known[text, block] = Words(text, block)
-        return Statement(line, made)
+        return Statement(line, Words(self.document.bare[line], self.blocks.of_line(line)))
 
-    def __iter__(self) -> Iterator[Statement]:
-        """All lines that say something."""
-        for line in range(len(self.document.bare)):
-            made = self.at(line)
-            if made.says.is_statement:
+    def facts(self) -> Iterator[Facts]:
+        """What is known of each line."""
+        known = self.document.known
+        starts = [*self.blocks.starts, len(self.document.bare)]
+        for block, first, behind in zip(self.blocks.blocks, starts, starts[1:], strict=False):
+            for text in self.document.bare[first:behind]:
+                key = (text, block)
+                made = known.get(key)
+                if made is None:
+                    made = known[key] = facts_of(text, block)
                 yield made
