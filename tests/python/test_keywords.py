@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One table of keywords, in the core, and one home of what they say: docs and editors show it."""
 
+import json
 import re
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from reference_decks import NAMES, ROOT, text_of
@@ -15,9 +17,12 @@ from flexact.deck import keywords as home
 from flexact.deck import numbers
 from flexact.deck.keywords import Block, Keyword, find_keyword, keywords, words_of
 from flexact.diagnostics.errors import DeckError
+from flexact.model.appearance import CrossSection
 
 PAGE = ROOT / "docs" / "decks.md"
 
+EXTENSION = ROOT / "editors" / "vscode"
+GRAMMAR = EXTENSION / "syntaxes" / "flexact-deck.tmLanguage.json"
 TABLES = ("classes", "properties", "loads", "pictures", "unused")
 _TABLE = re.compile(
     r"(<!-- keywords, (\w+): make wording -->\n).*?(<!-- end of keywords -->\n)", re.DOTALL
@@ -149,3 +154,86 @@ def test_the_page_of_the_deck_language_shows_what_keywords_say(as_stored: AsStor
         return f"{found[1]}{table}\n{found[3]}"
 
     as_stored(_TABLE.sub(filled, page), PAGE)
+
+
+# Colours in VS Code --------------------------------------------------------------------
+
+#: What keywords of each table are to a colour theme.
+_SCOPES = {
+    "classes": "keyword.control.class",
+    "values": "keyword.other.value",
+    "properties": "support.function.property",
+    "loads": "support.function.load",
+    "pictures": "keyword.other.picture",
+    "unused": "keyword.other.unused",
+    "uncovered": "invalid.deprecated",
+}
+_NUMBER = r"(?<=\s)[-+]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?(?=[\s%#;]|$)"
+
+
+def starting(words: list[str]) -> str:
+    """A pattern of lines that start with one of some words."""
+    return rf"(?i)^\s*({'|'.join(sorted(words))})(?=[\s%#;]|$)"
+
+
+def grammar() -> dict[str, Any]:
+    """The TextMate grammar of decks, from the tables of elements and keywords."""
+    elements = [word for kind in element_kinds() for word in (kind.keyword, kind.synonym) if word]
+    scopes = {"storage.type.element": [*elements, home.WITH_WARPING]}
+    scopes["keyword.control.block"] = list(home.ENDINGS)
+    for row in keywords().values():
+        if row.name != "VISUALIZATION":
+            scopes.setdefault(_SCOPES[words_of(row).table], []).append(row.name)
+    named = [
+        {"match": starting(sorted(set(words))), "captures": {"1": {"name": f"{scope}.deck"}}}
+        for scope, words in scopes.items()
+    ]
+    sections = "|".join(each.name for each in CrossSection if each)
+    section = {"match": rf"(?i)\b({sections})\b", "name": "constant.language.deck"}
+    number = {"match": _NUMBER, "name": "constant.numeric.deck"}
+    comment = {"match": "[%#].*$", "name": "comment.line.percentage.deck"}
+    starred = {"match": r"^\*.*$", "name": "comment.line.star.deck"}
+    semicolon = {"match": "[%#;].*$", "name": "comment.line.semicolon.deck"}
+    inside = [section, number]
+    picture = {
+        "begin": r"(?i)^\s*(VISUALIZATION)(?=[\s%#;]|$)",
+        "beginCaptures": {"1": {"name": "keyword.control.block.deck"}},
+        "end": r"(?!)",
+        "patterns": [starred, semicolon, *named, *inside],
+    }
+    return {
+        "name": "Flexact deck",
+        "scopeName": "source.flexact-deck",
+        "patterns": [starred, comment, picture, *named, number],
+    }
+
+
+def test_colours_are_made_of_the_tables(as_stored: AsStored) -> None:
+    as_stored(json.dumps(grammar(), indent=2, ensure_ascii=False), GRAMMAR)
+    elements = [kind.keyword for kind in element_kinds()]
+    patterns = [one["match"] for one in grammar()["patterns"] if "captures" in one]
+    for word in (
+        *elements,
+        *(row.name for row in keywords().values() if row.name != "VISUALIZATION"),
+    ):
+        for line in (f"{word} 1 2", f"  {word.lower()}%", word):
+            found = {match[1].upper() for one in patterns if (match := re.search(one, line))}
+            assert found == {word}
+        assert not any(re.search(one, f"1 {word}") for one in patterns)
+    assert re.findall(_NUMBER, "X 3  0.1 -.5e3 +1.0D-3 3 %")[:2] == ["3", "0.1"]
+    assert len(re.findall(_NUMBER, "X 3  0.1 -.5e3 +1.0D-3 3 % 1a")) == 5
+
+
+def test_the_extension_knows_its_files_and_no_address_of_a_registry() -> None:
+    about = json.loads((EXTENSION / "package.json").read_text(encoding="utf-8"))
+    (language,) = about["contributes"]["languages"]
+    (colours,) = about["contributes"]["grammars"]
+    assert language["id"] == colours["language"] == "flexact-deck"
+    assert (EXTENSION / colours["path"]).resolve() == GRAMMAR.resolve()
+    assert grammar()["scopeName"] == colours["scopeName"]
+    assert (EXTENSION / language["configuration"]).is_file()
+    lock = (EXTENSION / "package-lock.json").read_text(encoding="utf-8")
+    assert '"resolved"' not in lock and "://registry" not in lock
+    used = json.loads(lock)["packages"][""]
+    assert used["dependencies"] == about["dependencies"]
+    assert used["devDependencies"] == about["devDependencies"]
