@@ -11,7 +11,7 @@ from ..diagnostics.diagnostic import Severity
 from .completion import Kind, Offer, Offers
 from .document import Document, Edit, Position, Range
 from .outline import Fold, Sort, Symbol
-from .problems import Problem, Remark, first_line
+from .problems import Problem, Remark, first_word
 from .verdicts import Opinion
 
 SOURCE = "flexact"
@@ -59,7 +59,7 @@ def diagnostic(document: Document, one: Problem, *, with_related: bool) -> lsp.D
 
 def verdict(document: Document, opinion: Opinion, *, with_related: bool) -> lsp.Diagnostic:
     """The verdict, as an information on the first line."""
-    where = first_line(document)
+    where = first_word(document)
     return lsp.Diagnostic(
         range=range_of(document, where),
         severity=lsp.DiagnosticSeverity.Information,

@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from ..base.plain_text import harmless
 from ..diagnostics.diagnostic import Diagnostic, Place, Severity
 from .deck import Deck
 from .document import Document, Position, Range
+
+_FIRST_WORD = re.compile(r"^\s*(\S*)")
 
 
 class Remark(NamedTuple):
@@ -52,6 +55,12 @@ def problems_of(deck: Deck) -> list[Problem]:
 def first_line(document: Document) -> Range:
     """All of the first line."""
     return Range.within(0, 0, len(document.bare[0]))
+
+
+def first_word(document: Document) -> Range:
+    """The first word of the first line."""
+    first, last = _FIRST_WORD.search(document.bare[0]).span(1)  # type: ignore[union-attr]
+    return Range.within(0, first, last)
 
 
 def _problem(document: Document, item: Diagnostic) -> Problem:
