@@ -16,6 +16,7 @@ from language_client import URI, Client
 from reference_decks import NAMES, ROOT, text_of
 from test_editor_words import GUIDE
 
+from flexact.cli.outcome import ExitCode
 from flexact.deck.reading import read_bytes
 from flexact.diagnostics.errors import DeckError
 
@@ -249,7 +250,7 @@ def test_a_long_deck_stays_at_hand(client: Client) -> None:
     symbols = client.of("documentSymbol")
     assert sum(len(one.get("children", [])) for one in symbols) < 1000
     client.tell("exit", None)
-    assert client.ended()[0] == 1
+    assert client.ended()[0] == ExitCode.OTHER
 
 
 def test_whatever_is_typed_the_server_goes_on(client: Client) -> None:
@@ -286,7 +287,7 @@ def test_an_editor_may_leave_without_a_word(start: Callable[..., Client], how: s
     else:
         client.process.send_signal(signal.SIGINT)
     code, said = client.ended()
-    assert said == "" and code in (1, -signal.SIGINT)
+    assert said == "" and code in (ExitCode.OTHER, -signal.SIGINT)
 
 
 def test_without_pygls_it_says_what_is_missing(tmp_path: Any) -> None:
@@ -299,5 +300,5 @@ def test_without_pygls_it_says_what_is_missing(tmp_path: Any) -> None:
         stdin=subprocess.DEVNULL,
         check=False,
     )
-    assert ended.returncode == 1 and ended.stdout == ""
+    assert ended.returncode == ExitCode.OTHER and ended.stdout == ""
     assert "pip install 'flexact[editor]'" in ended.stderr and "Traceback" not in ended.stderr
