@@ -7,12 +7,13 @@ import random
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 from editor_fuzz import mutated
-from language_client import URI, Client
+from language_client import PATIENCE, URI, Client
 from reference_decks import NAMES, ROOT, text_of
 from test_editor_words import GUIDE
 
@@ -25,11 +26,20 @@ START = {"line": 0, "character": 0}
 BROKEN = sorted((ROOT / "input_decks" / "broken").glob("*.dat"))
 
 
-@pytest.fixture
-def client() -> Iterator[Client]:
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Client]:
     made = Client(options={"verdict": True})
     yield made
     made.kill()
+
+
+@pytest.fixture
+def client(shared: Client) -> Iterator[Client]:
+    """One for tests that leave it as it was: it takes a second to start."""
+    yield shared
+    shared.tell("textDocument/didClose", {"textDocument": {"uri": URI}})
+    shared.of("foldingRange")
+    shared.kept.clear()
 
 
 @pytest.fixture
@@ -57,7 +67,15 @@ def verdict_of(diagnostics: list[dict[str, Any]]) -> str:
     return str(words)
 
 
-def fixes(client: Client, line: int) -> list[dict[str, Any]]:
+def fixes(client: Client, line: int, least: int = 1) -> list[dict[str, Any]]:
+    """So many at least: the server gives up waiting for steps where it is kept busy."""
+    end = time.monotonic() + PATIENCE
+    while len(found := _fixes(client, line)) < least and time.monotonic() < end:
+        pass
+    return found
+
+
+def _fixes(client: Client, line: int) -> list[dict[str, Any]]:
     where = {"line": line, "character": 0}
     context = {"diagnostics": [], "triggerKind": 1}
     found: list[dict[str, Any]] = client.of(
@@ -66,8 +84,9 @@ def fixes(client: Client, line: int) -> list[dict[str, Any]]:
     return found
 
 
-def test_a_deck_is_typed_and_mended(client: Client) -> None:
+def test_a_deck_is_typed_and_mended(start: Callable[..., Client]) -> None:
     """From a new file to an exact mechanism: problems, verdict, step, verdict."""
+    client = start(options={"verdict": True})
     client.open("")
     assert [one["code"] for one in client.diagnostics(1)] == ["empty-deck"]
     client.change(2, {"text": GUIDE.replace("FIX 6", "FIXX 6")})
@@ -85,7 +104,7 @@ def test_a_deck_is_typed_and_mended(client: Client) -> None:
     edits = edits_of(client.ask("codeAction/resolve", step))
     client.change(4, *({"range": e["range"], "text": e["newText"]} for e in edits))
     assert verdict_of(client.diagnostics(4, verdict=True)).startswith("exactly constrained; ")
-    assert fixes(client, 0) == []
+    assert fixes(client, 0, 0) == []
     said = client.wait(
         lambda one: (
             one.get("method") == "flexact/verdict"
@@ -194,18 +213,17 @@ def test_problems_are_those_of_check(start: Callable[..., Client]) -> None:
 def test_an_editor_without_related_places_gets_all_in_the_message(
     start: Callable[..., Client],
 ) -> None:
-    for chosen in ({"textDocument": {}}, {"options": {"help": "message"}}):
-        client = start(**chosen)
+    plain, wordy = start(textDocument={}), start(options={"help": "message"})
+    for client in (plain, wordy):
         client.open("TRUS 1 1 2\n")
         found = client.diagnostics(1)
         message = next(one["message"] for one in found if one["code"] == "unknown-keyword")
         assert message.endswith("help: did you mean TRUSS?")
         assert all("relatedInformation" not in one for one in found)
-    plain = start(textDocument={})
-    plain.open(GUIDE)
+    plain.open(GUIDE, version=2)
     assert plain.at("hover", 0, 0)["contents"]["kind"] == "plaintext"
     assert "location" in plain.of("documentSymbol")[0]
-    assert verdict_of(plain.diagnostics(1, verdict=True)).count("\n") >= 1
+    assert verdict_of(plain.diagnostics(2, verdict=True)).count("\n") >= 1
     step = fixes(plain, 0)[0]
     assert edits_of(step)
 
@@ -234,8 +252,9 @@ def test_a_stale_verdict_is_dropped(client: Client) -> None:
     assert versions == sorted(versions)
 
 
-def test_a_long_deck_stays_at_hand(client: Client) -> None:
+def test_a_long_deck_stays_at_hand(start: Callable[..., Client]) -> None:
     """Of 100,000 lines: questions are answered while it is read, and while it is analysed."""
+    client = start()
     bars = "".join(
         f"TRUSS {k} {k} {k + 1}\nX {k + 1} {k} {k % 7} {k % 5}\n" for k in range(1, 50_001)
     )
@@ -253,7 +272,8 @@ def test_a_long_deck_stays_at_hand(client: Client) -> None:
     assert client.ended()[0] == ExitCode.OTHER
 
 
-def test_whatever_is_typed_the_server_goes_on(client: Client) -> None:
+def test_whatever_is_typed_the_server_goes_on(start: Callable[..., Client]) -> None:
+    client = start()
     texts = [text for text in map(text_of, NAMES) if len(text) < 3000]
     dice = random.Random("server")
     client.open("")

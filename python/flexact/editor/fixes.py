@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .server import DeckServer
 
 #: Seconds to wait for steps that are asked for.
-_PATIENCE = 8.0
+_PATIENCE = 15.0
 
 
 class Fixes:
