@@ -16,9 +16,9 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
          stiffness_cases
 
 # Tests that compare words with files.
-WORDED := wording advice_wording broken_decks appearance docs element_table gallery
+WORDED := wording advice_wording broken_decks appearance docs element_table gallery keywords
 
-.PHONY: demo test check core-test lint wording gallery attack fuzz bench reference clean
+.PHONY: demo test check core-test lint wording gallery vscode attack fuzz bench reference clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -56,6 +56,10 @@ wording: .venv/ready-to-test
 # Pages of the gallery, and in results/gallery those that move.
 gallery: .venv/ready-to-run
 	$(BIN)/python tools/gallery.py results/gallery
+
+# The extension for VS Code, editors/vscode/flexact-*.vsix; needs Node.js.
+vscode:
+	cd editors/vscode && npm ci && npm run package
 
 # Random decks with exact counts, until stopped with Ctrl-C; offending ones go to build/attack.
 attack: .venv/ready-to-test

@@ -33,7 +33,7 @@ subroutine describe_names(n, enumeration, names, first, count)
    implicit none
    integer(c_int), intent(in) :: n
    integer(c_signed_char), intent(in) :: enumeration(n)
-   integer(c_signed_char), intent(out) :: names(24, 64)
+   integer(c_signed_char), intent(out) :: names(24, 128)
    integer(c_int), intent(out) :: first, count
 
    call give_names(enumeration, names, first, count)

@@ -11,6 +11,7 @@ module flexact_names
    use flexact_error, only: error_names
    use flexact_element_table, only: frame_names, vector_names, member_names
    use flexact_appearance, only: section_names
+   use flexact_keywords, only: keyword_rows
    use flexact_model, only: class_names
    use flexact_progress, only: stage_names
    use flexact_proof, only: proof_names
@@ -31,7 +32,7 @@ module flexact_names
 contains
 
    !> The names of an enumeration; none where there is no such one.
-   pure function names_of(enumeration) result(names)
+   function names_of(enumeration) result(names)
       character(len=*), intent(in) :: enumeration
       type(names_t) :: names
 
@@ -52,6 +53,7 @@ contains
       case ('tasks'); names = names_t(1, [task_names])
       case ('step endings'); names%name = [step_names]
       case ('severities'); names = names_t(1, [severity_names])
+      case ('keywords'); names%name = keyword_rows()
       case ('cross-sections'); names = names_t(1, [character(len=24) :: section_names])
       case default; allocate (names%name(0))
       end select

@@ -8,7 +8,7 @@ module flexact_keywords
    use flexact_element_table, only: element_kinds
    implicit none
    private
-   public :: keyword_t, keywords, find_keyword, nearest_keyword, edit_distance
+   public :: keyword_t, keywords, find_keyword, nearest_keyword, edit_distance, keyword_rows
    public :: why_uncovered, instead_of_uncovered
    public :: block_kinematics, block_dynamics, block_closed, block_inout, block_picture
    public :: role_element, role_value, role_coordinate, role_deformation, role_form, role_uncovered, role_unknown, role_picture, &
@@ -135,6 +135,20 @@ contains
          if (keywords(i)%block == block) return
       end do
    end function find_keyword
+
+   !> The rows as words, for those who read the table from outside: name, block, role, form,
+   !> and how many operands at the least and at the most, 0 for any number.
+   function keyword_rows() result(rows)
+      character(len=24) :: rows(size(keywords))
+      type(keyword_t) :: row
+      integer :: i
+
+      do i = 1, size(keywords)
+         row = keywords(i)
+         write (rows(i), '(a, 2(1x, i0), 1x, a, 2(1x, i0))') trim(row%name), row%block, row%role, trim(row%form), &
+            row%least, merge(0, row%most, row%most == any_number)
+      end do
+   end function keyword_rows
 
    !> Why an element is not covered.
    pure function why_uncovered(name) result(why)

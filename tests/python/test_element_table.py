@@ -27,6 +27,7 @@ from flexact.core.elements import (
     role_table,
 )
 from flexact.core.raw import ElementKind
+from flexact.deck.keywords import ELEMENTS, form_of
 from flexact.diagnostics.diagnostic import Severity
 from flexact.drawing import Form, drawing_of, resultants
 from flexact.model.appearance import CrossSection
@@ -37,8 +38,6 @@ oracle_elements: Any = importlib.import_module("oracle_elements")
 KINDS = element_kinds()
 KEYWORDS = [kind.keyword for kind in KINDS]
 PAGE = ROOT / "docs" / "decks.md"
-_SLOTS = ("p", "op", "q", "oq")
-_VECTOR = {Vector.NONE: "", Vector.OPTIONAL: " [yx yy yz]", Vector.REQUIRED: " ax ay az"}
 FIRST, LAST = "<!-- elements: make wording -->\n", "<!-- end of elements -->\n"
 
 
@@ -88,6 +87,10 @@ def test_every_deformation_has_a_role_with_words_and_a_dual(kind: ElementKind) -
     assert len(set(words)) == len(words) and all(words)
     assert Dual.NONE not in kind.dual[: kind.deformations]
     assert not any(kind.dual[kind.deformations :])
+
+
+def test_every_element_has_a_meaning() -> None:
+    assert set(ELEMENTS) == set(KEYWORDS)
 
 
 def test_every_role_is_of_an_element_and_in_words() -> None:
@@ -168,19 +171,13 @@ def test_axes_are_those_of_the_core() -> None:
             assert tuple(np.flatnonzero(classes != Class.NONE)) == AXES[kind]
 
 
-def statement_of(kind: ElementKind, keyword: str) -> str:
-    """How an element of a kind is written in a deck, such as `TRUSS e p q`."""
-    slots = (word for word, wanted in zip(_SLOTS, kind.slots, strict=True) if wanted)
-    return f"{keyword} e {' '.join(slots)}{_VECTOR[Vector(kind.vector)]}"
-
-
 def element_page() -> Iterator[str]:
     """The rows of a table of all elements, in Markdown."""
     yield "| statement | deformations |"
     yield "|---|---|"
     for kind in KINDS:
         keywords = filter(None, (kind.keyword, kind.synonym))
-        statements = ", ".join(f"`{statement_of(kind, keyword)}`" for keyword in keywords)
+        statements = ", ".join(f"`{form_of(kind, keyword)}`" for keyword in keywords)
         words = (
             f"{number} {deformation_word(kind.number, number)}"
             for number in range(1, kind.deformations + 1)

@@ -25,7 +25,7 @@ FLOORS = (
     ("deck", "result"),
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
-    ("mesh", "page", "picture"),
+    ("editor", "mesh", "page", "picture"),
     ("advising", "costing", "saving", "tracing", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
@@ -41,7 +41,7 @@ MOST_LINES_OF_BINDINGS = 250
 #: Packages that may be missing, and so are imported where they are needed.
 OPTIONAL = (
     *("matplotlib", "PIL", "meshio", "vtk", "vtkmodules"),
-    *("pyarrow", "distributed", "pandas", "yaml"),
+    *("pyarrow", "distributed", "pandas", "yaml", "pygls", "lsprotocol"),
 )
 
 

@@ -46,6 +46,7 @@ VERBS = {
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
     "completion": "a script by which a shell completes the words of this command",
     "help": "what a verb does, with its options and examples",
+    "lsp": "a language server for editors, which start it",
 }
 #: 128 and the number of SIGPIPE, which not all systems have.
 _PIPE_CLOSED = 128 + 13

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from ..core.elements import Role, role_table
+from ..model.data import ModelData
+from ..model.parts.condensing import Condensed
 from ..model.parts.forms import Form
-from ..model.parts.parts import Part
-from ..result.outcome import Outcome
+from ..model.parts.parts import Part, Parts
 from .places import axis_words, place_words
 
 #: What roles are in the local frame of an element, as decks number them.
@@ -49,7 +50,23 @@ _OFFSETS: dict[int, int] = {Role.OFFSET_X: 0, Role.OFFSET_Y: 1, Role.OFFSET_Z: 2
 _TILTS: dict[int, int] = {Role.TILT_Y: 1, Role.TILT_Z: 2}
 
 
-def deformation_words(outcome: Outcome, element: int, deformation: int) -> str:
+class Told(Protocol):
+    """A model of which is spoken: that of a result, or one without an analysis."""
+
+    @property
+    def data(self) -> ModelData:
+        """The model as it is analysed."""
+
+    @property
+    def condensed(self) -> Condensed:
+        """The model as given, and as it is analysed."""
+
+    @property
+    def parts(self) -> Parts:
+        """The parts of the model as given."""
+
+
+def deformation_words(outcome: Told, element: int, deformation: int) -> str:
     """Such as "in-plane bending at its clamp".
 
     In-plane is the bending that a sheet holds; other members bend about an axis.
@@ -82,7 +99,7 @@ class Bending(NamedTuple):
     """Index of the position node at that end, in the model as given."""
 
 
-def bending_of(outcome: Outcome, element: int, deformation: int) -> Bending | None:
+def bending_of(outcome: Told, element: int, deformation: int) -> Bending | None:
     """The bending that a deformation is; None where it is none. See `deformation_words`."""
     role = role_of(outcome, element, deformation)
     given = int(outcome.condensed.elements[element])
@@ -98,18 +115,18 @@ def bending_of(outcome: Outcome, element: int, deformation: int) -> Bending | No
     return Bending("in-plane bending" if is_in_plane else "out-of-plane bending", position)
 
 
-def role_of(outcome: Outcome, element: int, deformation: int) -> int:
+def role_of(outcome: Told, element: int, deformation: int) -> int:
     """`Role` of a deformation, from 1, of an element by its index in `outcome.data`."""
     kind = outcome.data.arrays.element_kind[element]
     return int(role_table()[kind, deformation - 1])
 
 
-def part_of(outcome: Outcome, element: int) -> Part:
+def part_of(outcome: Told, element: int) -> Part:
     """The part that an element, by its index in `outcome.data`, belongs to."""
     return outcome.parts.of_element(int(outcome.condensed.elements[element]))
 
 
-def _end(outcome: Outcome, element: int, end: int) -> int:
+def _end(outcome: Told, element: int, end: int) -> int:
     """The position node at an end of an element, 0 at p and 1 at q."""
     node = int(outcome.data.arrays.element_node[2 * end, element]) - 1
     return int(outcome.condensed.nodes[node])
