@@ -40,6 +40,11 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
         # Loaded where it is wanted: a command that starts does not wait for it.
         head = load("flexact.text.json_result").header(deck.name)
         say(load("json").dumps({**head, "error": failure}))
+    return outcome_of(deck, error)
+
+
+def outcome_of(deck: DeckFile, error: Exception) -> Outcome:
+    """What the command makes of a deck's failure."""
     of_deck = isinstance(error, DeckError | FolderError)
     code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
     return Outcome(deck.name, code, "failed", _remark(error))

@@ -32,6 +32,14 @@ def margin_in_short(result: Result) -> str:
     return f"margin {' or '.join(sizes)}" if sizes else "no small margin"
 
 
+def margin_cells(result: Result) -> tuple[str, str]:
+    """The margin in the cell of a table: in eight letters or so, and with the angle besides."""
+    if result.margin.exact_alignment:
+        return "aligned", _ALIGNED.removeprefix("in ")
+    sizes = _sizes(*_small(result))
+    return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
+
+
 def but_only(result: Result) -> str:
     """What the verdict is restricted by where the margin is smaller than the accuracy."""
     if result.accuracy is None or not result.is_marginal:
