@@ -17,7 +17,7 @@ from flexact.cli.bar import Bar
 from flexact.cli.failures import outcome_of
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.summary_table import Cells, SummaryTable
-from flexact.cli.terminal import complain, end_progress, say, show_progress
+from flexact.cli.terminal import end_progress, say, show_progress
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, FolderError
 from flexact.result.decompose import AnalysisError

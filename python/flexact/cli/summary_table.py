@@ -7,6 +7,7 @@ import os
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from flexact.cli.fitting import columns_of, columns_to_fill, padded, shortened, shortened_middle
 
@@ -125,7 +126,9 @@ def _in_common(names: Sequence[str]) -> tuple[str, str]:
     """The folder that all names lie in, with its stroke, and their common suffix."""
     if len(names) < 2:
         return "", ""
-    start = os.path.commonprefix(list(names))
+    first, last = min(names), max(names)
+    alike = (a == b for a, b in zip(first, last, strict=False))
+    start = first[: sum(takewhile(bool, alike))]
     folder = start[: max(start.rfind("/"), start.rfind(os.sep)) + 1]
     suffixes = {os.path.splitext(name)[1] for name in names}
     return folder, suffixes.pop() if len(suffixes) == 1 else ""
