@@ -7,7 +7,7 @@ import argparse
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
@@ -160,7 +160,7 @@ class Analysed:
             yield [deck.name, *(row.get(name) for name in names[1:])]
 
 
-def _columns() -> tuple[NamedTuple, ...]:
+def _columns() -> tuple[Any, ...]:
     """The columns of the table as a file: those that `batch` has too go by the same names."""
     rows, known = load("flexact.variants.batches.deck_rows"), load("flexact.variants.columns")
     names = ("verdict", "under_constrained", "over_constrained", "certainty", "margin")
@@ -172,7 +172,10 @@ def _columns() -> tuple[NamedTuple, ...]:
 
 def _values(result: Result) -> dict[str, Cell]:
     made: dict[str, Cell] = load("flexact.variants.row").row_of(result)
-    more = {"degrees_of_freedom": result.degrees_of_freedom, "certainty": certainty_word(result)}
+    more: dict[str, Cell] = {
+        "degrees_of_freedom": result.degrees_of_freedom,
+        "certainty": certainty_word(result),
+    }
     return {**made, **more}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 
@@ -29,6 +29,8 @@ _WIDTHS = {
 }
 _WIDE_MARGIN = 20
 _NUMBERS = ("under", "over", "freedoms", "errors", "warnings", "notes")
+#: Of a cell.
+Value = str | int | tuple[str, str]
 #: A name is not made shorter than this where there are other columns.
 _SHORTEST = 8
 
@@ -44,7 +46,7 @@ class Cells:
         behind: What stands behind the last column.
     """
 
-    values: dict[str, str | int | tuple[str, str]]
+    values: Mapping[str, Value]
     error: str = ""
     first: str = "error"
     behind: str = ""
@@ -107,7 +109,7 @@ class SummaryTable:
     def _line(
         self,
         name: str,
-        values: dict[str, str | int | tuple[str, str]] | dict[str, str],
+        values: Mapping[str, Value],
         columns: Sequence[str] = (),
     ) -> str:
         made = [padded(shortened_middle(self._names.get(name, name), self._name), self._name)]
