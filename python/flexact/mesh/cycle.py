@@ -23,9 +23,9 @@ ENDINGS = tuple(f"{i:02d}.vtu" for i in range(STEPS + 1))
 class Cycle(Collection):
     """The files of a cycle.
 
-    A step at time t shows the motion at the phase sin(2 pi t), from rest: points where they have moved to,
-    `displacement` and `rotation` finite, since the reference; all other data as in any mesh. A
-    mechanism that does not move has a single step.
+    A step at time t shows the motion at the phase sin(2 pi t), from rest: points where they have
+    moved to, `displacement` and `rotation` finite, since the reference; all other data as in any
+    mesh. A mechanism that does not move has a single step.
     """
 
     def __init__(self, analysis: Result, shown: Moving | None, target: Path) -> None:
