@@ -95,7 +95,8 @@ class _Work:
             self._put(deck, page)
 
     def _write_broken(self, deck: DeckFile, error: Exception) -> None:
-        page = broken_page_of(error, deck.name, deck.relative.as_posix())
+        place, indexed = deck.relative.as_posix(), self.index is not None
+        page = broken_page_of(error, deck.name, place, indexed=indexed)
         if page is None:
             return
         try:

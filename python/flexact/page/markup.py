@@ -31,10 +31,11 @@ def linked(pieces: Pieces) -> str:
     )
 
 
-def image(png: bytes, words: str) -> str:
-    """A picture with the words that say what it shows."""
+def image(png: bytes, words: str, *, late: bool = False) -> str:
+    """A picture with the words that say what it shows; late ones wait until they are seen."""
     source = base64.b64encode(png).decode()
-    return f'<img src="data:image/png;base64,{source}" alt="{text(words)}">'
+    waits = ' loading="lazy" decoding="async"' if late else ""
+    return f'<img src="data:image/png;base64,{source}" alt="{text(words)}"{waits}>'
 
 
 def link(kind: str, number: int, words: str) -> str:
