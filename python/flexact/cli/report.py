@@ -12,6 +12,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
+from flexact.cli.compare import add_compare, compare
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
@@ -43,13 +44,18 @@ def fill(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="the page, NAME.html; or a folder for a page of each deck and index.html",
     )
+    add_compare(parser)
     add_decision(parser)
     add_accuracy(parser)
     parser.set_defaults(run=report_decks)
 
 
 def report_decks(chosen: argparse.Namespace) -> ExitCode:
-    """Write the pages of the decks that were asked for."""
+    """Write the pages of the decks that were asked for, or the page that compares two runs."""
+    if chosen.compare:
+        return compare(chosen)
+    if chosen.expect:
+        raise BatchError("--expect same is for --compare")
     decks = find_decks(chosen.decks)
     work = _Work(chosen, decks)
     code = take(decks, work.step)

@@ -2,6 +2,7 @@
 """A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
 
 from .before_and_after import before_and_after
+from .compare_page import Pair, changes_part, compare_page
 from .content import Content, broken_content, content_of, reason_in_words
 from .designs_page import Compared, Side, Told, designs_page
 from .entry import Entry, broken_entry, entry_of, unread_entry
@@ -12,12 +13,15 @@ __all__ = [
     "Compared",
     "Content",
     "Entry",
+    "Pair",
     "Side",
     "Told",
     "before_and_after",
     "broken_content",
     "broken_entry",
     "broken_page",
+    "changes_part",
+    "compare_page",
     "content_of",
     "designs_page",
     "entry_of",

@@ -11,7 +11,7 @@ from urllib.parse import quote
 from .assets import filled
 from .entry import Entry
 from .finder_part import finder
-from .markup import image, text
+from .markup import breakable, image, text
 
 #: Where the cards go; no text of a page holds a NUL.
 _CARDS = "\0"
@@ -72,12 +72,10 @@ def with_way_back(page: str, place: str) -> str:
 
 def _card(number: int, entry: Entry) -> str:
     kind, sign = entry.kind
-    picture = '<span class="nothing" aria-hidden="true"></span>'
-    if entry.picture is not None:
-        picture = image(entry.picture, "", late=True)
-    name = f'<span class="name">{text(entry.name)}</span>'
+    picture = "" if entry.picture is None else image(entry.picture, "", late=True)
+    name = breakable(entry.name)
     if entry.page:
-        name = f'<a href="{escape(quote(entry.page))}">{text(entry.name)}</a>'
+        name = f'<a href="{escape(quote(entry.page))}">{name}</a>'
     doubt = "?" * (entry.certainty == "doubtful")
     parts = (
         f'<p class="name">{name}</p>',

@@ -16,6 +16,11 @@ def text(words: str) -> str:
     return escape(harmless(words))
 
 
+def breakable(name: str) -> str:
+    """A path as HTML that may go on in another line behind each stroke and underscore."""
+    return text(name).replace("/", "/<wbr>").replace("_", "_<wbr>")
+
+
 def flowing(line: Line) -> str:
     """A line of text; what it names is linked with the drawing."""
     items = [linked(item) + text(note) for item, note in line.listed()]
