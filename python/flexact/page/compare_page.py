@@ -10,7 +10,7 @@ from html import escape
 from urllib.parse import quote
 
 from ..result.verdict import Verdict
-from ..text.comparing import Change, Side
+from ..text.comparing import Change, Gravity, Side
 from .assets import filled
 from .finder_part import finder
 from .markup import breakable, image, text
@@ -19,9 +19,9 @@ from .verdict_part import BROKEN, KINDS, MARGINAL
 _SCRIPTS = ("theme.js", "printing.js", "finder.js", "plain.js")
 STYLES = ("style.css", "index.css", "compare.css")
 _ORDERS = (
-    ("place", "folder"),
+    ("place", "what changed, the gravest first"),
+    ("folder", "folder"),
     ("name", "name"),
-    ("gravity", "what changed, the gravest first"),
     ("verdict", "verdict behind, the worst first"),
 )
 _GRAVITY = ("broken", "both", "over", "under", "marginal", "exact")
@@ -76,7 +76,8 @@ def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
     kinds = [(kind, f"{counts[kind]} {words[kind]}") for kind in words if counts[kind]]
     summary = "".join(f'<span class="fact">{text(each)}</span> ' for _, each in kinds)
     title = f"{runs[0]} \N{RIGHTWARDS ARROW} {runs[1]}"
-    cards = "".join(_card(number, pair) for number, pair in enumerate(pairs))
+    folder = sorted(enumerate(pairs), key=lambda each: -_gravity(each[1]))
+    cards = "".join(_card(number, k, pair) for number, (k, pair) in enumerate(folder))
     body = (
         f'<header class="verdict index"><h1><span><b>{breakable(title)}</b></span></h1>'
         f'<p class="about">{summary}</p>'
@@ -126,15 +127,20 @@ def _statements(change: Change) -> str:
     )
 
 
-def _card(number: int, pair: Pair) -> str:
+def _gravity(pair: Pair) -> int:
+    """A deck that is in one run only changed more than any in both."""
+    return max(Gravity) + 1 if pair.change is None else int(pair.change.gravity)
+
+
+def _card(number: int, folder: int, pair: Pair) -> str:
     last = pair.after or pair.before
     assert last is not None
     behind = _kind(last)[0]
     data = {
         "kind": pair.kind,
         "place": number,
+        "folder": folder,
         "name": pair.name.rpartition("/")[2].lower(),
-        "gravity": -5 if pair.change is None else -int(pair.change.gravity),
         "verdict": _GRAVITY.index(behind),
     }
     told = "".join(f' data-{name}="{escape(str(value))}"' for name, value in data.items())
@@ -150,11 +156,15 @@ def _card(number: int, pair: Pair) -> str:
 
 def _pictures(pair: Pair) -> str:
     made = "".join(
-        f"<figure>{image(picture, words, late=True)}</figure>"
-        for picture, words in zip(pair.pictures, ("before", "after"), strict=True)
+        f"<figure>{image(picture, '', late=True)}<figcaption>{words}</figcaption></figure>"
+        for picture, words in zip(pair.pictures, _captions(pair), strict=True)
         if picture is not None
     )
     return f'<div class="two">{made}</div>' if made else ""
+
+
+def _captions(pair: Pair) -> tuple[str, str]:
+    return ("before", "after") if pair.kind == "changed" else ("", "")
 
 
 def _verdicts(pair: Pair) -> str:

@@ -110,6 +110,4 @@ def _of_numbers(before: Side, after: Side) -> Iterator[str]:
 def _named(name: str, modes: tuple[Mode, ...], every: tuple[Mode, ...]) -> tuple[str, ...]:
     """Modes in words, with their numbers where there are several."""
     several = len(every) > 1
-    return tuple(
-        f"{name}{f' {every.index(mode) + 1}' * several}: {mode.words}" for mode in modes
-    )
+    return tuple(f"{name}{f' {every.index(mode) + 1}' * several}: {mode.words}" for mode in modes)
