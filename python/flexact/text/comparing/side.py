@@ -152,12 +152,14 @@ def _stored(found: dict[str, Any]) -> Side:
         return Side(broken, broken, {}, error=harmless(f"{place}{first['message']}"))
     under, over = int(found["under_constrained"]), int(found["over_constrained"])
     margin, length = found["margin"], float(found["characteristic_length"]["value"])
-    sizes = [None if margin[key] is None else float(margin[key]["value"]) for key in _SIZES]
+    move, turn = (
+        None if margin[key] is None else float(margin[key]["value"]) for key in ("length", "angle")
+    )
     return Side(
         Verdict(found["verdict"]).value,
         counts_in_words(under, over),
         _numbers(found["counts"], under, over, int(found["degrees_of_freedom"])),
-        margin_of_sizes(*sizes, length, exact=bool(margin["exact_alignment"])),
+        margin_of_sizes(move, turn, length, exact=bool(margin["exact_alignment"])),
         str(found["certainty"]),
         tuple(
             Mode(_moving(made), _vector(made, "node", "coordinate", length))
@@ -168,9 +170,6 @@ def _stored(found: dict[str, Any]) -> Side:
             for made in found["self_stresses"][:MOST_MODES]
         ),
     )
-
-
-_SIZES = ("length", "angle")
 
 
 def _numbers(

@@ -46,9 +46,9 @@ def differences(
     before: tuple[Statement, ...], after: tuple[Statement, ...]
 ) -> tuple[Different, ...]:
     """What went and what came, in the order of the decks."""
-    texts = [[each.meant for each in side] for side in (before, after)]
+    one, other = ([each.meant for each in side] for side in (before, after))
     made: list[Different] = []
-    matcher = SequenceMatcher(None, *texts, autojunk=False)
+    matcher = SequenceMatcher(None, one, other, autojunk=False)
     for what, i, j, k, n in matcher.get_opcodes():
         if what != "equal":
             made += [Different(False, each.written, each.line) for each in before[i:j]]
