@@ -151,6 +151,7 @@ def test_stored_results_are_compared_with_decks(
         (["one", "one/"], "one and one/ are one folder"),
         (["one/exact.dat", "./one/exact.dat"], "are one deck"),
         (["one", "nothing"], "nothing: there is no such deck or folder"),
+        (["one/exact.dat", "-"], "standard input is neither"),
         (["one", "empty"], "empty: no deck"),
         (["one/exact.dat", "wrong.json"], "wrong.json: this is not the JSON of a result"),
         (["one/exact.dat", "old.json"], "old.json: the format 1 is not known"),

@@ -9,6 +9,7 @@ from pathlib import Path
 from flexact.advising import Advice, advice_of
 from flexact.advising.describe import describe
 from flexact.advising.json_advice import line_of
+from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
 from flexact.base.loading import load
 from flexact.cli.advice_file import AdviceFile, chosen_steps, in_short
@@ -52,8 +53,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE",
-        help="with --apply the changed deck; or a page (.html) of before and after; or a picture "
-        "(.png, .svg) of the freedom and the constraint of the body",
+        help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; "
+        "or a picture (.png, .svg) of the freedom and the constraint of the body",
     )
     add_decision(parser)
     add_accuracy(parser)
@@ -74,6 +75,8 @@ class _Work:
         self.chosen = chosen
         self.file = AdviceFile(chosen.output, chosen.apply)
         self.file.plan(decks)
+        if self.file.to_stdout and chosen.json:
+            raise BatchError("--json and -o - both go to standard output: choose one")
 
     def step(self, deck: DeckFile) -> Outcome:
         """Advise on one deck, say and write it."""
@@ -90,7 +93,7 @@ class _Work:
         if words:
             say(words)
         if written:
-            complain(written) if self.chosen.json else say(written)
+            complain(written) if self.chosen.json or self.file.to_stdout else say(written)
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(result))
 
     def _words(self, advice: Advice) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from flexact.base.errors import BatchError
@@ -16,7 +15,8 @@ from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.summary import Analysed, add_summary, is_table
+from flexact.cli.summary import TABLES, Analysed, add_summary, is_table
+from flexact.cli.targets import folder_or
 from flexact.cli.terminal import complain, say
 from flexact.files.decks import DeckFile, find_decks
 from flexact.result.result import Result
@@ -45,7 +45,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=folder_or(*TABLES),
         metavar="DIR",
         help="write NAME.json, NAME.log and the mesh NAME.vtu there; with --summary also "
         "TABLE.csv, .jsonl or .parquet",

@@ -11,7 +11,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli.bar import Bar
 from flexact.cli.terminal import complain
 from flexact.core.calls import METHODS
-from flexact.deck.reading import read_file
+from flexact.deck.reading import read_deck
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile
 from flexact.model.data import ModelData
@@ -84,7 +84,7 @@ def tolerance(text: str) -> float:
 def opened(deck: DeckFile, bar: Bar) -> ModelData:
     """Read a deck, while a bar says so."""
     bar.show("reading")
-    model = read_file(deck.path)
+    model = read_deck(deck)
     bar.clear()
     return model
 

@@ -13,7 +13,7 @@ from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.summary import Told, add_summary, failed, summarise
 from flexact.cli.summary_table import Cells
 from flexact.cli.terminal import say
-from flexact.deck.reading import read_file
+from flexact.deck.reading import read_deck
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
 
@@ -38,7 +38,7 @@ def _counted(deck: DeckFile) -> Told:
     """The line of a deck: how many problems it has."""
     outcome = Outcome(deck.name, ExitCode.ANALYSED, "without errors")
     try:
-        found = read_file(deck.path).problems
+        found = read_deck(deck).problems
     except DeckError as error:
         failure = failed(deck, error)
         cells = replace(failure.cells, first=str(error.problems.errors))
@@ -49,7 +49,7 @@ def _counted(deck: DeckFile) -> Told:
 
 
 def _check(deck: DeckFile) -> Outcome:
-    model = read_file(deck.path)
+    model = read_deck(deck)
     report_problems(model)
     say(f"{harmless(deck.name)}: no errors")
     return Outcome(deck.name, ExitCode.ANALYSED, "without errors")

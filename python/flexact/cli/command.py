@@ -46,11 +46,11 @@ VERBS = {
 EPILOG = """\
 exit codes:
   0  analysed (or advised, costed, traced, checked, compared, stored, drawn, written)
-  1  anything that is not below: wrong usage, output that cannot be written, ...
-  2  a deck has errors, or cannot be read
+  1  a deck has errors, cannot be read, or has not what was asked of it
+  2  wrong usage, output that cannot be written, too little memory, ...
   3  the verdict is not the expected one, or an answer differs from the stored one
-Of several decks one bad deck does not stop the rest; the code is 1 if any gave 1,
-else 2 if any gave 2, else 3 if any gave 3.
+Of several decks one bad deck does not stop the rest; the code is 2 if any gave 2,
+else 1 if any gave 1, else 3 if any gave 3.
 """
 
 
@@ -67,7 +67,7 @@ class Formatter(argparse.RawDescriptionHelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose usage errors exit with 1, because 2 is a deck with errors."""
+    """A parser that says what was meant."""
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the usage, and what was meant or how to get help."""

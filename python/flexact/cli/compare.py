@@ -87,6 +87,8 @@ def _checked(chosen: argparse.Namespace) -> tuple[str, str]:
     if chosen.output.suffix.lower() not in PAGES or chosen.output.is_dir():
         raise BatchError(f"--compare writes one page: -o NAME.html, not {chosen.output}")
     first, second = chosen.decks
+    if "-" in (first, second):
+        raise BatchError(f"{_USAGE}; standard input is neither")
     for path in (first, second):
         if not os.path.exists(path):
             raise BatchError(f"{path}: there is no such deck or folder")

@@ -50,10 +50,10 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def _quantity(text: str) -> str:
     """A quantity by any of its names, as an option's type."""
-    if (found := quantity_named(text)) is None:
+    if quantity_named(text) is None:
         choices = ", ".join(_QUANTITIES)
         raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
-    return found
+    return text
 
 
 def draw_deck(chosen: argparse.Namespace) -> ExitCode:

@@ -16,6 +16,7 @@ from flexact.cli.compare import add_compare, compare
 from flexact.cli.decks import add_decks, take
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
+from flexact.cli.targets import folder_or
 from flexact.cli.terminal import complain, say
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
@@ -33,13 +34,13 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Write the result of a deck as one HTML page that opens without a network: "
         "verdict, drawing in motion, self-stresses in colour, tables, deck. A deck with errors "
-        "gives a page with its diagnostics, and exit code 2."
+        "gives a page with its diagnostics, and exit code 1."
     )
     add_decks(parser)
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=folder_or(*PAGES),
         metavar="PAGE",
         required=True,
         help="the page, NAME.html; or a folder for a page of each deck and index.html",

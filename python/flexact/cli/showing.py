@@ -4,16 +4,20 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
 from flexact.base.errors import BatchError
+from flexact.cli.targets import file
 from flexact.files.decks import DeckFile, find_decks
 
 
-def add_deck(parser: argparse.ArgumentParser, file: str) -> None:
-    """Add the one deck to a verb's parser, and the file made of it, described by `file`."""
-    parser.add_argument("deck", metavar="DECK", help="a deck")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", required=True, help=file)
+def add_deck(
+    parser: argparse.ArgumentParser, words: str, kind: Callable[[str], Path] = file
+) -> None:
+    """Add the one deck to a verb's parser, and the file made of it, which `words` describe."""
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
+    parser.add_argument("-o", "--output", type=kind, metavar="FILE", required=True, help=words)
 
 
 def add_shown(parser: argparse.ArgumentParser) -> None:

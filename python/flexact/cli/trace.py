@@ -16,11 +16,13 @@ from flexact.cli.bar import Bar
 from flexact.cli.decks import take
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_shown, number, one_deck
-from flexact.cli.terminal import say
+from flexact.cli.targets import write_text
+from flexact.cli.terminal import complain, say
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import plan_file, plan_files
+from flexact.files.outputs import STDOUT, plan_file, plan_files
 from flexact.mesh.collection import SUFFIX, folder_of
 from flexact.tracing.playing import ENDINGS, STEM
+from flexact.tracing.rows import csv_bytes
 from flexact.tracing.saving import require_suffix, save
 from flexact.tracing.tracer import STEPS, trace
 from flexact.tracing.words import lines
@@ -32,7 +34,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "Follow a motion, or a declared degree of freedom, both ways from the reference with every "
         "held deformation zero; say how far it goes, what stops it, and where its dead points are."
     )
-    parser.add_argument("deck", metavar="DECK", help="a deck")
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
     add_shown(parser)
     parser.add_argument(
         "--length",
@@ -57,7 +59,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="the path: .csv, a row a step; .png, singular values and places along the path; "
-        ".pvd, a cycle that plays in ParaView",
+        ".pvd, a cycle that plays in ParaView; - for the table on stdout",
     )
     add_decision(parser)
     parser.set_defaults(run=trace_deck, accuracy=None)
@@ -76,7 +78,7 @@ def _length(text: str) -> float:
 def trace_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and trace the motion."""
     deck, target = one_deck(chosen), chosen.output
-    if target is not None:
+    if target is not None and target != STDOUT:
         _plan(deck, target)
         with unwinding():
             require_suffix(target)
@@ -99,12 +101,16 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                 raise
             except FlexactError as error:
                 raise BatchError(str(error)) from error
-            if target is not None:
+            if target is not None and target != STDOUT:
                 with unwinding():
                     save(made, target)
+        tell = say
+        if target == STDOUT:
+            write_text(target, csv_bytes(made))
+            tell = complain
         for line in lines(made):
-            say(harmless(line))
-        if target is not None:
+            tell(harmless(line))
+        if target is not None and target != STDOUT:
             say(f"{harmless(deck.name)}: written to {harmless(str(target))}")
         return Outcome(deck.name, ExitCode.ANALYSED, "traced")
 
