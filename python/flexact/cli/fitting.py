@@ -5,6 +5,9 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import cache
+
+from flexact.base.loading import load
 
 #: A terminal of fewer columns is taken for one of so many.
 _LEAST = 32
@@ -59,12 +62,12 @@ def _first(text: str, width: int) -> str:
     return text[:kept]
 
 
+@cache
 def _columns(c: str) -> int:
     if c.isascii():
         return 1
     # Few names need it.
-    import unicodedata
-
+    unicodedata = load("unicodedata")
     if unicodedata.combining(c):
         return 0
     return 2 if unicodedata.east_asian_width(c) in "WF" else 1
