@@ -77,7 +77,7 @@ def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
     summary = "".join(f'<span class="fact">{text(each)}</span> ' for _, each in kinds)
     title = f"{runs[0]} \N{RIGHTWARDS ARROW} {runs[1]}"
     folder = sorted(enumerate(pairs), key=lambda each: -_gravity(each[1]))
-    cards = "".join(_card(number, k, pair) for number, (k, pair) in enumerate(folder))
+    cards = "".join(_card(number, k, pair, runs) for number, (k, pair) in enumerate(folder))
     body = (
         f'<header class="verdict index"><h1><span><b>{breakable(title)}</b></span></h1>'
         f'<p class="about">{summary}</p>'
@@ -88,9 +88,15 @@ def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
     return filled(title, body, _SCRIPTS, STYLES)
 
 
-def changes_part(change: Change) -> str:
-    """What changed as HTML: sentences, what came and went, and statements of the deck."""
-    told = "".join(f"<li>{_sentence(each)}</li>" for each in change.told)
+def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
+    """What changed as HTML: sentences, what came and went, and statements of the deck.
+
+    Args:
+        change: What changed.
+        below_verdicts: Whether both verdicts stand above, so that they need not be said again.
+    """
+    is_said = below_verdicts and change.gravity is Gravity.VERDICT
+    told = "".join(f"<li>{_sentence(each)}</li>" for each in change.told[is_said:])
     modes = "".join(
         f'<li class="{kind}"><span class="mark">{word}</span> {text(each)}</li>'
         for kind, word, each in (
@@ -99,7 +105,7 @@ def changes_part(change: Change) -> str:
         )
     )
     nothing = '<p class="note">Nothing changed.</p>' if change.is_none else ""
-    if not told and not modes and change.statements:
+    if change.gravity is Gravity.STATEMENTS:
         nothing = '<p class="note">The result is as before.</p>'
     told = f'<ul class="told-changes">{told}{modes}</ul>' if told or modes else nothing
     return told + _statements(change)
@@ -132,7 +138,7 @@ def _gravity(pair: Pair) -> int:
     return max(Gravity) + 1 if pair.change is None else int(pair.change.gravity)
 
 
-def _card(number: int, folder: int, pair: Pair) -> str:
+def _card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> str:
     last = pair.after or pair.before
     assert last is not None
     behind = _kind(last)[0]
@@ -147,7 +153,10 @@ def _card(number: int, folder: int, pair: Pair) -> str:
     name = breakable(pair.name)
     if pair.page:
         name = f'<a href="{escape(quote(pair.page))}">{name}</a>'
-    changes = "" if pair.change is None else changes_part(pair.change)
+    if pair.change is None:
+        changes = f'<p class="note">Only in {text(runs[pair.after is not None])}.</p>'
+    else:
+        changes = changes_part(pair.change, below_verdicts=True)
     return (
         f'<li class="card pair {pair.kind}"{told}>{_pictures(pair)}<div class="said">'
         f'<p class="name">{name}</p>{_verdicts(pair)}{changes}</div></li>\n'

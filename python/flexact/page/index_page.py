@@ -80,7 +80,10 @@ def _card(number: int, entry: Entry) -> str:
     parts = (
         f'<p class="name">{name}</p>',
         f'<p><span class="sign" aria-hidden="true">{sign}{doubt}</span>{text(entry.words)}</p>',
-        f'<p class="margin">{text(entry.margin)}</p>' if entry.margin else "",
+        # Words that say so already need not say it again.
+        ""
+        if not entry.margin or entry.words.endswith(entry.margin)
+        else f'<p class="margin">{text(entry.margin)}</p>',
         _counted(entry),
         _error(entry),
     )
