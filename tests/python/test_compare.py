@@ -115,7 +115,12 @@ def test_folders_are_compared_by_relative_names(
     assert files_in(tmp_path / "page") == ["x.html"]
 
 
-def test_expect_same_exits_with_3(runs: tuple[Path, Path], tmp_path: Path) -> None:
+def test_expect_same_exits_with_3(
+    runs: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Pictures take their time.
+    monkeypatch.setattr("flexact.cli.compare.small_picture", lambda result: None)
+    monkeypatch.setattr("flexact.cli.compare.has_packages", lambda: False)
     one, other = runs
     (other / "breaks.dat").unlink()
     compared = ["report", str(one), str(other), "--compare", "-o", str(tmp_path / "x.html")]
@@ -129,8 +134,12 @@ def test_expect_same_exits_with_3(runs: tuple[Path, Path], tmp_path: Path) -> No
 
 
 def test_stored_results_are_compared_with_decks(
-    runs: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    runs: tuple[Path, Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
+    monkeypatch.setattr("flexact.cli.compare.small_picture", lambda result: None)
     one, other = runs
     (other / "breaks.dat").unlink()
     assert main(["analyse", str(one), "-o", str(tmp_path / "kept")]) == 0
