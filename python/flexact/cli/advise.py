@@ -16,6 +16,7 @@ from flexact.cli.advice_file import AdviceFile, chosen_steps, in_short
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import complain, say
 from flexact.diagnostics.errors import ModelError
@@ -58,6 +59,22 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "What is wrong, and steps that mend it",
+            "flexact advise input_decks/flexures/parallel_guide.dat",
+        ),
+        (
+            "The deck that step 1 makes",
+            "flexact advise input_decks/flexures/parallel_guide.dat --apply 1 "
+            "-o results/mended.dat",
+        ),
+        (
+            "A page of before and after",
+            "flexact advise input_decks/flexures/parallel_guide.dat -o results/mended.html",
+        ),
+    )
     parser.set_defaults(run=advise_decks)
 
 

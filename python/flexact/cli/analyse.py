@@ -14,6 +14,7 @@ from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.summary import TABLES, Analysed, add_summary, is_table
 from flexact.cli.targets import folder_or
@@ -65,6 +66,25 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--expect",
         choices=VERDICTS,
         help="exit with 3 for any other verdict, and for an exact one within the accuracy only",
+    )
+    add_examples(
+        parser,
+        (
+            "Verdict, motions and self-stresses of a deck",
+            "flexact analyse input_decks/paper/five_wires.dat",
+        ),
+        (
+            "JSON, log and mesh of each deck of a folder",
+            "flexact analyse input_decks/paper -o results",
+        ),
+        (
+            "A deck that another program writes",
+            "cat input_decks/paper/five_wires.dat | flexact analyse -",
+        ),
+        (
+            "In a design's own CI: exits with 3 unless it is so",
+            "flexact analyse input_decks/paper/five_wires.dat --expect exact",
+        ),
     )
     parser.set_defaults(run=analyse_decks)
 

@@ -18,6 +18,7 @@ from flexact.cli.batch_outputs import Outputs
 from flexact.cli.batch_run import BatchRun
 from flexact.cli.batch_work import Work
 from flexact.cli.decks import add_decks
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
 from flexact.cli.renamed import add_renamed
 from flexact.cli.targets import folder
@@ -85,6 +86,18 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "A table of many decks",
+            "flexact batch input_decks/paper -o results/decks.csv",
+        ),
+        (
+            "Of those that are over-constrained, with their files",
+            "flexact batch input_decks/paper -o results/over.csv --where 'over_constrained > 0' "
+            "--files results",
+        ),
+    )
     parser.set_defaults(run=make_table)
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.summary import Told, add_summary, failed, summarise
 from flexact.cli.summary_table import Cells
@@ -23,6 +24,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = "Say what is wrong with decks."
     add_decks(parser)
     add_summary(parser, "a table, one line a deck, with its first error")
+    add_examples(
+        parser,
+        (
+            "What is wrong with decks, in one run",
+            "flexact check input_decks/paper input_decks/flexures",
+        ),
+        (
+            "A deck on standard input",
+            "flexact check - < input_decks/paper/five_wires.dat",
+        ),
+    )
     parser.set_defaults(run=check_decks)
 
 

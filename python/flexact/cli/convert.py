@@ -10,6 +10,7 @@ from typing import Any
 from flexact.base.errors import BatchError, FlexactError
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
 from flexact.cli.targets import plan_text, write_text
 from flexact.cli.terminal import complain, say
@@ -66,6 +67,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
         choices=FLEXIBLE,
         help="what deformations in flex of tables are that are not released: degrees of freedom, "
         "as in SPACAR Light (default), or released, too",
+    )
+    add_examples(
+        parser,
+        (
+            "Tables in the style of SPACAR Light",
+            "flexact convert input_decks/paper/five_wires.dat -o results/wires.json",
+        ),
+        (
+            "And back",
+            "flexact convert results/wires.json -o results/wires.dat",
+        ),
     )
     parser.set_defaults(run=convert_file)
 

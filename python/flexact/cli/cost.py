@@ -13,6 +13,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli.analysed import opened, report_problems
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import number, one_deck
 from flexact.cli.terminal import complain, put, say
@@ -84,6 +85,22 @@ def fill(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="a picture (.png, .svg, .pdf), a page (.html), a table (.csv) or .json; - for the "
         "table on stdout; may be repeated",
+    )
+    add_examples(
+        parser,
+        (
+            "What over-constraint costs",
+            "flexact cost input_decks/flexures/notch_guide.dat",
+        ),
+        (
+            "Which errors lower the first frequency by 1 %",
+            "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
+        ),
+        (
+            "Two kinds of files at once",
+            "flexact cost input_decks/flexures/notch_guide.dat -o results/cost.csv "
+            "-o results/cost.json",
+        ),
     )
     parser.set_defaults(run=cost_deck)
 

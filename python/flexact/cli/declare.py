@@ -9,6 +9,7 @@ from pathlib import Path
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_deck, one_deck
 from flexact.cli.targets import plan_deck, write_text
@@ -27,6 +28,14 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "so that each of them counts as one beam."
     )
     add_deck(parser, "the deck to be written; - for stdout", Path)
+    add_examples(
+        parser,
+        (
+            "A deck whose sheets of four beams count as one beam each",
+            "flexact declare input_decks/flexures/parallel_guide_four_beams_undeclared.dat "
+            "-o results/declared.dat",
+        ),
+    )
     parser.set_defaults(run=declare_deck)
 
 

@@ -18,6 +18,7 @@ from flexact.cli import failures
 from flexact.cli.analysed import add_method, announce_wait, tolerance
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.regress_summary import summary
 from flexact.cli.renamed import add_renamed
@@ -55,6 +56,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_workers(parser)
     add_method(parser)
+    add_examples(
+        parser,
+        (
+            "Store the answers, once they are right",
+            "flexact regress input_decks/paper --against results/answers --store",
+        ),
+        (
+            "Compare with them: exits with 3 if one differs",
+            "flexact regress input_decks/paper --against results/answers",
+        ),
+    )
     parser.set_defaults(run=regress_decks)
 
 

@@ -16,7 +16,7 @@ def add_renamed(
     new: str,
     *,
     dest: str,
-    kind: Callable[[str], Any] | None = None,
+    kind: Callable[[str], Any] = str,
     choices: Sequence[str] | None = None,
 ) -> None:
     """Let an option be called by its old name, which help and completion leave out."""

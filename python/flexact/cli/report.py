@@ -14,6 +14,7 @@ from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.compare import add_compare, compare
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
 from flexact.cli.targets import folder_or
@@ -48,6 +49,18 @@ def fill(parser: argparse.ArgumentParser) -> None:
     add_compare(parser)
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "A page of a deck",
+            "flexact report input_decks/paper/five_wires.dat -o results/wires.html",
+        ),
+        (
+            "Pages of several decks, and an index",
+            "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
+            "-o results/pages",
+        ),
+    )
     parser.set_defaults(run=report_decks)
 
 

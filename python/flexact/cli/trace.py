@@ -14,6 +14,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_shown, number, one_deck
 from flexact.cli.targets import write_text
@@ -35,18 +36,18 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "held deformation zero; say how far it goes, what stops it, and where its dead points are."
     )
     parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
-    add_shown(parser)
-    parser.add_argument(
+    group = add_shown(parser, "what is followed")
+    group.add_argument(
         "--length",
         type=_length,
         metavar="L",
         help="how far each way, in m, of the node that moves farthest; a rotation of 1 rad "
         "counts as the model's size (default: that size)",
     )
-    parser.add_argument(
+    group.add_argument(
         "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
     )
-    parser.add_argument(
+    group.add_argument(
         "--through",
         action=argparse.BooleanOptionalAction,
         default=True,
@@ -62,6 +63,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
         ".pvd, a cycle that plays in ParaView; - for the table on stdout",
     )
     add_decision(parser)
+    add_examples(
+        parser,
+        (
+            "How far a declared freedom goes",
+            "flexact trace input_decks/linkages/slider_crank_planar.dat --freedom 1",
+        ),
+        (
+            "The path as a table",
+            "flexact trace input_decks/linkages/four_bar_planar.dat --motion 1 -o results/path.csv",
+        ),
+    )
     parser.set_defaults(run=trace_deck, accuracy=None)
 
 
