@@ -78,6 +78,10 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "flexact analyse input_decks/paper -o results",
         ),
         (
+            "A line of each deck of a folder, and the same as a table",
+            "flexact analyse input_decks --summary -o results/decks.csv",
+        ),
+        (
             "A deck that another program writes",
             "cat input_decks/paper/five_wires.dat | flexact analyse -",
         ),

@@ -60,6 +60,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
             "-o results/pages",
         ),
+        (
+            "What changed between two decks, or two folders of decks or results",
+            "flexact report input_decks/paper/six_folded_sheets.dat "
+            "input_decks/paper/six_folded_sheets_released.dat --compare -o results/changes.html",
+        ),
     )
     parser.set_defaults(run=report_decks)
 
