@@ -29,6 +29,7 @@ from ..drawing import (
     names_in,
     sides_in,
 )
+from ..drawing.diagrams import GAP, HEIGHT, SHOWN
 from ..drawing.places import turned_at
 from ..drawing.rotations import euler_of
 from ..drawing.view import ISO, view_of
@@ -113,6 +114,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         },
         "quantities": list(QUANTITIES),
         "bending": BENDING,
+        "diagram": {"height": HEIGHT, "gap": GAP, "shown": SHOWN},
         "units": UNITS,
         "names": names_in(drawing),
         "meaning": meanings_in(drawing),

@@ -47,6 +47,7 @@ const Viewer = (() => {
         this.freedoms, this.displacements, this.diagram, this.spaces]) stage.scene.add(part.group);
       stage.scene.add(this.nodeMark.mesh);
       stage.before.push((time) => this.player.step(time));
+      stage.before.push(() => this.diagram.isPassed(stage.towards) && this.drawDiagram());
       stage.after.push(() => this.overlay.draw());
       stage.heavy = this.members.plan.count > HEAVY;
       stage.slow = stage.heavy && stage.software;
@@ -176,7 +177,8 @@ const Viewer = (() => {
     drawDiagram() {
       const { stress, quantity } = this;
       const values = this.layers.diagram && this.values();
-      this.diagram.show(values ? quantity : "", values, stress ? stress.largest[quantity] : 0);
+      const largest = stress ? stress.largest[quantity] : 0;
+      this.diagram.show(values ? quantity : "", values, largest, this.stage.towards);
     }
 
     legend() {
