@@ -187,6 +187,8 @@ def test_a_diagram_is_seen_beside_its_member(view: str, quantity: str) -> None:
             frame = members.frame[member]
             corner = np.array(list(product((-0.5, 0.5), repeat=2))) * members.section[member]
             flat = eye.project(frame @ np.array([1.0, 0.0, 0.0]))[:2]
+            if np.hypot(*flat) < 0.05:
+                continue  # a point
             across = np.array((-flat[1], flat[0])) / np.hypot(*flat)
             outline = eye.project(p + corner @ frame[:, 1:].T)[:, :2] @ across
             base, top = (eye.project(each[row])[:, :2] @ across for each in (made.base, made.top))
