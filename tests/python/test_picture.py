@@ -17,6 +17,7 @@ from small_decks import COLLINEAR, DECKS, TRIANGLE
 
 import flexact
 from flexact.drawing import BENDING, QUANTITIES, Resultants, drawing_of
+from flexact.drawing.colours import ARROW, FREEDOM
 from flexact.drawing.diagrams import diagrams_of
 from flexact.drawing.selection import NotThereError
 from flexact.drawing.view import view_of
@@ -46,7 +47,6 @@ FIX 6
 RLSE 1 2 5 6
 RLSE 2 2 5 6
 """
-ARROW, FREEDOM = (0.85, 0.37, 0.01), (0.11, 0.55, 0.38)
 
 
 def positions(analysis: flexact.Analysis) -> dict[int, np.ndarray]:

@@ -108,6 +108,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
             "support": colours.SUPPORT,
             "arrow": colours.ARROW,
             "freedom": colours.FREEDOM,
+            "mark": colours.MARK,
             "freedom space": colours.FREEDOM_SPACE,
             "constraint space": colours.CONSTRAINT_SPACE,
             "new wire": colours.NEW_WIRE,

@@ -5,8 +5,8 @@
 const Viewer = (() => {
   const HEAVY = 300; // members
   const CHROME = {
-    light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53], lighter: 0 },
-    dark: { mark: [1, 0.83, 0.25], ghost: [0.62, 0.66, 0.72], lighter: 0.4 },
+    light: { ghost: [0.45, 0.48, 0.53], lighter: 0 },
+    dark: { ghost: [0.62, 0.66, 0.72], lighter: 0.4 },
   };
 
   class Viewer {
@@ -270,7 +270,7 @@ const Viewer = (() => {
 
     /** The page has become light or dark. */
     dress() {
-      const chrome = CHROME[Theme.isDark() ? "dark" : "light"];
+      const chrome = { ...CHROME[Theme.isDark() ? "dark" : "light"], mark: this.data.colours.mark };
       this.members.dress(chrome);
       this.bodies.dress(chrome);
       this.spaces.dress(chrome);

@@ -10,6 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Form, Members, Pose, Strip, solid, stations
 from ..drawing.colours import GHOST as GHOST_COLOUR
+from ..drawing.colours import GHOST_FACE as PALE
 from ..drawing.rotations import unit
 from .canvas import GHOST, SOLID, Canvas
 from .stress import PIECES, Stress
@@ -21,7 +22,7 @@ _LEVELS = ((60, 16, 18), (400, 10, 10), (1500, 8, 6))
 FEW = 60
 #: Round members are thick, and have twice as many corners, beyond this part of the drawing's size.
 _THICK = 0.05
-GHOST_FACE = 0.62 + 0.38 * np.array(GHOST_COLOUR)
+GHOST_FACE = np.array(PALE)
 GHOST_EDGE = 0.25 + 0.75 * np.array(GHOST_COLOUR)
 #: What colours that mean values keep where no light falls on them.
 _SHADE_OF_STRESS = 0.84
