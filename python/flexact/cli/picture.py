@@ -37,6 +37,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "and Mz are older names of the four",
     )
     parser.add_argument(
+        "--held",
+        action="store_true",
+        help="show what each flexure of an exactly constrained mechanism holds, and how well",
+    )
+    parser.add_argument(
         "--view",
         default="iso",
         metavar="VIEW",
@@ -74,6 +79,7 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
                     freedom=chosen.freedom,
                     stress=chosen.stress,
                     quantity=chosen.quantity,
+                    held=chosen.held,
                     view=chosen.view,
                     progress=bar.show_frames,
                 )

@@ -219,6 +219,8 @@ def _add_panel(
     _fill(axes, panel, box, (right - left, bottom - top))
     if not plain:
         _add_values(frame, axes, panel)
+        for place, words in subject.space.labels if subject.space is not None else ():
+            _add_label(frame, axes, panel, place, words)
         if subject.stress is not None:
             told = meanings_in(drawing)[subject.stress.quantity]
             _add_legend(frame, subject.stress, told, (left + pad, right - pad), bottom)
@@ -306,6 +308,17 @@ def _add_values(frame: _Frame, axes: Axes, panel: Panel) -> None:
         x, y = float(place[0]), frame.height - float(place[1])
         words = f"{peak.value:+.3g}"
         frame.text(x, y, words, "legend", va="center", ha="center", path_effects=halo)
+
+
+def _add_label(frame: _Frame, axes: Axes, panel: Panel, place: FloatArray, words: str) -> None:
+    """Words at a place, with what is behind them pale."""
+    from matplotlib.patheffects import withStroke
+
+    x, y = axes.transData.transform(panel.canvas.view.project(place)[:2])
+    halo = [withStroke(linewidth=3.0 * frame.scale, foreground="white")]
+    up = frame.height - float(y) - 11 * frame.scale
+    style = {"va": "center", "ha": "center", "weight": "bold", "path_effects": halo}
+    frame.text(float(x), up, words, "legend", **style)
 
 
 def _add_triad(frame: _Frame, view: View, x: float, y: float) -> None:

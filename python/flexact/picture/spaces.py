@@ -5,14 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
+from operator import add
 
 import numpy as np
 
+from ..advice.holding import holds_of
 from ..advice.spaces.spaces import Spaces
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, SpaceShape, dashes, shape_of_space
 from ..drawing.colours import CONSTRAINT_SPACE, FREEDOM_SPACE, NEW_WIRE
+from ..drawing.holding import shape_of_hold
 from ..result.result import Result
+from ..text.advising.holding import holds_in_words, number_of
 from ..text.advising.spaces import body_words, dashed_in_words, spaces_lines
 from ..text.sentences import plain
 from .arrows import add_straight
@@ -33,11 +38,24 @@ class SpaceShown:
         shape: What is drawn of it.
         words: What it is.
         wires: (w, 2, 3) ends of wires that may be added [m].
+        labels: Places (3,) [m], each with what stands there.
     """
 
     shape: SpaceShape
     words: str
     wires: FloatArray
+    labels: tuple[tuple[FloatArray, str], ...] = ()
+
+
+def holds_shown(result: Result, drawing: Drawing) -> SpaceShown | None:
+    """What each flexure holds, with how well at each; None where that is not known."""
+    holds = holds_of(result)
+    if not holds:
+        return None
+    shapes = [shape_of_hold(each, drawing.size, planar=drawing.planar) for each in holds]
+    labels = tuple((each.space.about, number_of(each)) for each in holds)
+    none = np.zeros((0, 2, 3))
+    return SpaceShown(reduce(add, shapes), holds_in_words(holds), none, labels)
 
 
 def spaces_shown(
