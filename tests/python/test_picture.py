@@ -169,7 +169,7 @@ def test_the_legend_says_unit_and_that_values_are_relative() -> None:
 @pytest.mark.parametrize("view", ["iso", "front", "top", "0,15", "-62,60", "120,-30"])
 @pytest.mark.parametrize("quantity", QUANTITIES[2:])
 def test_a_diagram_is_seen_beside_its_member(view: str, quantity: str) -> None:
-    """Its base is on no side of the outline within the member, and it goes outwards, and is wide."""
+    """Its base lies outside of the outline of the member, and it goes outwards, and is wide."""
     for analysis in map(deck, ("flexures/sheet_clamped_both_ends", "flexures/parallel_guide")):
         drawing = drawing_of(analysis.given)
         eye = view_of(view, drawing)

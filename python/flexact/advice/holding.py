@@ -59,8 +59,10 @@ class Hold(Frozen):
 
     @property
     def name(self) -> str:
-        """Such as "wire 1", or "sheet 1 and sheet 2"."""
-        return " and ".join(part.name for part in self.parts)
+        """Such as "wire 1", "sheet 1 and sheet 2", or "folded sheet 1" of both its leaves."""
+        names = [part.name for part in self.parts]
+        whole = {name.partition(", ")[0] for name in names}
+        return whole.pop() if len(names) > 1 and len(whole) == 1 else " and ".join(names)
 
 
 def holds_of(result: Result) -> tuple[Hold, ...]:

@@ -17,7 +17,8 @@ from .pose import Moving
 def way_of(freedom: Freedom) -> Moving | None:
     """The motion of a declared degree of freedom as it is drawn; None where it cannot move.
 
-    It has its natural shape (`natural_shape`). A coordinate grows. The sign of a deformation depends on which end is p; its motion is
+    It has its natural shape (`natural_shape`). A coordinate grows. The sign of a deformation
+    depends on which end is p; its motion is
     drawn with the sense in which its largest part is positive, of equal ones the first
     by name and place.
 

@@ -26,7 +26,8 @@ def swing(
     """The poses of a vibrating or buckled shape.
 
     The largest displacement along the members is a tenth of the drawing's size, or a quarter of
-    the size of what moves where that is less, unless a rotation would be larger than 0.4 rad. Rigid bodies keep their shapes.
+    the size of what moves where that is less, unless a rotation would be larger than 0.4 rad.
+    Rigid bodies keep their shapes.
 
     Args:
         drawing: The drawing of the model whose nodes are displaced.

@@ -17,7 +17,7 @@ from .stress import PIECES, Stress
 from .surfaces import OUTLINE, SHADE, Grid, add_grid, lit
 
 #: Up to so many members, a bent one has so many segments and a round section so many corners.
-_LEVELS = ((60, 16, 18), (400, 10, 10), (1500, 8, 6))
+_LEVELS = ((60, 32, 18), (400, 16, 10), (1500, 8, 6))
 #: Up to so many members the colours of a self-stress change smoothly along them.
 FEW = 60
 #: Round members are thick, and have twice as many corners, beyond this part of the drawing's size.

@@ -24,7 +24,7 @@ from .arrows import add_straight
 from .canvas import OVER, Canvas
 
 #: Of lines [pt]; and of faces, whose edges are as wide as this.
-_BOLD, _WIDTH, _EDGE, _DASH = 2.6, 1.5, 0.7, 2.6
+_BOLD, _WIDTH, _THIN, _EDGE, _DASH = 2.6, 1.5, 0.8, 0.7, 2.6
 _OPACITY = 0.16
 #: Where the second head of a couple is, along its arrow.
 _SECOND = 0.84
@@ -85,6 +85,9 @@ def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
         canvas.lines(np.concatenate((face, face[:1]))[None], colour, _EDGE)
     for line in shape.lines:
         canvas.lines(line[None], colour, _BOLD if shape.is_bold else _WIDTH)
+        if shown.labels:
+            # What a wire holds lies within it.
+            canvas.lines(line[None], colour, _THIN, layer=OVER)
     if shape.arrows:
         ends = np.array(shape.arrows)
         # A couple has two heads.

@@ -34,6 +34,6 @@ def hold_in_words(result: Result, hold: Hold) -> str:
 def holds_in_words(holds: Sequence[Hold]) -> str:
     """How well each flexure holds, the worst first, a sentence."""
     worst = list(worst_first(tuple(holds)))
-    told = "; ".join(f"{hold.name} {number_of(hold)}" for hold in worst[:_MOST])
+    told = "; ".join(f"{hold.name}: {number_of(hold)}" for hold in worst[:_MOST])
     more = f"; and {len(worst) - _MOST} more" if len(worst) > _MOST else ""
     return f"What each flexure holds, and how well ({MEANING}): {told}{more}."
