@@ -24,8 +24,8 @@ ROTATION = TRANSLATION + 1
 _ROUND = 12
 #: What stands for a point, so that all faces are quads: a part of the size.
 _TIP = 0.02
-#: Thickness of a block of ground, and of the plate below a pyramid, parts of a support's size.
-_THICK, _PLATE = 0.6, 0.28
+#: Thickness of the plate below a pyramid, a part of a support's size.
+_PLATE = 0.28
 #: Rings of a symbol: place along its axis and radius, parts of its size.
 _PYRAMID = ((-1.0, 0.75), (0.0, _TIP))
 _CONE = ((-1.1, 0.45), (0.0, _TIP))
@@ -126,11 +126,12 @@ def _supports(drawing: Drawing) -> Iterator[tuple[int, int, _Tube]]:
     supports = drawing.supports
     for row in range(len(supports)):
         node, kind = int(supports.node[row]), Support(int(supports.kind[row]))
-        place, frame = drawing.reference.position[node], supports.frame[row]
+        place = drawing.reference.position[node] + supports.offset[row]
+        frame = supports.frame[row]
         size, half = float(supports.size[row]), supports.extent[row]
         form = SUPPORT + kind
         if kind is Support.CLAMP:
-            yield node, form, _block(place, frame, half, _THICK * size)
+            yield node, form, _block(place, frame, half, float(supports.depth[row]))
         elif kind is Support.PIN:
             yield node, form, _turned(place, frame, _PYRAMID, size, 4)
             ground = place - size * frame[:, 0]
