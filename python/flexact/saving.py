@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
+import io
 import os
 from operator import index
 from pathlib import Path
 from typing import Any
 
 from .base.errors import BatchError
+from .base.loading import load
 from .drawing.selection import select_motion
 from .files.outputs import OutputError, write_together
 from .mesh import mesh_writer
-from .page import page
+from .page import page, with_way_back
 from .picture import SUFFIXES, has_packages, picture_bytes
 from .result.result import Result
 
@@ -20,6 +22,8 @@ from .result.result import Result
 PAGES = (".html", ".htm")
 #: Width and height of a small picture [px].
 _SMALL = (480, 360)
+#: How many colours it has: a fifth of the bytes of all.
+_COLOURS = 48
 
 
 class ChoiceError(BatchError):
@@ -76,17 +80,30 @@ def _refuse_deck(analysis: Result, path: Path) -> None:
         raise OutputError(f"{path} would overwrite the deck")
 
 
-def page_bytes(analysis: Result) -> bytes:
-    """The page of a result, with a still picture where the packages for it are installed."""
+def page_bytes(analysis: Result, place: str | None = None) -> bytes:
+    """The page of a result, with a still picture where the packages for it are installed.
+
+    Args:
+        analysis: The result.
+        place: Path of the page beside an index, to which it has a link then.
+    """
     still = picture_bytes(analysis, ".png") if has_packages() else None
-    return as_bytes(page(analysis, still))
+    made = page(analysis, still)
+    return as_bytes(made if place is None else with_way_back(made, place))
 
 
 def small_picture(analysis: Result) -> bytes | None:
     """A small picture without words for an index, as PNG, where the packages are installed."""
     if not has_packages():
         return None
-    return picture_bytes(analysis, ".png", size=_SMALL, plain=True)
+    drawn = picture_bytes(analysis, ".png", size=_SMALL, plain=True)
+    # An index holds very many.
+    pillow = load("PIL.Image")
+    with pillow.open(io.BytesIO(drawn)) as picture:
+        few = picture.convert("RGB").quantize(_COLOURS, dither=pillow.Dither.NONE)
+    made = io.BytesIO()
+    few.save(made, "PNG", optimize=True)
+    return made.getvalue()
 
 
 def as_bytes(page: str) -> bytes:

@@ -13,7 +13,7 @@ from vtk_files import LINE, QUAD, VERTEX
 
 import flexact
 from flexact.mesh import content, mesh_of
-from flexact.mesh.file import find_format, named_bytes
+from flexact.mesh.file import find_format, mesh_bytes
 
 Read = Callable[[str], flexact.Analysis]
 
@@ -82,7 +82,8 @@ def test_a_planar_beam_is_a_cubic_curve_in_the_plane(analyse: Read, tmp_path: Pa
     theta = found.point_data["motion_1_rotation"][line[-1], 2]
     assert abs(theta) == pytest.approx(1.0, abs=1e-15)
     assert moved[:, 1] == pytest.approx(-theta * (x**2 / 2 - x**3 / 4), abs=1e-14)
-    assert not found.points[:, 2].any()
+    assert not found.points[found.points_of(1, QUAD), 2].any()
+    assert not found.points[line, 2].any()
     assert len(found.cells_of(1, QUAD)) == 8
 
 
@@ -135,7 +136,7 @@ def test_collinear_trusses_carry_one_force(analyse: Read, tmp_path: Path) -> Non
     np.testing.assert_array_equal(found.points[ends], [[-1, 0, 0], [0, 0, 0], [0, 0, 0], [1, 0, 0]])
     np.testing.assert_array_equal(found.point_data["node"][ends], [1, 2, 2, 3])
     assert np.abs(found.point_data["motion_1"][ends, 1]) == pytest.approx([0, 1, 1, 0])
-    force = found.point_data["selfstress_1_normal_force"]
+    force = found.point_data["selfstress_1_normal_force"][found.points_of_elements]
     assert np.abs(force) == pytest.approx(1.0, abs=1e-15)
     assert np.ptp(force) == pytest.approx(0.0, abs=1e-15)
 
@@ -155,10 +156,10 @@ def test_names_come_back_as_they_are(suffix: str, tmp_path: Path) -> None:
     for i, name in enumerate(names):
         model.truss(points[i], points[i + 1], name=name)
     found = written(flexact.analyse(model), suffix, tmp_path)
-    numbers = found.cell_data["element"].tolist()
-    told = dict(zip(numbers, found.cell_data["name"], strict=True))
-    assert tuple(told[number] for number in sorted(told)) == names
-    assert found.cell_data["name"] == [names[number - 1] for number in numbers]
+    assert found.names == dict(enumerate(names, start=1))
+    if suffix == ".vtp":
+        numbers = found.cell_data["element"].tolist()
+        assert found.cell_data["name"] == [names[number - 1] for number in numbers]
 
 
 def test_many_names_come_back(tmp_path: Path) -> None:
@@ -170,12 +171,9 @@ def test_many_names_come_back(tmp_path: Path) -> None:
     model.fix(*points[:1])
     made = content.Meshes(flexact.analyse(model, method="sparse")).still()
     path = tmp_path / "many.vtu"
-    path.write_bytes(named_bytes(made, find_format("vtu")))
-    found = vtk_files.read(path)
-    for number, name in zip(
-        found.cell_data["element"].tolist(), found.cell_data["name"], strict=True
-    ):
-        assert name == f"truss {number - 1} \u00e9 of a thousand"
+    path.write_bytes(mesh_bytes(made, find_format("vtu")))
+    expected = {i + 1: f"truss {i} \u00e9 of a thousand" for i in range(1000)}
+    assert vtk_files.read(path).names == expected
 
 
 @pytest.mark.parametrize("hidden", [1, 2])
@@ -221,7 +219,7 @@ def test_very_many_elements_have_lines_alone(
 def test_other_files_hold_the_same_but_names(suffix: str, name: str, tmp_path: Path) -> None:
     analysis = flexact.analyse(ROOT / "input_decks" / f"{name}.dat")
     grid, other = (written(analysis, each, tmp_path) for each in (".vtu", suffix))
-    assert "name" in grid.cell_data and "name" not in other.cell_data
+    assert "element_names" in grid.field_data and not other.field_data
     assert grid.cells == other.cells
     np.testing.assert_array_equal(grid.points, other.points)
     assert set(other.point_data) == set(grid.point_data)

@@ -85,7 +85,8 @@ def test_collinear_bars(analyse: Read) -> None:
     np.testing.assert_array_equal(motion[1], motion[2])
     np.testing.assert_array_equal(mesh.cell_data["element"][0], [7, 9])
     force = mesh.point_data["selfstress_1_normal_force"]
-    np.testing.assert_allclose(np.abs(force), 1.0, atol=1e-15)
+    mine = mesh.cells[1].data[mesh.cell_data["element"][1] > 0]
+    np.testing.assert_allclose(np.abs(force[mine]), 1.0, atol=1e-15)
 
 
 def test_moments_of_a_clamped_sheet(analyse: Read) -> None:

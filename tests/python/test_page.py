@@ -383,7 +383,7 @@ def test_an_index_of_entries() -> None:
         Entry("nothing", "", ("broken", "x"), "cannot be analysed", "Cannot be read"),
     )
     text = index_page(entries)
-    assert 'href="a/%3Cb%3E%26.html"' in text and "a/&lt;b&gt;&amp;</a>" in text
+    assert 'href="a/%3Cb%3E%26.html"' in text and "a/<wbr>&lt;b&gt;&amp;</a>" in text
     assert text.count("<img") == 1 and text.count("<a ") == 2
     words = words_of(text)
     assert "3 decks" in words and "1 exactly constrained" in words
@@ -402,7 +402,7 @@ def test_a_notebook_shows_the_page_and_words() -> None:
 
 
 def test_every_script_is_embedded() -> None:
-    assert {path.name for path in PAGE.glob("*.js")} == {*SCRIPTS, "plain.js"}
+    assert {path.name for path in PAGE.glob("*.js")} == {*SCRIPTS, "finder.js", "plain.js"}
 
 
 def test_verdicts_have_one_colour_in_pages_and_pictures() -> None:

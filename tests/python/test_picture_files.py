@@ -65,18 +65,24 @@ def test_every_other_deck_makes_a_small_picture(name: str) -> None:
 
 
 def test_a_motion_runs_through_a_full_cycle_without_a_seam() -> None:
-    """cos(2 pi k / n): the frames on the way back are those on the way there."""
+    """sin(2 pi k / n), from rest: the frames on a way back are those on the way there."""
     content = picture_bytes(deck("paper/twelve_trusses"), ".gif", size=(360, 304))
     frames = frames_of(content)
     count = len(frames)
     assert count == 36
-    for k in range(1, count // 2):
-        np.testing.assert_array_equal(frames[k], frames[count - k])
+    for k in range(1, count // 4):
+        np.testing.assert_array_equal(frames[k], frames[count // 2 - k])
+        np.testing.assert_array_equal(frames[count // 2 + k], frames[count - k])
+    # At rest there are no arrows.
+    red, green, blue = np.moveaxis(np.stack(frames).astype(int), -1, 0)
+    orange = ((red - green > 60) & (green - blue > 30)).sum(axis=(1, 2))
+    assert orange[0] == orange[count // 2] == 0 < orange[count // 4]
     steps = [int(np.abs(frames[k] - frames[k - 1]).sum()) for k in range(count)]
     # As many pixels change at the wrap as anywhere near an end of the swing; none stands still.
     assert min(steps) > 0
-    assert steps[0] == steps[1] < max(steps)
-    assert int(np.abs(frames[0] - frames[count // 2]).sum()) > max(steps)
+    assert steps[count // 4] == steps[count // 4 + 1] < max(steps)
+    ends = frames[count // 4], frames[3 * count // 4]
+    assert int(np.abs(ends[0] - ends[1]).sum()) > max(steps)
     with Image.open(io.BytesIO(content)) as image:
         assert image.info["loop"] == 0
         assert 20 <= image.info["duration"] <= 100

@@ -33,7 +33,15 @@ class Read:
     cells: list[list[int]]
     point_data: dict[str, Any]
     cell_data: dict[str, Any]
+    field_data: dict[str, Any]
     vectors: str | None
+
+    @property
+    def names(self) -> dict[int, str]:
+        """The name of each element."""
+        texts = bytes(self.field_data["element_names"]).decode().split("\n")[:-1]
+        numbers = self.field_data["element_number"].ravel().tolist()
+        return dict(zip(numbers, texts, strict=True))
 
     def cells_of(self, element: int, shape: int) -> np.ndarray:
         """The cells of a shape that an element has, in their order."""
@@ -45,6 +53,12 @@ class Read:
         lines = self.cells_of(element, LINE)
         assert np.array_equal(lines[1:, 0], lines[:-1, 1])
         return int(lines[0, 0]), int(lines[-1, 1])
+
+    @property
+    def points_of_elements(self) -> np.ndarray:
+        """The points of all cells but those of symbols, ascending."""
+        mine = np.flatnonzero(self.cell_data["element"])
+        return np.unique([point for i in mine.tolist() for point in self.cells[i]])
 
     def points_of(self, element: int, shape: int) -> np.ndarray:
         """The points of those cells, ascending."""
@@ -70,6 +84,7 @@ def read(path: Path) -> Read:
         cells,
         _arrays(found.GetPointData()),
         _arrays(found.GetCellData()),
+        _arrays(found.GetFieldData()),
         vectors.GetName() if vectors is not None else None,
     )
 

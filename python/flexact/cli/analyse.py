@@ -18,7 +18,8 @@ from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.targets import folder
+from flexact.cli.summary import TABLES, Analysed, add_summary, is_table
+from flexact.cli.targets import folder_or
 from flexact.cli.terminal import complain, give, is_coloured, say, text_width
 from flexact.files.decks import DeckFile, find_decks
 from flexact.result.result import Result
@@ -47,10 +48,12 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=folder,
+        type=folder_or(*TABLES),
         metavar="DIR",
-        help="write NAME.json, NAME.log and the mesh NAME.vtu there",
+        help="write NAME.json, NAME.log and the mesh NAME.vtu there; with --summary also "
+        "TABLE.csv, .jsonl or .parquet",
     )
+    add_summary(parser, "a table, one line a deck, in place of the words")
     parser.add_argument(
         "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
     )
@@ -77,6 +80,10 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "flexact analyse input_decks/paper -o results",
         ),
         (
+            "A line of each deck of a folder, and the same as a table",
+            "flexact analyse input_decks --summary -o results/decks.csv",
+        ),
+        (
             "A deck that another program writes",
             "cat input_decks/paper/five_wires.dat | flexact analyse -",
         ),
@@ -94,8 +101,16 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
         raise BatchError("--format is for the mesh, which needs a folder: -o DIR")
     if chosen.log and chosen.json and not chosen.output:
         raise BatchError("--json and --log both go to stdout: choose one, or a folder: -o DIR")
+    if chosen.summary and (chosen.json or chosen.log):
+        other = "--json" if chosen.json else "--log"
+        raise BatchError(f"--summary is in place of {other}; choose one")
+    if chosen.output and is_table(chosen.output) and not chosen.summary:
+        raise BatchError(f"-o {chosen.output} is a table, which --summary writes; or name a folder")
     decks = find_decks(chosen.decks)
-    return take(decks, _Work(chosen, decks).step, as_json=chosen.json)
+    work = _Work(chosen, decks)
+    if chosen.summary:
+        return Analysed(chosen, decks, work.judge_and_write).run()
+    return take(decks, work.step, as_json=chosen.json)
 
 
 class _Work:
@@ -104,7 +119,7 @@ class _Work:
     def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
         self.chosen = chosen
         self.files: ResultFiles | None = None
-        if chosen.output:
+        if chosen.output and not is_table(chosen.output):
             module = load("flexact.cli.result_files")
             self.files = module.ResultFiles(
                 decks, chosen.output, chosen.format or "vtu", log=chosen.log
@@ -115,23 +130,30 @@ class _Work:
         with Bar(deck.name, deck.path) as bar:
             analysis = read_and_analysed(deck, self.chosen, bar)
             bar.show("writing")
-            failure = self.files.write(deck, analysis) if self.files else None
+            failure = self._written(deck, analysis)
             words, is_data = self._words(analysis)
         give(words) if is_data else say(words)
-        outcome = self._judge(deck, analysis)
-        if failure is None:
-            return outcome
-        failures.report_failure(deck, failure)
-        return replace(outcome, code=ExitCode.OTHER, remark="results not written")
-
-    def _judge(self, deck: DeckFile, analysis: Result) -> Outcome:
-        code, word = ExitCode.ANALYSED, verdict_word(analysis)
-        if self.chosen.expect and word != VERDICTS[self.chosen.expect].value:
-            code = ExitCode.DIFFERENT
+        outcome = self.judge(deck, analysis)
+        if outcome.code is ExitCode.DIFFERENT:
             wanted = VERDICTS[self.chosen.expect].value
             found = verdict_in_words(analysis).start.lower()
             complain(f"{harmless(deck.name)}: {found}; expected {wanted}")
+        return outcome if failure is None else _not_written(deck, outcome, failure)
+
+    def judge(self, deck: DeckFile, analysis: Result) -> Outcome:
+        """What the verdict asks for."""
+        code, word = ExitCode.ANALYSED, verdict_word(analysis)
+        if self.chosen.expect and word != VERDICTS[self.chosen.expect].value:
+            code = ExitCode.DIFFERENT
         return Outcome(deck.name, code, word)
+
+    def judge_and_write(self, deck: DeckFile, analysis: Result) -> Outcome:
+        """What the verdict asks for, once the files of the result are written."""
+        outcome, failure = self.judge(deck, analysis), self._written(deck, analysis)
+        return outcome if failure is None else _not_written(deck, outcome, failure)
+
+    def _written(self, deck: DeckFile, analysis: Result) -> Exception | None:
+        return self.files.write(deck, analysis) if self.files else None
 
     def _words(self, analysis: Result) -> tuple[str, bool]:
         """What is said, and whether it is data."""
@@ -158,3 +180,8 @@ def _coloured(words: str, analysis: Result) -> str:
     if analysis.verdict is Verdict.EXACT:
         style = "unsure" if analysis.is_marginal else "good"
     return re.sub(verdict, lambda found: colour.painted(found[0], style), words, count=1)
+
+
+def _not_written(deck: DeckFile, outcome: Outcome, failure: Exception) -> Outcome:
+    failures.report_failure(deck, failure)
+    return replace(outcome, code=ExitCode.OTHER, remark="results not written")

@@ -113,7 +113,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
         )
     require_table(table)
     decks = find_decks(chosen.decks)
-    _require_place(table, decks)
+    require_place(table, decks)
     outputs = Outputs(decks, chosen.files, chosen.format or "vtu", chosen.report)
     asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, outputs.has_pages)
@@ -124,7 +124,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     return _code(decks)
 
 
-def _require_place(table: Path, decks: Sequence[DeckFile]) -> None:
+def require_place(table: Path, decks: Sequence[DeckFile]) -> None:
     """Raise where the table would overwrite a deck, or has no place.
 
     Raises:

@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
 from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
+from flexact.cli.summary import Told, add_summary, failed, summarise
+from flexact.cli.summary_table import Cells
 from flexact.cli.terminal import say
 from flexact.deck.reading import read_deck
+from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
 
 
@@ -19,6 +23,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     """Give the verb its description and arguments."""
     parser.description = "Say what is wrong with decks."
     add_decks(parser)
+    add_summary(parser, "a table, one line a deck, with its first error")
     add_examples(
         parser,
         (
@@ -35,7 +40,24 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def check_decks(chosen: argparse.Namespace) -> ExitCode:
     """Read the decks that were asked for and say what is wrong with them."""
-    return take(find_decks(chosen.decks), _check)
+    decks = find_decks(chosen.decks)
+    if chosen.summary:
+        return summarise(decks, ("errors", "warnings", "notes"), _counted)
+    return take(decks, _check)
+
+
+def _counted(deck: DeckFile) -> Told:
+    """The line of a deck: how many problems it has."""
+    outcome = Outcome(deck.name, ExitCode.ANALYSED, "without errors")
+    try:
+        found = read_deck(deck).problems
+    except DeckError as error:
+        failure = failed(deck, error)
+        cells = replace(failure.cells, first=str(error.problems.errors))
+        return failure._replace(cells=cells)
+    counts = {"errors": found.errors, "warnings": found.warnings, "notes": found.notes}
+    first = next(iter(found.kept), None)
+    return Told(Cells(counts, behind=first.message if first else ""), outcome)
 
 
 def _check(deck: DeckFile) -> Outcome:

@@ -43,6 +43,11 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
         # Loaded where it is wanted: a command that starts does not wait for it.
         head = load("flexact.text.json_result").header(deck.name)
         give(load("json").dumps({**head, "error": failure}))
+    return outcome_of(deck, error)
+
+
+def outcome_of(deck: DeckFile, error: Exception) -> Outcome:
+    """What the command makes of a deck's failure."""
     code = ExitCode.OTHER if type(error).__name__ in CODES else ExitCode.DECK_ERROR
     return Outcome(deck.name, code, "failed", _remark(error))
 

@@ -10,11 +10,16 @@ from flexact.base.interruption import unwinding
 from flexact.cli import failures
 from flexact.diagnostics.errors import ProblemsError
 from flexact.files.decks import DeckFile
-from flexact.page import BROKEN, Entry, broken_page, kind_of, reason_in_words
+from flexact.page import (
+    Entry,
+    broken_entry,
+    broken_page,
+    entry_of,
+    unread_entry,
+    with_way_back,
+)
 from flexact.result.result import Result
 from flexact.saving import as_bytes, page_bytes, small_picture
-from flexact.text.describe import verdict_in_words
-from flexact.text.margin import margin_in_short, verdict_word
 
 #: What the index takes the place of among the decks.
 INDEX = DeckFile("the index", Path("index"))
@@ -22,8 +27,6 @@ WITHOUT_PICTURES = (
     "without the packages matplotlib and pillow there are no still pictures, for browsers without "
     "WebGL and in the index: pip install 'flexact[pictures]'"
 )
-#: What is counted of decks without a verdict.
-_BROKEN = "cannot be analysed"
 
 
 class DeckPage(NamedTuple):
@@ -42,27 +45,26 @@ def page_of(result: Result, place: str, *, indexed: bool) -> DeckPage:
         indexed: Whether there is an index, which has a picture of each page.
     """
     with unwinding():
-        content = page_bytes(result)
+        content = page_bytes(result, place if indexed else None)
     with unwinding():
         picture = small_picture(result) if indexed else None
-    entry = Entry(
-        *(place, f"{place}.html", kind_of(result), verdict_word(result)),
-        *(verdict_in_words(result).start, margin_in_short(result), picture),
-    )
-    return DeckPage(content, entry)
+    return DeckPage(content, entry_of(result, place, f"{place}.html", picture))
 
 
-def broken_page_of(error: Exception, name: str, place: str) -> DeckPage | None:
+def broken_page_of(
+    error: Exception, name: str, place: str, *, indexed: bool = True
+) -> DeckPage | None:
     """The page of a deck with errors; None where its file could not be read."""
     if isinstance(error, ProblemsError):
         codes = {item.code for item in error.diagnostics}
         if codes & failures.NOT_READ:
             return None
-    words = f"Cannot be analysed: {reason_in_words(error)}"
-    entry = Entry(place, f"{place}.html", BROKEN, _BROKEN, words)
-    return DeckPage(as_bytes(broken_page(error, name)), entry)
+    made = broken_page(error, name)
+    if indexed:
+        made = with_way_back(made, place)
+    return DeckPage(as_bytes(made), broken_entry(error, place, f"{place}.html", name))
 
 
 def unread(place: str) -> Entry:
     """What the index says of a deck that could not be read."""
-    return Entry(place, "", BROKEN, _BROKEN, "Cannot be read")
+    return unread_entry(place)

@@ -39,6 +39,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "and Mz are older names of the four",
     )
     group.add_argument(
+        "--held",
+        action="store_true",
+        help="show what each flexure of an exactly constrained mechanism holds, and how well",
+    )
+    group.add_argument(
         "--view",
         default="iso",
         metavar="VIEW",
@@ -89,6 +94,7 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
                     freedom=chosen.freedom,
                     stress=chosen.stress,
                     quantity=chosen.quantity,
+                    held=chosen.held,
                     view=chosen.view,
                     progress=bar.show_frames,
                 )

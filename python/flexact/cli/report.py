@@ -12,6 +12,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
+from flexact.cli.compare import add_compare, compare
 from flexact.cli.decks import add_decks, take
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
@@ -45,6 +46,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="the page, NAME.html; or a folder for a page of each deck and index.html",
     )
+    add_compare(parser)
     add_decision(parser)
     add_accuracy(parser)
     add_examples(
@@ -58,12 +60,21 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
             "-o results/pages",
         ),
+        (
+            "What changed between two decks, or two folders of decks or results",
+            "flexact report input_decks/paper/six_folded_sheets.dat "
+            "input_decks/paper/six_folded_sheets_released.dat --compare -o results/changes.html",
+        ),
     )
     parser.set_defaults(run=report_decks)
 
 
 def report_decks(chosen: argparse.Namespace) -> ExitCode:
-    """Write the pages of the decks that were asked for."""
+    """Write the pages of the decks that were asked for, or the page that compares two runs."""
+    if chosen.compare:
+        return compare(chosen)
+    if chosen.expect:
+        raise BatchError("--expect same is for --compare")
     decks = find_decks(chosen.decks)
     work = _Work(chosen, decks)
     code = take(decks, work.step)
@@ -109,7 +120,8 @@ class _Work:
             self._put(deck, page)
 
     def _write_broken(self, deck: DeckFile, error: Exception) -> None:
-        page = broken_page_of(error, deck.name, deck.relative.as_posix())
+        place, indexed = deck.relative.as_posix(), self.index is not None
+        page = broken_page_of(error, deck.name, place, indexed=indexed)
         if page is None:
             return
         try:

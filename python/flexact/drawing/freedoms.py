@@ -10,21 +10,25 @@ import numpy as np
 from ..result.freedoms import Freedom
 from ..result.order import coordinate_key, ranked
 from ..result.velocities import Velocities
+from .natural import natural_shape
 from .pose import Moving
 
 
 def way_of(freedom: Freedom) -> Moving | None:
     """The motion of a declared degree of freedom as it is drawn; None where it cannot move.
 
-    A coordinate grows. The sign of a deformation depends on which end is p; its motion is
+    It has its natural shape (`natural_shape`). A coordinate grows. The sign of a deformation
+    depends on which end is p; its motion is
     drawn with the sense in which its largest part is positive, of equal ones the first
     by name and place.
 
     Raises:
         AnalysisError: The motion cannot be found.
     """
-    motion = freedom.motion
-    if motion is None or freedom.is_coordinate:
+    if freedom.motion is None:
+        return None
+    motion = natural_shape(freedom.analysis, freedom.motion)
+    if freedom.is_coordinate:
         return motion
     outcome, length = freedom.analysis, freedom.analysis.characteristic_length
     data, moved, turned = (

@@ -12,13 +12,17 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from .drawing import Drawing
 from .inner_nodes import poses_with_inner_nodes
+from .natural import Natural
 from .path import follow, has_path, moved_by_screws
 from .pose import Moving, Pose, reference_pose
 from .rotations import between, vector_of
 from .shapes import field_along, stations
 
-#: The largest displacement that is drawn, as a part of the drawing's size.
-AMPLITUDE = 0.1
+#: The largest displacement that is drawn, as a part of the drawing's size, and of the size of what
+#: moves, which it does not exceed.
+AMPLITUDE, _OF_PART = 0.1, 0.25
+#: What is displaced by less than this part of the largest displacement does not count as moving.
+_MOVES = 0.02
 #: The largest rotation that is drawn [rad].
 _LARGEST_ROTATION = 1.0
 #: Poses to each side of the reference.
@@ -38,13 +42,16 @@ class Movement(Frozen):
 
     Attributes:
         scale: What the motion is multiplied by, so that to first order the largest displacement
-            along the members is a tenth of the drawing's size, and no rotation larger than 1 rad.
+            along the members is a tenth of the drawing's size, or a quarter of the size of what
+            moves where that is less, and no rotation larger than 1 rad.
         deviation: The largest deformation in the poses that the motion holds, as a part of the
             drawing's size; infinite where there is no such path near, NaN where the model is too
             large to look for it. Then rigid bodies move on the screws of the motion.
         phases: (17,) from -1 to 1, fewer of a shape that is elastic; 0 is the reference.
         poses: One a phase.
         about: What is to be said of them where that is no path; may be empty.
+        part: Size of what moves, as a part of the drawing's, where it is drawn to that; else 1.
+        natural: Whether what nothing determines has the shape in which it bends least.
     """
 
     scale: float
@@ -52,6 +59,8 @@ class Movement(Frozen):
     phases: FloatArray
     poses: tuple[Pose, ...]
     about: str = ""
+    part: float = 1.0
+    natural: bool = False
 
     @property
     def true_path(self) -> bool:
@@ -60,7 +69,16 @@ class Movement(Frozen):
 
     @property
     def remark(self) -> str:
-        """What is to be said of the poses, a sentence."""
+        """What is to be said of the poses, sentences."""
+        told = [self._path]
+        if self.part < 1.0:
+            told.append("Drawn to the size of the part that moves.")
+        if self.natural:
+            told.append("What nothing determines is drawn where it bends least.")
+        return " ".join(told)
+
+    @property
+    def _path(self) -> str:
         if self.about:
             return self.about
         if self.true_path:
@@ -89,10 +107,11 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
     that nobody sees them, where there is one and the model is not large. The larger of the two
     farthest displacements is a tenth of the drawing's size, unless rotations are too large.
     """
+    far, part = amplitude_of(drawing, motion.displacement, motion.rotation)
     scale = reach = scale_of(drawing, motion)
     sides, deviation = _swung(motion, reach, drawing.size)
     for _ in range(_MOST_FITS):
-        factor = _factor(drawing, [side[-1] for side in sides])
+        factor = _factor(drawing, [side[-1] for side in sides], far)
         if abs(factor - 1.0) < _FITS:
             break
         reach *= factor
@@ -102,7 +121,9 @@ def move(drawing: Drawing, motion: Moving) -> Movement:
             break
         sides, deviation = fitted, there
     poses = (*sides[0][::-1], reference_pose(drawing.data.arrays), *sides[1])
-    return Movement(scale, deviation, np.linspace(-1.0, 1.0, len(poses)), poses)
+    phases = np.linspace(-1.0, 1.0, len(poses))
+    natural = isinstance(motion, Natural)
+    return Movement(scale, deviation, phases, poses, part=part, natural=natural)
 
 
 def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, ...]], float]:
@@ -121,10 +142,10 @@ def _swung(motion: Moving, reach: float, size: float) -> tuple[list[tuple[Pose, 
     return whole, np.inf if followed else np.nan
 
 
-def _factor(drawing: Drawing, ends: list[Pose]) -> float:
+def _factor(drawing: Drawing, ends: list[Pose], far: float) -> float:
     """By how much poses are too near to the reference, to be as far as they may."""
     largest, turned = reach_of(drawing, ends)
-    factor = _least(AMPLITUDE * drawing.size, largest, _LARGEST_ROTATION, turned)
+    factor = _least(far, largest, _LARGEST_ROTATION, turned)
     return min(max(factor, 0.5), 2.0) if factor > 0.0 else 1.0
 
 
@@ -142,6 +163,7 @@ def reach_of(drawing: Drawing, poses: Sequence[Pose]) -> tuple[float, float]:
 
 def scale_of(drawing: Drawing, motion: Moving) -> float:
     """What a motion is multiplied by when it is drawn, to first order."""
+    far, _ = amplitude_of(drawing, motion.displacement, motion.rotation)
     along = field_along(drawing.members, motion.displacement, motion.rotation)
     largest = max(
         (float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along),
@@ -149,7 +171,33 @@ def scale_of(drawing: Drawing, motion: Moving) -> float:
     )
     largest = max(largest, float(np.linalg.norm(motion.displacement, axis=1).max(initial=0.0)))
     turned = float(np.linalg.norm(motion.rotation, axis=1).max(initial=0.0))
-    return _least(AMPLITUDE * drawing.size, largest, _LARGEST_ROTATION, turned)
+    return _least(far, largest, _LARGEST_ROTATION, turned)
+
+
+def amplitude_of(
+    drawing: Drawing, displacement: FloatArray, rotation: FloatArray
+) -> tuple[float, float]:
+    """How far a motion is drawn [m], and the size of what moves as a part of the drawing's.
+
+    A motion of a small part, as of the inside of a sheet, goes as far as that part's size lets it
+    be seen as what it is; the second number is 1 of all others.
+
+    Args:
+        drawing: The drawing.
+        displacement: (nodes, 3) of the motion.
+        rotation: (nodes, 3) likewise.
+    """
+    members = drawing.members
+    reach = np.zeros(len(members))
+    for each in field_along(members, displacement, rotation):
+        reach[each.member] = np.linalg.norm(each.displacement, axis=-1).max(axis=1)
+    largest = float(reach.max(initial=0.0))
+    nodes = np.unique(members.nodes[reach > _MOVES * largest][:, [0, 2]])
+    far = AMPLITUDE * drawing.size
+    if not largest > 0.0:
+        return far, 1.0
+    part = float(np.linalg.norm(np.ptp(drawing.reference.position[nodes], axis=0)))
+    return (_OF_PART * part, part / drawing.size) if 0.0 < _OF_PART * part < far else (far, 1.0)
 
 
 def _least(far: float, largest: float, angle: float, turned: float) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, ModelArrays
 from ..core.elements import Class, NodeKind
+from .clamps import BESIDE, Block, blocks_of
 from .members import Members
 from .places import turned_at
 from .rotations import frames_along, unit
@@ -18,10 +19,6 @@ from .rotations import frames_along, unit
 #: Parts of the drawing's size, and of the shortest member at the node.
 _PART, _SMALLEST = 0.045, 0.012
 _LIMIT = 0.4
-#: How much a block of ground stands out beside a member, as a part of the symbol's size.
-_BESIDE = 0.55
-#: Cosine of the largest angle between a clamp and the member along whose section it lies.
-_UPRIGHT = 0.9
 
 
 class Support(IntEnum):
@@ -42,12 +39,17 @@ class Supports(Frozen):
     """Symbols of fixed coordinates.
 
     Attributes:
-        node: (s,) position node.
+        node: (s,) position node; the first of those that a block clamps.
         kind: (s,) `Support`.
         frame: (s, 3, 3) columns: the unit vector from the ground towards what is held, and two
-            across it, of a clamp along the section of the widest member that it holds.
+            across it, of a clamp along the section of the widest member that it holds or along
+            the points that it clamps.
         extent: (s, 2) half sizes along these two [m].
         size: (s,) [m].
+        offset: (s, 3) from the node to where the symbol stands, of a block to the middle of its
+            face [m].
+        depth: (s,) thickness of a block [m].
+        held: All the position nodes that each holds: of a block several.
     """
 
     node: np.ndarray
@@ -55,6 +57,9 @@ class Supports(Frozen):
     frame: FloatArray
     extent: FloatArray
     size: FloatArray
+    offset: FloatArray
+    depth: FloatArray
+    held: tuple[tuple[int, ...], ...]
 
     @property
     def direction(self) -> FloatArray:
@@ -113,10 +118,28 @@ def supports_of(arrays: ModelArrays, members: Members, size: float) -> Supports:
     # A pyramid stands straight.
     pinned = kind == Support.PIN
     direction[pinned] = _upright(direction[pinned])
-    room_here = np.maximum(_LIMIT * room[node], _SMALLEST * size)
-    sizes = np.minimum(_PART * size, room_here)
-    frame, extent = _grounds(members, node, kind, direction, arrays.node_kind.size)
-    return Supports(node, kind, frame, extent + _BESIDE * sizes[:, None], sizes)
+    sizes = np.minimum(_PART * size, np.maximum(_LIMIT * room[node], _SMALLEST * size))
+    others = np.flatnonzero(kind != Support.CLAMP)
+    place = arrays.node_value[:3].T
+    clamps = node[kind == Support.CLAMP]
+    upwards = np.array((0.0, 0.0, 1.0) if spatial.any() else (0.0, 1.0, 0.0))
+    blocks = blocks_of(members, place, clamps, sizes[kind == Support.CLAMP], upwards)
+    first = np.array([block.nodes[0] for block in blocks], np.int64)
+    middle = np.array([block.middle for block in blocks]).reshape(-1, 3)
+    return Supports(
+        np.concatenate((first, node[others])),
+        np.concatenate((np.full(len(blocks), Support.CLAMP), kind[others])),
+        np.concatenate((_stacked(blocks, "frame", (3, 3)), frames_along(direction[others]))),
+        np.concatenate((_stacked(blocks, "extent", (2,)), BESIDE * sizes[others, None] * [1, 1])),
+        np.concatenate((_stacked(blocks, "size", ()), sizes[others])),
+        np.concatenate((middle - place[first], np.zeros((others.size, 3)))),
+        np.concatenate((_stacked(blocks, "depth", ()), np.zeros(others.size))),
+        (*(block.nodes for block in blocks), *((each,) for each in node[others].tolist())),
+    )
+
+
+def _stacked(blocks: list[Block], name: str, shape: tuple[int, ...]) -> FloatArray:
+    return np.array([getattr(block, name) for block in blocks], float).reshape(-1, *shape)
 
 
 def arrows_of(arrays: ModelArrays) -> Arrows:
@@ -161,30 +184,6 @@ def _outward(nodes: int, members: Members) -> tuple[FloatArray, FloatArray]:
         np.minimum.at(room, members.nodes[long, slot], members.length[long])
     towards[np.linalg.norm(towards, axis=1) < 1.0e-6] = 0.0
     return unit(towards), room
-
-
-def _grounds(
-    members: Members, node: np.ndarray, kind: np.ndarray, direction: FloatArray, nodes: int
-) -> tuple[FloatArray, FloatArray]:
-    """Frames (s, 3, 3) of symbols, and half sizes (s, 2) of what a clamp holds [m]."""
-    frame = frames_along(direction)
-    extent = np.zeros((node.size, 2))
-    widest = np.full(nodes, -1)
-    order = np.argsort(members.section.max(axis=1), kind="stable")
-    widest[members.nodes[order, 0]], other = order, widest.copy()
-    other[members.nodes[order, 2]] = order
-    thick = np.append(members.section.max(axis=1), -1.0)
-    widest = np.where(thick[other] > thick[widest], other, widest)[node]
-    held = np.flatnonzero((kind == Support.CLAMP) & (widest >= 0))
-    member = widest[held]
-    own = members.frame[member]
-    cosine = np.sum(own[..., 0] * direction[held], axis=1)
-    along = np.abs(cosine) > _UPRIGHT
-    side = np.where(cosine < 0.0, -1.0, 1.0)[:, None, None] * np.array([1.0, 0.0, 1.0])
-    frame[held[along]] = (own * (side + np.array([0.0, 1.0, 0.0])))[along]
-    section = members.section[member] / 2
-    extent[held] = np.where(along[:, None], section, section.max(axis=1)[:, None])
-    return frame, extent
 
 
 def _upright(direction: FloatArray) -> FloatArray:

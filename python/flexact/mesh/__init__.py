@@ -30,9 +30,12 @@ Point data
     force along itself, and the moments that the others make on the way. Hinges have sizes.
 Cell data
     ``element``: number of the element; ``kind``: its code, see ``flexact.core.elements``; ``form``:
-    what it is to the eye, see ``flexact.drawing.Form``, 0 for hinges; ``name``: its name, in the
-    .vtu and .vtp files of ``flexact export`` alone. meshio holds no text, and does not read a
-    file that has some; what ``flexact analyse`` writes it reads.
+    what it is to the eye, see ``flexact.drawing.Form``, 0 for hinges; ``name``: its name, in .vtp
+    files alone. meshio does not read a .vtu file that has text, so that names are field data.
+    Supports and declared degrees of freedom are quads with an ``element`` and a ``kind`` of 0 and
+    the ``form`` that `flexact.mesh.symbols` says; they go with their nodes, and have no stress.
+Field data, in .vtu and .vtp files
+    Verdict, counts, margins, units and names of elements; see `flexact.mesh.field_data`.
 
 Of very many motions or self-stresses only the first are there; see `Meshes.most_modes`.
 """

@@ -8,10 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
-import numpy as np
-
 from ..drawing import Pose
-from ..drawing.rotations import vector_of
 from ..files.outputs import OutputError, write_together
 from .content import Mesh, Meshes
 
@@ -74,11 +71,7 @@ class Collection(Mapping[Path, bytes]):
 
 def moved_mesh(meshes: Meshes, pose: Pose) -> Mesh:
     """The mesh in a pose: points where they have moved to, `displacement` and `rotation` finite."""
-    reference, here = meshes.reference, meshes.layout(pose)
-    turned = vector_of(here.frame @ np.swapaxes(reference.frame, -1, -2))
-    return meshes.with_data(
-        here.points, here.points - reference.points, turned[reference.axis_point]
-    )
+    return meshes.with_data(*meshes.moved(pose))
 
 
 def write_collection(collection: Collection) -> None:

@@ -15,11 +15,14 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Pose, drawing_of
 from ..drawing.movement import scale_of
+from ..drawing.rotations import vector_of
 from ..drawing.selection import select_motion
 from ..model.data import ModelData
 from ..model.parts.forms import forms_of
 from ..result.result import Result
+from .field_data import field_data_of
 from .layout import Integers, Layout, layout_of
+from .symbols import NO_SYMBOLS, symbols_of
 
 if TYPE_CHECKING:
     import meshio
@@ -50,19 +53,21 @@ class Mesh(Frozen):
         corners: Points of the cells: (vertices, 1), (lines, 2), (quads, 4).
         point_data: (n,) or (n, 3) each, by name.
         cell_data: (cells,) each, by name, in the order of `corners`.
-        names: Name of each element.
-        element: (cells,) index of each cell's element.
+        field_data: (n,) or (1, n) each, by name, of the whole.
+        names: Name of each element, and behind them of each symbol.
+        element: (cells,) index of each cell's name.
     """
 
     points: FloatArray
     corners: tuple[Integers, Integers, Integers]
     point_data: dict[str, NDArray[np.generic]]
     cell_data: dict[str, NDArray[np.generic]]
+    field_data: dict[str, NDArray[np.generic]]
     names: Sequence[str]
     element: Integers
 
     def to_meshio(self) -> meshio.Mesh:
-        """The same for meshio, which holds no names.
+        """The same for meshio; names are in the field data, as bytes.
 
         Vertices come before lines, and these before quads (the order that gmsh's files keep).
 
@@ -79,6 +84,7 @@ class Mesh(Frozen):
             [(SHAPES[i], self.corners[i]) for i in kept],
             point_data=dict(self.point_data),
             cell_data={name: [part[i] for i in kept] for name, part in parts.items()},
+            field_data=dict(self.field_data),
         )
 
 
@@ -107,6 +113,7 @@ class Meshes:
         drawn = analysis.given.appearance.drawn
         self.skinned = drawn if self.small else np.zeros_like(drawn)
         self.reference = self.layout(self.drawing.reference)
+        self.symbols = symbols_of(self.drawn) if self.small else NO_SYMBOLS
 
     @cached_property
     def drawn(self) -> Drawing:
@@ -135,46 +142,80 @@ class Meshes:
         if shown is None and (self.small or self.analysis.under_constrained):
             chosen = select_motion(self.analysis)
             shown = None if chosen is None else chosen.motion
-        moved, turned = np.zeros((2, *self.reference.points.shape))
+        moved, turned = np.zeros((2, len(self.reference.points) + len(self.symbols.points), 3))
         if shown is not None:
             scale = scale_of(self.drawn, shown)
-            moved, turned = self.reference.motion(shown.displacement, shown.rotation)
+            moved, turned = self._motion(shown.displacement, shown.rotation)
             moved, turned = scale * moved, scale * turned
-        return self.with_data(self.reference.points, moved, turned)
+        return self.with_data(self.points(self.drawing.reference), moved, turned)
+
+    def points(self, pose: Pose) -> FloatArray:
+        """(n, 3) all points in a pose [m]."""
+        here = self.reference if pose is self.drawing.reference else self.layout(pose)
+        return np.concatenate((here.points, self.symbols.points_in(pose, self.drawing.reference)))
+
+    def moved(self, pose: Pose) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """(n, 3) each: points in a pose, their displacements [m] and rotations [rad]."""
+        here, start = self.layout(pose), self.reference
+        turned = vector_of(here.frame @ np.swapaxes(start.frame, -1, -2))[start.axis_point]
+        symbols = self.symbols.points_in(pose, self.drawing.reference)
+        points = np.concatenate((here.points, symbols))
+        away = points - np.concatenate((start.points, self.symbols.points))
+        return points, away, np.concatenate((turned, np.zeros_like(symbols)))
+
+    def _motion(
+        self, displacement: FloatArray, rotation: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """(n, 3) displacements and rotations of all points, to first order: symbols go along."""
+        moved, turned = self.reference.motion(displacement, rotation)
+        along = displacement[self.symbols.node]
+        return np.concatenate((moved, along)), np.concatenate((turned, np.zeros_like(along)))
 
     def with_data(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
         """A mesh with these points, displacements and rotations, (n, 3) each."""
         values = {"displacement": moved, "rotation": turned, **self._of_analysis}
+        symbols, given = self.symbols, self.analysis.given
+        vertices, lines, quads = self.reference.corners
+        behind = len(self.reference.points)
+        corners = (vertices, lines, np.concatenate((quads, behind + symbols.quads)))
+        nodes = zip(given.node_names, given.arrays.node_number.tolist(), strict=True)
+        places = [name or f"node {number}" for name, number in nodes]
+        names = [*given.element_names, *symbols.in_words(places)]
+        element = np.concatenate((self.reference.element, len(given.element_names) + symbols.owner))
+        return Mesh(points, corners, values, self._of_cells, self._of_all, names, element)
+
+    @cached_property
+    def _of_cells(self) -> dict[str, NDArray[np.generic]]:
+        """Cell data: a symbol has a form alone."""
         arrays, element = self.analysis.given.arrays, self.reference.element
-        of_cells = {
-            "element": arrays.element_number.astype(np.int64),
-            "kind": arrays.element_kind.astype(np.int64),
-            "form": forms_of(arrays)[0],
+        nothing = np.zeros(len(self.symbols.quads), np.int64)
+        made: dict[str, NDArray[np.generic]] = {
+            "element": np.append(arrays.element_number.astype(np.int64)[element], nothing),
+            "kind": np.append(arrays.element_kind.astype(np.int64)[element], nothing),
+            "form": np.append(forms_of(arrays)[0][element], self.symbols.form),
         }
-        return Mesh(
-            points,
-            self.reference.corners,
-            values,
-            {name: of_elements[element] for name, of_elements in of_cells.items()},
-            self.analysis.given.element_names,
-            element,
-        )
+        return made
+
+    @cached_property
+    def _of_all(self) -> dict[str, NDArray[np.generic]]:
+        return field_data_of(self.analysis)
 
     @cached_property
     def _of_analysis(self) -> dict[str, NDArray[np.generic]]:
         """Point data that are the same in every pose."""
         layout, numbers = self.reference, self.analysis.given.arrays.node_number
-        node = np.zeros(len(layout.points), np.int64)
+        symbols = np.zeros(len(self.symbols.points))
+        node = np.zeros(len(layout.points) + len(symbols), np.int64)
         node[: layout.node.size] = np.where(layout.node >= 0, numbers[layout.node], 0)
         values: dict[str, NDArray[np.generic]] = {"node": node}
         most = self.most_modes
         for k, motion in enumerate(self.analysis.motions[:most], start=1):
-            moved, turned = layout.motion(motion.displacement, motion.rotation)
+            moved, turned = self._motion(motion.displacement, motion.rotation)
             values |= {f"motion_{k}": moved, f"motion_{k}_rotation": turned}
         for k, stress in enumerate(self.analysis.self_stresses[:most], start=1):
             for quantity, of_points in layout.stress(stress).items():
                 name = quantity.replace("-", "_").replace(" ", "_")
-                values[f"selfstress_{k}_{name}"] = of_points
+                values[f"selfstress_{k}_{name}"] = np.append(of_points, symbols)
         return values
 
 

@@ -11,7 +11,7 @@ from ..drawing import Moving, move
 from ..result.result import Result
 from .collection import Collection, folder_of, moved_mesh
 from .content import Meshes
-from .file import find_format, named_bytes
+from .file import find_format, mesh_bytes
 
 #: Time steps of a cycle, from time 0 to time 1; the last is as the first.
 STEPS = 24
@@ -23,9 +23,9 @@ ENDINGS = tuple(f"{i:02d}.vtu" for i in range(STEPS + 1))
 class Cycle(Collection):
     """The files of a cycle.
 
-    A step at time t shows the motion at the phase cos(2 pi t): points where they have moved to,
-    `displacement` and `rotation` finite, since the reference; all other data as in any mesh. A
-    mechanism that does not move has a single step.
+    A step at time t shows the motion at the phase sin(2 pi t), from rest: points where they have
+    moved to, `displacement` and `rotation` finite, since the reference; all other data as in any
+    mesh. A mechanism that does not move has a single step.
     """
 
     def __init__(self, analysis: Result, shown: Moving | None, target: Path) -> None:
@@ -42,6 +42,7 @@ class Cycle(Collection):
         """What a mesh holds."""
         time = self._time_of[path]
         if self._movement is None:
-            return named_bytes(self._meshes.still(None), self._format)
-        pose = self._movement.pose(float(np.cos(2 * np.pi * time)))
-        return named_bytes(moved_mesh(self._meshes, pose), self._format)
+            return mesh_bytes(self._meshes.still(None), self._format)
+        # Rounded, so that it is at rest where it ends, too.
+        pose = self._movement.pose(round(float(np.sin(2 * np.pi * time)), 15))
+        return mesh_bytes(moved_mesh(self._meshes, pose), self._format)

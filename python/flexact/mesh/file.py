@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mesh files through meshio: which format, and the bytes of the file.
 
-Names of cells, which meshio can neither write nor read, are put into VTK's XML files behind it.
+Field data, which meshio reads and does not write, are put into .vtu files behind it.
 """
 
 from __future__ import annotations
@@ -12,26 +12,30 @@ import shutil
 import sys
 import tempfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..base.errors import reason_of
 from ..base.interruption import undisturbed
+from ..base.plain_text import harmless
 from ..files.outputs import OutputError
 from .content import Mesh
+from .field_data import component_names, spelt
 
 #: Formats that meshio writes unaided with every cell and every array, and how.
 FORMATS: dict[str, dict[str, str]] = {"vtu": {}, "vtk": {}, "xdmf": {"data_format": "XML"}}
 
-#: Where meshio begins the data of the cells and of the points; no data look like it.
-_CELLS = b"<CellData>\n"
+#: Where meshio begins the grid and the data of the points; no data look like it.
+_GRID = b"<UnstructuredGrid>\n"
 _POINTS = b"<PointData>\n"
-_ARRAY = b'<DataArray type="String" Name="name" NumberOfComponents="1" format="binary">\n'
+_TYPES = {"uint8": "UInt8", "int64": "Int64", "float64": "Float64"}
 #: Bytes of a block that is compressed by itself, as meshio has it.
 _BLOCK = 32_768
 
@@ -66,7 +70,7 @@ def _meshio() -> ModuleType:
 
 
 def mesh_bytes(mesh: Mesh, form: str) -> bytes:
-    """The file that holds a mesh, and that meshio reads: without names.
+    """The file that holds a mesh; a .vtu file has the field data, too.
 
     Raises:
         MeshFormatError: meshio is not installed.
@@ -76,43 +80,46 @@ def mesh_bytes(mesh: Mesh, form: str) -> bytes:
         with _temporary_folder() as folder, _placeholder_for_h5py(form):
             path = folder / f"mesh.{form}"
             _meshio().write(path, mesh.to_meshio(), file_format=form, **FORMATS[form])
-            return path.read_bytes()
+            content = path.read_bytes()
     except MemoryError as error:
         raise OutputError("there is not enough memory for the mesh") from error
     except OSError as error:
         reason = reason_of(error)
         raise OutputError(f"the mesh cannot be written to a temporary folder: {reason}") from error
+    return _completed(content, mesh.field_data) if form == "vtu" else content
 
 
-def named_bytes(mesh: Mesh, form: str) -> bytes:
-    """The file that holds a mesh, a .vtu file with the names of the cells.
-
-    Raises:
-        OutputError: A package is missing, or the temporary folder cannot be written to.
-    """
-    content = mesh_bytes(mesh, form)
-    return _with_names(content, mesh) if form == "vtu" else content
-
-
-def _with_names(content: bytes, mesh: Mesh) -> bytes:
-    """The .vtu file of meshio's that holds a mesh, with the array `name`, one text a cell.
+def _completed(content: bytes, data: Mapping[str, NDArray[np.generic]]) -> bytes:
+    """The .vtu file of meshio's with field data, which meshio reads and does not write.
 
     ParaView warps by `displacement` unless told otherwise.
     """
-    array = _ARRAY + _encoded("\0".join((*cell_names(mesh), "")).encode()) + b"\n</DataArray>\n"
-    content = content.replace(_CELLS, _CELLS + array, 1)
+    components = component_names(data)
+    arrays = b"".join(
+        _array(name, values, components.get(name, [])) for name, values in data.items()
+    )
+    content = content.replace(_GRID, _GRID + b"<FieldData>\n" + arrays + b"</FieldData>\n", 1)
     return content.replace(_POINTS, b'<PointData Vectors="displacement">\n', 1)
 
 
-def cell_names(mesh: Mesh) -> list[str]:
-    """The name of each cell's element as VTK can keep it.
+def _array(name: str, values: NDArray[np.generic], components: Sequence[str]) -> bytes:
+    """An array of field data."""
+    many = values.shape[1] if values.ndim > 1 else 1
+    told = "".join(
+        f" ComponentName{k}={quoteattr(harmless(words))}" for k, words in enumerate(components)
+    )
+    if many > 1 or values.ndim > 1:
+        told = f' NumberOfComponents="{many}"{told}'
+    head = (
+        f'<DataArray type="{_TYPES[values.dtype.name]}" Name={quoteattr(name)}{told} '
+        f'NumberOfTuples="{len(values)}" format="binary">\n'
+    )
+    return head.encode() + _encoded(values.tobytes()) + b"\n</DataArray>\n"
 
-    Without zeros, and such that UTF-8 can spell it.
-    """
-    names = [
-        name.replace("\0", "\ufffd").encode("utf-8", "backslashreplace").decode("utf-8")
-        for name in mesh.names
-    ]
+
+def cell_names(mesh: Mesh) -> list[str]:
+    """The name of each cell's element or symbol as VTK can keep it."""
+    names = list(map(spelt, mesh.names))
     return [names[i] for i in mesh.element.tolist()]
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .content import Mesh
+from .field_data import component_names
 from .file import MeshFormatError, cell_names
 
 
@@ -62,6 +63,7 @@ def _polydata(mesh: Mesh) -> Any:
     for place, data in (
         (made.GetPointData(), mesh.point_data),
         (made.GetCellData(), mesh.cell_data),
+        (made.GetFieldData(), mesh.field_data),
     ):
         for name, values in data.items():
             array = to_vtk(np.ascontiguousarray(values), deep=True)
@@ -69,6 +71,10 @@ def _polydata(mesh: Mesh) -> Any:
             place.AddArray(array)
     made.GetPointData().SetActiveVectors("displacement")
     made.GetCellData().AddArray(_names(mesh))
+    for name, words in component_names(mesh.field_data).items():
+        # Names of elements are strings here.
+        if len(words) == 1 and name != "element_number":
+            made.GetFieldData().GetArray(name).SetComponentName(0, words[0])
     return made
 
 

@@ -11,7 +11,7 @@ from ..files.outputs import OutputError, write_together
 from ..result.result import Result
 from . import collection, cycle, polydata
 from .content import mesh_of
-from .file import find_format, named_bytes
+from .file import find_format, mesh_bytes
 
 Write = Callable[[Result, Moving | None, Path], None]
 
@@ -34,7 +34,7 @@ def mesh_writer(target: Path) -> Write:
     form = find_format(suffix)
 
     def write(analysis: Result, shown: Moving | None, target: Path) -> None:
-        write_together({target: named_bytes(mesh_of(analysis, shown), form)})
+        write_together({target: mesh_bytes(mesh_of(analysis, shown), form)})
 
     return write
 

@@ -17,7 +17,7 @@ from .assets import SCRIPTS, filled
 from .controls_part import choices_part, keys, layers, toolbar
 from .drawing_data import frames_of
 from .drawing_part import drawing_part
-from .markup import linked, paragraphs, section, text
+from .markup import breakable, linked, paragraphs, section, text
 from .verdict_part import SWITCH, verdict_of_side
 from .viewer_data import left_out, stuck_in, viewer_data
 
@@ -30,6 +30,8 @@ def before_and_after(
     stills: tuple[bytes | None, bytes | None] = (None, None),
     first: tuple[tuple[str, int], ...] = (),
     spaces: tuple[Spaces | None, Spaces | None] = (None, None),
+    runs: tuple[str, str] | None = None,
+    changes: str = "",
 ) -> str:
     """The page of a result beside that of a changed mechanism.
 
@@ -44,6 +46,8 @@ def before_and_after(
         first: What of the mechanism as it is is shown at first, such as ("motion", 2) and
             ("self-stress", 1); else what its verdict says, both where it is both.
         spaces: Freedom and constraint spaces of a body of each, to be switched on.
+        runs: What both are called, where they are two decks.
+        changes: What changed, as HTML.
     """
     require_kind(before, Result, "a page is that of a result")
     require_kind(after, Result, "a page is that of a result")
@@ -53,18 +57,24 @@ def before_and_after(
     one["first"] = _chosen(first) or _everything(one)
     name = file_name(before.name)
     title = f"{name or 'model'}: before and after"
+    heads = "<b>As it is</b>", f"<b>Changed:</b> {linked(changed)}"
+    if runs is not None:
+        title = " \N{RIGHTWARDS ARROW} ".join(runs)
+        heads = f"<b>Before:</b> {breakable(runs[0])}", f"<b>After:</b> {breakable(runs[1])}"
     body = (
         f'<header class="verdict top"><h1 class="headline">{text(title)}</h1>{SWITCH}</header>',
         '<main class="pair">',
         f'<section class="shared" aria-label="Both drawings" hidden>{toolbar(one, two)}</section>',
-        _side(before, one, "before", "<b>As it is</b>", stills[0]),
-        _side(after, two, "after", f"<b>Changed:</b> {linked(changed)}", stills[1]),
+        section("changes", "What changed", changes),
+        _side(before, one, "before", heads[0], stills[0]),
+        _side(after, two, "after", heads[1], stills[1]),
         f'<section class="shared" aria-label="In both drawings" hidden>{layers(one, two)}'
         f"{keys(one)}</section>",
         section("advice", "What can be done", paragraphs(told)),
         "</main>",
     )
-    return filled(title, "\n".join(body), SCRIPTS)
+    styles = ("style.css", "index.css", "compare.css") if changes else ("style.css",)
+    return filled(title, "\n".join(body), SCRIPTS, styles)
 
 
 def _side(

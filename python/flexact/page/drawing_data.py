@@ -29,6 +29,7 @@ from ..drawing import (
     names_in,
     sides_in,
 )
+from ..drawing.diagrams import GAP, HEIGHT, SHOWN
 from ..drawing.places import turned_at
 from ..drawing.rotations import euler_of
 from ..drawing.view import ISO, view_of
@@ -36,8 +37,6 @@ from ..model.parts.parts import Parts
 from .limits import MOST_MEMBERS
 from .packing import flags, floats, integers
 
-#: Thickness of a clamp's block of ground, a part of its size.
-_THICK = 0.6
 #: An edge where no colour is given: so much of the member's own.
 _EDGE = 0.45
 
@@ -107,12 +106,14 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
             "support": colours.SUPPORT,
             "arrow": colours.ARROW,
             "freedom": colours.FREEDOM,
+            "mark": colours.MARK,
             "freedom space": colours.FREEDOM_SPACE,
             "constraint space": colours.CONSTRAINT_SPACE,
             "new wire": colours.NEW_WIRE,
         },
         "quantities": list(QUANTITIES),
         "bending": BENDING,
+        "diagram": {"height": HEIGHT, "gap": GAP, "shown": SHOWN},
         "units": UNITS,
         "names": names_in(drawing),
         "meaning": meanings_in(drawing),
@@ -122,7 +123,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         "members": _members(frame),
         "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
-        "supports": _supports(frame),
+        "supports": _supports(parts, frame),
         "joints": _joints(frame),
         "arrows": _arrows(frame),
     }
@@ -230,7 +231,7 @@ def hinges_in(frame: Frame) -> np.ndarray:
     return np.flatnonzero((nodes[:, 1:] >= 0).all(axis=1))
 
 
-def _supports(frame: Frame) -> dict[str, Any]:
+def _supports(parts: Parts, frame: Frame) -> dict[str, Any]:
     """Symbols in frames whose ex points from the ground to what is held, and their sizes."""
     supports = frame.drawing.supports
     node = frame.nodes(supports.node)
@@ -238,13 +239,23 @@ def _supports(frame: Frame) -> dict[str, Any]:
     sizes = np.repeat(supports.size[rows, None], 3, axis=1)
     kind = supports.kind[rows]
     block = kind == Support.CLAMP
-    sizes[block] = np.column_stack((_THICK * sizes[block, 0], 2 * supports.extent[rows[block]]))
+    held = rows[block]
+    sizes[block] = np.column_stack((supports.depth[held], 2 * supports.extent[held]))
     return {
         "node": integers(node[rows]),
         "kind": flags(kind),
+        "offset": floats(supports.offset[rows] / frame.size),
+        "names": [_held_by(parts, supports.held[row]) for row in rows.tolist()],
         "frame": floats(euler_of(supports.frame[rows])),
         "size": floats(sizes / frame.size),
     }
+
+
+def _held_by(parts: Parts, nodes: tuple[int, ...]) -> list[str]:
+    """The names of points and parts that a support holds, each once."""
+    points = [parts.name_of_point(node) for node in nodes]
+    there = [part.name for node in nodes for part in parts.at(node)]
+    return list(dict.fromkeys(harmless(name) for name in (*points, *there) if name))
 
 
 def _joints(frame: Frame) -> dict[str, Any]:

@@ -16,6 +16,11 @@ def text(words: str) -> str:
     return escape(harmless(words))
 
 
+def breakable(name: str) -> str:
+    """A path as HTML that may go on in another line behind each stroke and underscore."""
+    return text(name).replace("/", "/<wbr>").replace("_", "_<wbr>")
+
+
 def flowing(line: Line) -> str:
     """A line of text; what it names is linked with the drawing."""
     items = [linked(item) + text(note) for item, note in line.listed()]
@@ -31,10 +36,11 @@ def linked(pieces: Pieces) -> str:
     )
 
 
-def image(png: bytes, words: str) -> str:
-    """A picture with the words that say what it shows."""
+def image(png: bytes, words: str, *, late: bool = False) -> str:
+    """A picture with the words that say what it shows; late ones wait until they are seen."""
     source = base64.b64encode(png).decode()
-    return f'<img src="data:image/png;base64,{source}" alt="{text(words)}">'
+    waits = ' loading="lazy" decoding="async"' if late else ""
+    return f'<img src="data:image/png;base64,{source}" alt="{text(words)}"{waits}>'
 
 
 def link(kind: str, number: int, words: str) -> str:

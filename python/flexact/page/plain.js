@@ -4,3 +4,4 @@
 
 Theme.listen(document.body, () => {});
 Printing.listen(document.body, []);
+if (typeof Finder === "object") Finder.listen(document.body);

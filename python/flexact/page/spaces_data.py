@@ -1,21 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Freedom and constraint spaces of a body as data of a page."""
+"""Freedom and constraint spaces of a body, and what flexures hold, as data of a page."""
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import add
 from typing import Any
 
 import numpy as np
 
+from ..advice.holding import holds_of
 from ..advice.spaces.spaces import Spaces
 from ..base.plain_text import harmless
 from ..core.arrays import FloatArray
 from ..drawing import SpaceShape, dashes, shape_of_space
+from ..drawing.holding import shape_of_hold
 from ..result.result import Result
+from ..text.advising.holding import hold_in_words, holds_in_words, number_of
 from ..text.advising.spaces import body_words, dashed_in_words, spaces_lines
 from ..text.sentences import plain
 from .drawing_data import Frame
 from .packing import floats, integers
+
+#: Of more flexures what they hold is shown together alone.
+_MOST_HOLDS = 12
 
 
 def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[dict[str, Any]]:
@@ -44,6 +52,31 @@ def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[d
             }
         )
     return made
+
+
+def holds_data(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
+    """What each flexure of an exactly constrained mechanism holds: all together, then each."""
+    holds = holds_of(analysis)
+    if not holds:
+        return []
+    shapes = [shape_of_hold(each, frame.size, planar=frame.planar) for each in holds]
+    every = reduce(add, shapes)
+    made = [("What each flexure holds", holds_in_words(holds), every)]
+    if 1 < len(holds) <= _MOST_HOLDS:
+        for hold, shape in zip(holds, shapes, strict=True):
+            label = f"{hold.name}: {number_of(hold)}"
+            made.append((label, hold_in_words(analysis, hold), shape))
+    return [
+        {
+            "label": harmless(label),
+            "title": harmless(words),
+            "freedom": False,
+            "held": True,
+            **_drawn(shape, frame),
+            "wires": floats(np.zeros((0, 2, 3))),
+        }
+        for label, words, shape in made
+    ]
 
 
 def _drawn(shape: SpaceShape, frame: Frame) -> dict[str, Any]:

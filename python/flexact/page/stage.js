@@ -243,6 +243,11 @@ const Stage = (() => {
       return [((seen.x + 1) / 2) * this.width, ((1 - seen.y) / 2) * this.height, seen.z];
     }
 
+    /** The direction to the eye. */
+    get towards() {
+      return this.camera.position.clone().sub(this.controls.target).normalize().toArray();
+    }
+
     /** Length of the drawing that a pixel shows. */
     get pixel() {
       return 1 / (this.camera.zoom * this.height);

@@ -63,7 +63,7 @@ const Symbols = (() => {
 
   class Supports {
     constructor(data) {
-      const { node, kind, frame, size: sizes } = data.supports;
+      const { node, kind, frame, offset, size: sizes } = data.supports;
       this.group = new THREE.Group();
       const kinds = PageData.array(kind);
       const colour = data.colours.support.map((part) => Math.min(1, 1.35 * part));
@@ -77,6 +77,7 @@ const Symbols = (() => {
       });
       this.node = PageData.array(node);
       this.frame = PageData.array(frame);
+      this.offset = PageData.array(offset);
       this.sizes = PageData.array(sizes);
     }
 
@@ -84,7 +85,8 @@ const Symbols = (() => {
       for (const { copies, rows } of this.sets) {
         rows.forEach((row, i) => {
           const [w, x, y, z] = this.frame.subarray(4 * row, 4 * row + 4);
-          matrix.compose(at(pose.position, this.node[row]), turn.set(x, y, z, w),
+          start.fromArray(this.offset, 3 * row).add(at(pose.position, this.node[row]));
+          matrix.compose(start, turn.set(x, y, z, w),
             size.fromArray(this.sizes, 3 * row));
           copies.mesh.setMatrixAt(i, matrix);
         });

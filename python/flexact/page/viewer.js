@@ -5,8 +5,8 @@
 const Viewer = (() => {
   const HEAVY = 300; // members
   const CHROME = {
-    light: { mark: [1, 0.72, 0], ghost: [0.45, 0.48, 0.53], lighter: 0 },
-    dark: { mark: [1, 0.83, 0.25], ghost: [0.62, 0.66, 0.72], lighter: 0.4 },
+    light: { ghost: [0.45, 0.48, 0.53], lighter: 0 },
+    dark: { ghost: [0.62, 0.66, 0.72], lighter: 0.4 },
   };
 
   class Viewer {
@@ -47,6 +47,7 @@ const Viewer = (() => {
         this.freedoms, this.displacements, this.diagram, this.spaces]) stage.scene.add(part.group);
       stage.scene.add(this.nodeMark.mesh);
       stage.before.push((time) => this.player.step(time));
+      stage.before.push(() => this.diagram.isPassed(stage.towards) && this.drawDiagram());
       stage.after.push(() => this.overlay.draw());
       stage.heavy = this.members.plan.count > HEAVY;
       stage.slow = stage.heavy && stage.software;
@@ -176,7 +177,8 @@ const Viewer = (() => {
     drawDiagram() {
       const { stress, quantity } = this;
       const values = this.layers.diagram && this.values();
-      this.diagram.show(values ? quantity : "", values, stress ? stress.largest[quantity] : 0);
+      const largest = stress ? stress.largest[quantity] : 0;
+      this.diagram.show(values ? quantity : "", values, largest, this.stage.towards);
     }
 
     legend() {
@@ -268,7 +270,7 @@ const Viewer = (() => {
 
     /** The page has become light or dark. */
     dress() {
-      const chrome = CHROME[Theme.isDark() ? "dark" : "light"];
+      const chrome = { ...CHROME[Theme.isDark() ? "dark" : "light"], mark: this.data.colours.mark };
       this.members.dress(chrome);
       this.bodies.dress(chrome);
       this.spaces.dress(chrome);

@@ -12,7 +12,7 @@ from ..result.result import Result
 from .drawing_data import Frame, static_data
 from .limits import MOST_MEMBERS
 from .modes_data import looked_at, movements, stresses
-from .spaces_data import spaces_data
+from .spaces_data import holds_data, spaces_data
 from .tracks import Tracks
 
 
@@ -25,7 +25,7 @@ def viewer_data(analysis: Result, frame: Frame, spaces: Spaces | None = None) ->
         "segments": tracks.segments,
         "movements": movements(analysis, tracks),
         "stresses": stresses(analysis, frame),
-        "spaces": spaces_data(analysis, frame, spaces),
+        "spaces": spaces_data(analysis, frame, spaces) + holds_data(analysis, frame),
     }
     return {**data, "first": _first(data)}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Animations: a motion through a full cosine cycle, or a drawing that turns about the vertical."""
+"""Animations: a motion through a full cycle from rest, or a drawing that turns about z."""
 
 from __future__ import annotations
 
@@ -84,10 +84,13 @@ def _schedule(
 ) -> tuple[list[int], list[float], list[View]]:
     """Which drawings the frames show, and the phase and view of each drawing."""
     if subject.movement is not None:
-        # The way back shows the same drawings as the way there.
+        # From rest to the end, to the other end, and back to rest; the ways back show the same
+        # drawings as the ways there.
         there = CYCLE // 2
+        rest = there // 2
         phases = np.cos(np.pi * np.arange(there + 1) / there).tolist()
-        order = [*range(there + 1), *range(there - 1, 0, -1)]
+        phases[rest] = 0.0
+        order = [*range(rest, 0, -1), *range(there), *range(there, rest, -1)]
         return order, phases, [view] * len(phases)
     if drawing.planar:
         return [0], [0.0], [view]

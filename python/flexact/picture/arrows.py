@@ -20,6 +20,8 @@ _APART = 0.06
 _STILL, _MOST_TURNING, _TURNING_APART = 0.02, 4, 0.15
 #: Less than this part of a whole turning arrow is not drawn.
 _LEAST_TURNING = 0.15
+#: The least width of a circle that is seen, a part of its height.
+_OPEN = 0.4
 #: Lengths of arrows of freedoms, and radius of turning ones: parts of the drawing's size.
 _LENGTH, _RADIUS = 0.13, 0.055
 #: Length and width of a head: parts of the drawing's size, and at most of the arrow's length.
@@ -139,7 +141,11 @@ def _add_turning(
     colour: tuple[float, float, float],
     share: float = 1.0,
 ) -> None:
-    """A share of three quarters of a circle about an axis, with a head."""
+    """A share of three quarters of a circle about an axis, with a head.
+
+    It is turned to the eye so far that it is seen as an arc and not as a stroke.
+    """
+    axis = _opened(axis, canvas.view.axes[2])
     frame = frames_along(axis[None])[0]
     radius = _RADIUS * size
     angle = np.linspace(0.0, 1.5 * np.pi * min(share, 1.0), 28)
@@ -150,6 +156,16 @@ def _add_turning(
     flat = unit(along - (along @ towards) * towards)
     tip = circle[-1] + 0.7 * head * flat
     _add(canvas, circle[None], tip[None], flat[None], np.array([head]), colour, size)
+
+
+def _opened(axis: FloatArray, towards: FloatArray) -> FloatArray:
+    """(3,) the unit vector nearest to an axis about which a circle is seen wide enough."""
+    facing = float(axis @ towards)
+    if abs(facing) >= _OPEN:
+        return axis
+    flat = unit(axis - facing * towards)
+    sense = -1.0 if facing < 0.0 else 1.0
+    return np.asarray(np.sqrt(1.0 - _OPEN**2) * flat + sense * _OPEN * towards)
 
 
 def _add(

@@ -117,6 +117,14 @@ class Canvas:
             self._low = np.minimum(self._low, flat.min(axis=0))
             self._high = np.maximum(self._high, flat.max(axis=0))
 
+    def is_free(self, low: FloatArray, high: FloatArray) -> bool:
+        """Whether nothing is drawn between two corners (2,) [m], as far as boxes round it tell."""
+        for flat, *_ in self._batches:
+            first, last = flat[..., :2].min(axis=1), flat[..., :2].max(axis=1)
+            if np.any(np.all((first < high) & (last > low), axis=1)):
+                return False
+        return True
+
     @property
     def box(self) -> Box:
         """(2,) each: the lower left and the upper right corner of all that needs room [m]."""

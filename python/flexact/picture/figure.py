@@ -42,6 +42,8 @@ _MARGIN = 0.05
 _TURNED = 0.9
 #: Displacements below this part of the size, and rotations [rad], would be told as 0.
 _UNMOVED, _UNTURNED = 0.005, 0.05
+#: Half the room of the axes [px].
+_TRIAD = 56.0
 #: Pieces of the bar of colours.
 _PIECES = 128
 #: Lines of the margin below the verdict; in few words where it takes more.
@@ -128,14 +130,7 @@ class _Frame:
         return _SIZES[kind] * self.scale * 72 / DPI * 1.25
 
     def axes(self, left: float, top: float, right: float, bottom: float) -> Axes:
-        made = self.figure.add_axes(
-            (
-                left / self.width,
-                1 - bottom / self.height,
-                (right - left) / self.width,
-                (bottom - top) / self.height,
-            )
-        )
+        made = self.figure.add_axes(_part(self, left, top, right, bottom))
         made.set_axis_off()
         return made
 
@@ -218,12 +213,21 @@ def _add_panel(
     axes = frame.axes(left, top, right, bottom)
     _fill(axes, panel, box, (right - left, bottom - top))
     if not plain:
+        if not drawing.planar:
+            middle = _place_for_triad(frame, axes, panel, (left, top, right, bottom))
+            if middle is None:
+                # Nowhere beside the drawing: below it.
+                strip = 2 * _TRIAD * frame.scale
+                axes.set_position(_part(frame, left, top, right, bottom - strip))
+                _fill(axes, panel, box, (right - left, bottom - strip - top))
+                middle = left + _TRIAD * frame.scale, bottom - 0.9 * _TRIAD * frame.scale
+            _add_triad(frame, panel.canvas.view, *middle)
         _add_values(frame, axes, panel)
+        for place, words in subject.space.labels if subject.space is not None else ():
+            _add_label(frame, axes, panel, place, words)
         if subject.stress is not None:
             told = meanings_in(drawing)[subject.stress.quantity]
             _add_legend(frame, subject.stress, told, (left + pad, right - pad), bottom)
-        if not drawing.planar:
-            _add_triad(frame, panel.canvas.view, left + 3.4 * pad, bottom - 3.0 * pad)
 
 
 def _fill(axes: Axes, panel: Panel, box: Box, room: tuple[float, float]) -> None:
@@ -306,6 +310,44 @@ def _add_values(frame: _Frame, axes: Axes, panel: Panel) -> None:
         x, y = float(place[0]), frame.height - float(place[1])
         words = f"{peak.value:+.3g}"
         frame.text(x, y, words, "legend", va="center", ha="center", path_effects=halo)
+
+
+def _add_label(frame: _Frame, axes: Axes, panel: Panel, place: FloatArray, words: str) -> None:
+    """Words at a place, with what is behind them pale."""
+    from matplotlib.patheffects import withStroke
+
+    x, y = axes.transData.transform(panel.canvas.view.project(place)[:2])
+    halo = [withStroke(linewidth=3.0 * frame.scale, foreground="white")]
+    up = frame.height - float(y) - 11 * frame.scale
+    style = {"va": "center", "ha": "center", "weight": "bold", "path_effects": halo}
+    frame.text(float(x), up, words, "legend", **style)
+
+
+def _part(
+    frame: _Frame, left: float, top: float, right: float, bottom: float
+) -> tuple[float, float, float, float]:
+    """Left, bottom, width and height as parts of the figure, of sides in pixels."""
+    width, height = (right - left) / frame.width, (bottom - top) / frame.height
+    return left / frame.width, 1 - bottom / frame.height, width, height
+
+
+def _place_for_triad(
+    frame: _Frame, axes: Axes, panel: Panel, sides: tuple[float, float, float, float]
+) -> tuple[float, float] | None:
+    """A corner of a panel where nothing is drawn: the middle of the axes there [px]."""
+    half = _TRIAD * frame.scale
+    left, top, right, bottom = sides
+    for x, y in (
+        (left + half, bottom - 0.9 * half),
+        (right - half, bottom - 0.9 * half),
+        (right - half, top + half),
+        (left + half, top + half),
+    ):
+        ends = np.array(((x - half, frame.height - y - half), (x + half, frame.height - y + half)))
+        low, high = axes.transData.inverted().transform(ends)
+        if panel.canvas.is_free(low, high):
+            return x, y
+    return None
 
 
 def _add_triad(frame: _Frame, view: View, x: float, y: float) -> None:

@@ -95,7 +95,7 @@ def add_supports(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Draw the supports; those that let a node slide go with it."""
     supports = drawing.supports
     for row in range(len(supports)):
-        place = pose.position[supports.node[row]]
+        place = pose.position[supports.node[row]] + supports.offset[row]
         size, kind = float(supports.size[row]), supports.kind[row]
         direction = supports.direction[row]
         if kind == Support.TURN:

@@ -82,6 +82,7 @@ def draw(
     stress: int | None = None,
     quantity: str | None = None,
     spaces: Spaces | None = None,
+    held: bool = False,
     view: str | None = None,
     phase: float = 1.0,
     size: tuple[int, int] | None = None,
@@ -101,6 +102,8 @@ def draw(
             one.
         spaces: The freedom space and the constraint space of a body, which are shown side by side
             with the wires of the first proposal, dashed (`flexact.advice.spaces.spaces`).
+        held: Whether to show what each flexure of an exactly constrained mechanism holds, its
+            line or its plane, and how well.
         view: `iso`, `front`, `back`, `left`, `right`, `top`, `bottom`, or the azimuth and the
             elevation of the eye in degrees, as in `-60,25`; z is up. Planar models are drawn
             in their plane.
@@ -119,7 +122,7 @@ def draw(
         ValueError: The phase or the size is out of range.
     """
     return _figure(
-        analysis, Chosen(motion, freedom, stress, quantity, spaces), view, phase, size, plain
+        analysis, Chosen(motion, freedom, stress, quantity, spaces, held), view, phase, size, plain
     )
 
 
@@ -178,7 +181,7 @@ def picture_bytes(
         size: See there.
         plain: See there.
         progress: Called with the part of a GIF's frames that is drawn, from 0 to 1.
-        chosen: `motion`, `freedom`, `stress`, `quantity` and `spaces`, as of `draw`.
+        chosen: `motion`, `freedom`, `stress`, `quantity`, `spaces` and `held`, as of `draw`.
 
     Raises:
         PictureError: There is no such kind of picture, or a package is missing; else as `draw`.

@@ -10,18 +10,19 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Form, Members, Pose, Strip, solid, stations
 from ..drawing.colours import GHOST as GHOST_COLOUR
+from ..drawing.colours import GHOST_FACE as PALE
 from ..drawing.rotations import unit
 from .canvas import GHOST, SOLID, Canvas
 from .stress import PIECES, Stress
 from .surfaces import OUTLINE, SHADE, Grid, add_grid, lit
 
 #: Up to so many members, a bent one has so many segments and a round section so many corners.
-_LEVELS = ((60, 16, 18), (400, 10, 10), (1500, 8, 6))
+_LEVELS = ((60, 32, 18), (400, 16, 10), (1500, 8, 6))
 #: Up to so many members the colours of a self-stress change smoothly along them.
 FEW = 60
 #: Round members are thick, and have twice as many corners, beyond this part of the drawing's size.
 _THICK = 0.05
-GHOST_FACE = 0.62 + 0.38 * np.array(GHOST_COLOUR)
+GHOST_FACE = np.array(PALE)
 GHOST_EDGE = 0.25 + 0.75 * np.array(GHOST_COLOUR)
 #: What colours that mean values keep where no light falls on them.
 _SHADE_OF_STRESS = 0.84

@@ -5,21 +5,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
+from operator import add
 
 import numpy as np
 
+from ..advice.holding import holds_of
 from ..advice.spaces.spaces import Spaces
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, SpaceShape, dashes, shape_of_space
 from ..drawing.colours import CONSTRAINT_SPACE, FREEDOM_SPACE, NEW_WIRE
+from ..drawing.holding import shape_of_hold
 from ..result.result import Result
+from ..text.advising.holding import holds_in_words, number_of
 from ..text.advising.spaces import body_words, dashed_in_words, spaces_lines
 from ..text.sentences import plain
 from .arrows import add_straight
 from .canvas import OVER, Canvas
 
 #: Of lines [pt]; and of faces, whose edges are as wide as this.
-_BOLD, _WIDTH, _EDGE, _DASH = 2.6, 1.5, 0.7, 2.6
+_BOLD, _WIDTH, _THIN, _EDGE, _DASH = 2.6, 1.5, 0.8, 0.7, 2.6
 _OPACITY = 0.16
 #: Where the second head of a couple is, along its arrow.
 _SECOND = 0.84
@@ -33,11 +38,24 @@ class SpaceShown:
         shape: What is drawn of it.
         words: What it is.
         wires: (w, 2, 3) ends of wires that may be added [m].
+        labels: Places (3,) [m], each with what stands there.
     """
 
     shape: SpaceShape
     words: str
     wires: FloatArray
+    labels: tuple[tuple[FloatArray, str], ...] = ()
+
+
+def holds_shown(result: Result, drawing: Drawing) -> SpaceShown | None:
+    """What each flexure holds, with how well at each; None where that is not known."""
+    holds = holds_of(result)
+    if not holds:
+        return None
+    shapes = [shape_of_hold(each, drawing.size, planar=drawing.planar) for each in holds]
+    labels = tuple((each.space.about, number_of(each)) for each in holds)
+    none = np.zeros((0, 2, 3))
+    return SpaceShown(reduce(add, shapes), holds_in_words(holds), none, labels)
 
 
 def spaces_shown(
@@ -67,6 +85,9 @@ def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:
         canvas.lines(np.concatenate((face, face[:1]))[None], colour, _EDGE)
     for line in shape.lines:
         canvas.lines(line[None], colour, _BOLD if shape.is_bold else _WIDTH)
+        if shown.labels:
+            # What a wire holds lies within it.
+            canvas.lines(line[None], colour, _THIN, layer=OVER)
     if shape.arrows:
         ends = np.array(shape.arrows)
         # A couple has two heads.

@@ -25,7 +25,7 @@ from ..drawing.selection import Selection, require_there, select_motion
 from ..result.result import Result
 from ..text.naming import motion_in_words
 from ..text.places import listed
-from .spaces import SpaceShown, spaces_shown
+from .spaces import SpaceShown, holds_shown, spaces_shown
 from .stress import Stress, stress_of
 
 
@@ -66,6 +66,7 @@ class Chosen:
     stress: int | None = None
     quantity: str | None = None
     spaces: Spaces | None = None
+    held: bool = False
 
     def __post_init__(self) -> None:
         """Check what can be checked without an analysis."""
@@ -73,6 +74,8 @@ class Chosen:
             require_kind(self.spaces, Spaces, "spaces are those of a body, as advice has them")
             if self.moves or self.is_stressed:
                 raise SubjectError("a picture shows spaces, or motions and self-stresses, not both")
+        if self.held and (self.moves or self.is_stressed or self.spaces is not None):
+            raise SubjectError("a picture shows what flexures hold alone")
         for name in ("motion", "freedom", "stress"):
             if (number := getattr(self, name)) is not None:
                 _require_whole(number, name)
@@ -107,6 +110,14 @@ def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subj
     """
     if chosen.moves or chosen.is_stressed:
         return _asked_for(analysis, drawing, chosen)
+    if chosen.held:
+        held = holds_shown(analysis, drawing)
+        if held is None:
+            raise SubjectError(
+                "what each flexure holds is shown of mechanisms that are exactly constrained, "
+                "whose flexures each stand between two bodies"
+            )
+        return [Subject("What each flexure holds, and how well", space=held)]
     if chosen.spaces is not None:
         shown = spaces_shown(analysis, drawing, chosen.spaces)
         return [Subject(_heading(title), space=space) for title, space in shown]
@@ -128,6 +139,8 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
         NotThereError: What was chosen is not there.
         SubjectError: Several were chosen.
     """
+    if chosen.held:
+        raise SubjectError("what flexures hold does not move: it is a PNG or an SVG")
     if chosen.spaces is not None:
         raise SubjectError("freedom and constraint spaces do not move: they are a PNG or an SVG")
     if chosen.moves or chosen.is_stressed:

@@ -14,19 +14,18 @@ from .surfaces import OUTLINE, OUTLINE_WIDTH, Grid, add_grid
 _ROUND = 20
 _GROUND = (0.72, 0.73, 0.74)
 _HATCH = (0.36, 0.38, 0.41)
-#: Thickness of a block of ground, a part of a support's size.
-_THICK = 0.6
 
 
 def add_supports(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
     """Draw the supports; those that let a node slide go with it."""
     supports = drawing.supports
-    place = pose.position[supports.node]
+    place = pose.position[supports.node] + supports.offset
     for row in range(len(supports)):
         kind, size = supports.kind[row], float(supports.size[row])
         frame, half = supports.frame[row], supports.extent[row]
         if kind == Support.CLAMP:
-            _add_box(canvas, place[row], frame, (half[0], half[1]), _THICK * size)
+            depth = float(supports.depth[row])
+            _add_box(canvas, place[row], frame, (half[0], half[1]), depth)
         elif kind == Support.PIN:
             _add_pin(canvas, place[row], frame, size)
         elif kind == Support.SLIDE:

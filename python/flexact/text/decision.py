@@ -55,6 +55,14 @@ def _certainty(result: Result) -> Iterator[Line]:
             yield sentence(f"{_AS_THEY_ARE[result.proof.of]} the rank is {_proven(result.proof)}.")
 
 
+def certainty_word(result: Result) -> str:
+    """How sure the rank is, of the arithmetic: proven, numerically certain or doubtful."""
+    proof = result.proof
+    if result.certainty is Certainty.CERTAIN and proof is not None and proof.rank == result.rank:
+        return "proven"
+    return result.certainty.value
+
+
 def _how_certain(result: Result) -> str:
     proof = result.proof
     if proof is None:

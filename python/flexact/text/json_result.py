@@ -9,8 +9,8 @@ from typing import Any
 
 from ..base.version import VERSION
 from ..result.result import Result
-from ..result.verdict import Certainty
 from . import json_mechanics, json_modes, json_parts
+from .decision import certainty_word
 from .json_modes import ModesTable
 from .warnings import warnings_of
 
@@ -111,11 +111,9 @@ def _decision(analysis: Result) -> dict[str, Any]:
 
 def _certainty(analysis: Result) -> dict[str, Any]:
     """What is known of the rank: of the arithmetic, not of the machine."""
-    certainty, proof = analysis.certainty.value, analysis.proof
-    if analysis.certainty is Certainty.CERTAIN and proof and proof.rank == analysis.rank:
-        certainty = "proven"
+    proof = analysis.proof
     return {
-        "certainty": certainty,
+        "certainty": certainty_word(analysis),
         "proof": proof._asdict() if proof else None,
         "nearly": analysis.nearly._asdict() if analysis.nearly else None,
         "alternatives": [item._asdict() for item in analysis.alternatives],

@@ -28,8 +28,38 @@ def margin_in_short(result: Result) -> str:
     """The margin in a few words."""
     if result.margin.exact_alignment:
         return f"only {_ALIGNED}"
-    sizes = _sizes(*_small(result))
+    return _of_sizes(*_small(result))
+
+
+def margin_of_sizes(
+    length: float | None, angle: float | None, characteristic: float, *, exact: bool
+) -> str:
+    """The margin in the same words, of its numbers alone.
+
+    Args:
+        length: The smallest move of a node [m], None where none changes the verdict.
+        angle: The smallest turn of an element [rad], likewise.
+        characteristic: The characteristic length [m].
+        exact: Whether it is there in exact alignment only.
+    """
+    if exact:
+        return f"only {_ALIGNED}"
+    is_short = length is not None and length < _SMALL * characteristic
+    is_small = angle is not None and angle < _SMALL
+    return _of_sizes(length if is_short else None, angle if is_small else None)
+
+
+def _of_sizes(length: float | None, angle: float | None) -> str:
+    sizes = _sizes(length, angle)
     return f"margin {' or '.join(sizes)}" if sizes else "no small margin"
+
+
+def margin_cells(result: Result) -> tuple[str, str]:
+    """The margin in the cell of a table: in eight letters or so, and with the angle besides."""
+    if result.margin.exact_alignment:
+        return "aligned", _ALIGNED.removeprefix("in ")
+    sizes = _sizes(*_small(result))
+    return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
 
 
 def but_only(result: Result) -> str:

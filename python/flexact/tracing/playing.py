@@ -9,7 +9,7 @@ import numpy as np
 
 from ..mesh.collection import Collection, folder_of, moved_mesh
 from ..mesh.content import Meshes
-from ..mesh.file import find_format, named_bytes
+from ..mesh.file import find_format, mesh_bytes
 from .values import Traced
 
 #: Names of the meshes: this, and a number each. Of more steps than so many some are left out,
@@ -43,7 +43,7 @@ class Played(Collection):
     def mesh(self, path: Path) -> bytes:
         """What a mesh holds."""
         pose = self._trace.steps[self._step_of[path]].pose
-        return named_bytes(moved_mesh(self._meshes, pose), "vtu")
+        return mesh_bytes(moved_mesh(self._meshes, pose), "vtu")
 
 
 def _chosen(trace: Traced) -> list[int]:

@@ -194,6 +194,11 @@ def _wire(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
     return (f"a {word} from ", Named("node", wire.position, there), where + along)
 
 
+def wrenches_in_words(result: Result, space: ScrewSpace) -> tuple[Pieces, ...]:
+    """The forces and moments of a space, family by family."""
+    return _items(Geometry(result), space, space.dimension)
+
+
 def _items(geometry: Geometry, space: ScrewSpace, count: int) -> tuple[Pieces, ...]:
     """The families of a space, or that it is everything."""
     if count == (3 if space.planar else 6):

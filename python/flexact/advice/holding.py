@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each flexure of an exactly constrained mechanism holds, and how well.
+
+Flexures hang together where they meet away from bodies and ground, as the leaves of a folded sheet
+do. Of such a flexure between two bodies A and B, with the rates R_b t + R_i x of what its elements
+hold, t the twist of B against A and x what moves within it, the wrenches that it can carry are
+those of l'R_b with l'R_i = 0.
+
+How well: with the wrenches of all flexures as rows on the twists of all bodies, orthonormal for
+each flexure, the sine of the smallest angle between those of one and the span of all others. It is
+1 where nothing that it holds leans on another flexure, and 0 where it would hold what others hold
+already. The length of the mechanism makes rotations comparable with displacements
+(`docs/theory.md`, what a flexure holds).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.frozen import Frozen
+from ..core.arrays import FloatArray
+from ..core.elements import Class, NodeKind
+from ..model.parts.bodies import groups_of
+from ..model.parts.parts import Part, PartKind
+from ..result.result import Result
+from ..result.verdict import Verdict
+from .spaces.screw_space import ScrewSpace
+
+#: Rates below this part of the largest are rounding.
+_ROUNDING = 1.0e-9
+#: Of more elements or bodies it is not found: it takes dense matrices.
+_MOST_ELEMENTS, _MOST_BODIES = 600, 60
+#: So many flexures meet at a place that is a body of its own.
+_MEET = 3
+_GROUND = -1
+#: The size of a flexure without extent, a part of the mechanism's length.
+_OF_A_HINGE = 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class Hold(Frozen):
+    """What a flexure holds.
+
+    Attributes:
+        parts: The sheets, wires, bars, beams and hinges that it is made of.
+        space: The wrenches that it carries between its two ends, about its middle.
+        sine: How well: of the smallest angle to what all others hold, above 0 to 1.
+        extent: The size of the flexure [m].
+    """
+
+    parts: tuple[Part, ...]
+    space: ScrewSpace
+    sine: float
+    extent: float
+
+    @property
+    def name(self) -> str:
+        """Such as "wire 1", "sheet 1 and sheet 2", or "folded sheet 1" of both its leaves."""
+        names = [part.name for part in self.parts]
+        whole = {name.partition(", ")[0] for name in names}
+        return whole.pop() if len(names) > 1 and len(whole) == 1 else " and ".join(names)
+
+
+def holds_of(result: Result) -> tuple[Hold, ...]:
+    """What each flexure holds, in the order of their elements.
+
+    Nothing of a mechanism that is not exactly constrained, that is large, or whose flexures do not
+    each stand between two bodies.
+    """
+    if result.verdict is not Verdict.EXACT:
+        return ()
+    if result.given.arrays.element_number.size > _MOST_ELEMENTS:
+        return ()
+    net = _Net(result)
+    if not 0 < net.bodies <= _MOST_BODIES:
+        return ()
+    found = [each for each in map(net.wrenches, net.groups) if each is not None]
+    if not found or len(found) < len(net.groups) or not net.is_joined_by(found):
+        return ()
+    sines = _sines([net.on_bodies(each) for each in found])
+    return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
+
+
+def _sines(rows: list[FloatArray]) -> list[float]:
+    """Of the smallest angle between the span of each block of rows and that of all others.
+
+    The least norm of motions that only one block sees, when it sees unit rates, is one over it.
+    """
+    blocks = [_orthonormal(each) for each in rows]
+    inverse = np.linalg.pinv(np.concatenate(blocks))
+    ends = np.cumsum([len(each) for each in blocks])[:-1]
+    return [1.0 / float(np.linalg.norm(each, 2)) for each in np.split(inverse, ends, axis=1)]
+
+
+def _orthonormal(rows: FloatArray) -> FloatArray:
+    _, sizes, turned = np.linalg.svd(rows, full_matrices=False)
+    made: FloatArray = turned[sizes > _ROUNDING * sizes.max(initial=0.0)]
+    return made
+
+
+@dataclass(frozen=True, eq=False)
+class _Carried(Frozen):
+    """Wrenches (k, 6), force and moment about the middle [m], on the second of two bodies."""
+
+    elements: tuple[int, ...]
+    bodies: tuple[int, int]
+    middle: FloatArray
+    wrenches: FloatArray
+
+
+class _Net:
+    """The bodies of a mechanism, and the flexures between them."""
+
+    def __init__(self, result: Result) -> None:
+        """Find them in the model as it was analysed."""
+        self.result, self.data = result, result.data
+        self.length = result.characteristic_length
+        arrays = self.data.arrays
+        self.slots = arrays.element_node.T.astype(int) - 1
+        self.place = arrays.node_value[:3].T
+        self.placed = arrays.node_kind <= NodeKind.POSITION
+        #: Of each node its body; -1 is ground, and -2 none.
+        self.owner = np.full(arrays.node_kind.size, -2)
+        given = {node: k for k, node in enumerate(result.condensed.nodes.tolist())}
+        rigid: set[int] = set()
+        known = {element: k for k, element in enumerate(result.condensed.elements.tolist())}
+        #: Of positions that several bodies share, which those are.
+        self.pins: dict[int, set[int]] = {}
+        count = 0
+        for body in result.parts.bodies:
+            for node in body.positions:
+                if node in given:
+                    self.pins.setdefault(given[node], set()).add(count)
+            nodes = [given[n] for n in (*body.positions, *body.orientations) if n in given]
+            rigid |= {known[e] for e in body.elements if e in known}
+            self.owner[nodes] = count
+            count += 1
+        fixed = np.all(np.isin(arrays.coordinate_class, (Class.FIXED, Class.NONE)), axis=0)
+        self.owner[fixed] = _GROUND
+        for node in np.flatnonzero(fixed).tolist():
+            self.pins.setdefault(node, set()).add(_GROUND)
+        self.pins = {node: own for node, own in self.pins.items() if len(own) > 1}
+        self.flexible = [e for e in range(len(self.slots)) if e not in rigid]
+        self.bodies = self._with_joints(count)
+        self.groups = self._grouped()
+        centres = [self.place[(self.owner == k) & self.placed] for k in range(self.bodies)]
+        self.centres = [each.mean(axis=0) if len(each) else np.zeros(3) for each in centres]
+
+    def _with_joints(self, count: int) -> int:
+        """Count places where several flexures meet as bodies, with what turns there."""
+        ends = Counter(n for e in self.flexible for n in self.slots[e].tolist() if n >= 0)
+        turning: dict[int, set[int]] = {}
+        for e in self.flexible:
+            p, op, q, oq = self.slots[e].tolist()
+            for position, orientation in ((p, op), (q, oq)):
+                if position >= 0:
+                    turning.setdefault(position, set()).add(orientation)
+        for node, many in ends.items():
+            if many >= _MEET and self.placed[node] and self.owner[node] == -2:
+                own = [n for n in turning.get(node, ()) if n >= 0 and self.owner[n] == -2]
+                if len(own) == 1 and len(turning[node]) == 1:
+                    self.owner[[node, *own]] = count
+                    count += 1
+        return count
+
+    def _grouped(self) -> list[tuple[int, ...]]:
+        """Flexible elements that hang together away from bodies and ground."""
+        at: dict[int, list[int]] = {}
+        for k, e in enumerate(self.flexible):
+            for node in self.slots[e].tolist():
+                if node >= 0 and self.owner[node] == -2:
+                    at.setdefault(node, []).append(k)
+        pairs = [(one, other) for every in at.values() for one in every[:1] for other in every[1:]]
+        owner = groups_of(len(self.flexible), pairs).tolist()
+        made: dict[int, list[int]] = {}
+        for e, group in zip(self.flexible, owner, strict=True):
+            made.setdefault(group, []).append(e)
+        return [tuple(each) for each in made.values()]
+
+    def wrenches(self, elements: tuple[int, ...]) -> _Carried | None:
+        """What a flexure carries; None unless it stands between two bodies."""
+        nodes = sorted({n for e in elements for n in self.slots[e].tolist() if n >= 0})
+        ends = sorted({int(self.owner[n]) for n in nodes if self.owner[n] >= _GROUND})
+        partly = np.isin(self.data.arrays.coordinate_class[:, nodes], (Class.FIXED,))
+        if ends and ends[0] != _GROUND and len(ends) == 1 and partly.any():
+            ends = [_GROUND, *ends]
+        places = [n for n in nodes if self.placed[n]]
+        pins = [] if places else [n for n, own in self.pins.items() if own == set(ends)]
+        if len(ends) != 2 or len(places) + len(pins) == 0 or self.pins.keys() & set(places):
+            return None
+        middle = self.place[places or pins[:1]].mean(axis=0)
+        rates = self._rates(elements, nodes)
+        body = np.zeros((rates.shape[0], 6))
+        inner = []
+        for k, node in enumerate(nodes):
+            block = rates[:, 3 * k : 3 * k + 3]
+            if self.owner[node] == ends[1]:
+                body += block @ self._moved(node, middle)
+            elif self.owner[node] == -2:
+                classes = self.data.arrays.coordinate_class[:3, node]
+                inner.append(block[:, np.isin(classes, (Class.DEPENDENT, Class.INDEPENDENT))])
+        moved = np.concatenate([np.zeros((len(body), 0)), *inner], axis=1)
+        left, sizes, _ = np.linalg.svd(moved) if moved.shape[1] else (np.eye(len(body)), [], None)
+        rank = int(np.sum(np.array(sizes) > _ROUNDING * max([1e-300, *sizes])))
+        # Where two bodies share a point, that holds them together as well.
+        pinned = np.eye(3, 6)[: 2 if self.result.given.planar else 3] if pins else np.zeros((0, 6))
+        rows = np.concatenate((left[:, rank:].T @ body, pinned)) * np.repeat(
+            (1.0, 1.0 / self.length), 3
+        )
+        held = _orthonormal(rows) if rows.size else np.zeros((0, 6))
+        if not len(held):
+            return None
+        # A twist is (v, w length) there, and a wrench (f, m/length).
+        wrenches = held * np.repeat((1.0, self.length), 3)
+        return _Carried(elements, (ends[0], ends[1]), middle, wrenches)
+
+    def is_joined_by(self, found: list[_Carried]) -> bool:
+        """Whether bodies that share a point have a hinge there, which has it in what it holds."""
+        pairs = {each.bodies for each in found}
+        return all(len(own) == 2 and tuple(sorted(own)) in pairs for own in self.pins.values())
+
+    def _rates(self, elements: tuple[int, ...], nodes: list[int]) -> FloatArray:
+        """(held, 3 nodes) rates of what elements hold, rotations by the length of the mechanism."""
+        raw, classes = self.result.assembly, self.data.arrays.deformation_class
+        held = {
+            6 * e + d: None for e in elements for d in np.flatnonzero(classes[:, e] == Class.FIXED)
+        }
+        row = {key: k for k, key in enumerate(held)}
+        column = {3 * n + i: 3 * k + i for k, n in enumerate(nodes) for i in range(3)}
+        made = np.zeros((len(row), len(column)))
+        mine = np.flatnonzero(np.isin(raw.row_of, list(row)))
+        for i in mine.tolist():
+            made[row[int(raw.row_of[i])], column[int(raw.column_of[i])]] += raw.value[i]
+        return made
+
+    def _moved(self, node: int, middle: FloatArray) -> FloatArray:
+        """(3, 6) the velocity of a node of a body from its twist (v, w) about a point."""
+        made = np.zeros((3, 6))
+        if self.placed[node]:
+            made[:, :3] = np.eye(3)
+            made[:, 3:] = -_cross(self.place[node] - middle)
+        else:
+            made[:, 3:] = np.eye(3)
+        return made
+
+    def on_bodies(self, carried: _Carried) -> FloatArray:
+        """(k, 6 bodies) wrenches on the twists of all bodies, each about its own middle."""
+        made = np.zeros((len(carried.wrenches), 6 * self.bodies))
+        for body, sign in zip(carried.bodies, (-1.0, 1.0), strict=True):
+            if body != _GROUND:
+                force, moment = carried.wrenches[:, :3], carried.wrenches[:, 3:]
+                about = moment + np.cross(carried.middle - self.centres[body], force)
+                both = np.concatenate((force, about / self.length), axis=1)
+                made[:, 6 * body : 6 * body + 6] = sign * both
+        return made
+
+    def told(self, carried: _Carried, sine: float) -> Hold:
+        """A flexure in the words of the model as it was given."""
+        elements = self.result.condensed.elements
+        parts = dict.fromkeys(
+            self.result.parts.of_element(int(elements[e])) for e in carried.elements
+        )
+        nodes = [n for e in carried.elements for n in self.slots[e, [0, 2]].tolist() if n >= 0]
+        places = self.place[nodes] if nodes else np.zeros((1, 3))
+        extent = float(np.linalg.norm(np.ptp(places, axis=0))) or _OF_A_HINGE * self.length
+        scaled = _orthonormal(carried.wrenches * np.repeat((self.length, 1.0), 3))
+        space = ScrewSpace(
+            scaled / np.repeat((self.length, 1.0), 3),
+            carried.middle,
+            self.length,
+            of_wrenches=True,
+            planar=self.result.given.planar,
+        )
+        kept = tuple(part for part in parts if part.kind is not PartKind.BODY)
+        return Hold(kept, space, sine, extent)
+
+
+def _cross(arm: FloatArray) -> FloatArray:
+    """(3, 3) that makes cross products with an arm."""
+    x, y, z = arm.tolist()
+    return np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
+
+
+def worst_first(holds: tuple[Hold, ...]) -> Iterator[Hold]:
+    """Flexures by how well they hold, the worst first."""
+    return iter(sorted(holds, key=lambda hold: round(hold.sine, 6)))
