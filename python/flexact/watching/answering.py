@@ -7,7 +7,7 @@ from ..deck.reading import read_file
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import render_problems
 from ..model.data import ModelData
-from ..page.page import broken_page, page
+from ..page.content import broken_content, content_of
 from ..result.decompose import AnalysisError, asked_for
 from ..result.result import Result, result_of
 from ..text.margin import verdict_word
@@ -41,8 +41,7 @@ def _result(shown: object, name: str, job: Job) -> Result:
 
 
 def _shown(result: Result, which: str, files: tuple[str, ...]) -> Shown:
-    text = page(result)
-    body = text[text.index("<body>") + 6 : text.index("\n<script>")]
+    body = content_of(result).body
     title = verdict_word(result)
     given = result.given
     problems = given.problems
@@ -52,6 +51,5 @@ def _shown(result: Result, which: str, files: tuple[str, ...]) -> Shown:
 
 def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:
     words = str(error) or "not enough memory"
-    text = broken_page(error, path)
-    body = text[text.index("<body>") + 6 : text.index("\n<script>")]
+    body = broken_content(error, path).body
     return Broken("cannot be analysed", errors_part(error, path), body, words, files)
