@@ -26,6 +26,4 @@ def live_page(scene: Scene) -> str:
         f'<template class="live-broken">{scene.broken}</template>'
         f'<div class="live-scene">{scene.body}</div>'
     )
-    return filled(
-        scene.title, body, _SCRIPTS, ("style.css", "live.css"), connects=True
-    )
+    return filled(scene.title, body, _SCRIPTS, ("style.css", "live.css"), connects=True)
