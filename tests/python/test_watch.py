@@ -196,7 +196,7 @@ def test_it_is_reached_from_this_machine_only(served: tuple[Path, Watched]) -> N
     assert "00000000" not in {each.split(":")[0] for each in mine}
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
 def test_a_signal_ends_it_quietly_with_its_processes(deck: Path, state: Path, number: int) -> None:
     with watching(deck, state) as watched:
         events = Events(watched.address)
