@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("editor", "mesh", "page", "picture"),
-    ("advising", "costing", "saving", "tracing", "variants"),
+    ("advising", "costing", "saving", "tracing", "variants", "watching"),
     ("analysis", "cli"),
     ("", "__main__"),
 )
