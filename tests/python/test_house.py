@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("advising", "costing", "saving", "tracing", "variants"),
+    ("advising", "costing", "saving", "switches", "tracing", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )
