@@ -11,7 +11,7 @@ import numpy as np
 from ..core.elements import Class, NodeKind, element_kinds
 from ..model.names import nearest
 from ..model.parts.parts import Part, PartKind
-from ..text.places import end_words, node_words, part_words, place_words
+from ..text.places import node_words, part_words, place_words
 from .board import Board, Edits
 from .places import CoordinatePlace, DeformationPlace, Edit, Place, state_word, states_of
 from .refusal import RefusedError
@@ -207,7 +207,7 @@ def _of_body(board: Board, edits: Edits, wanted: Collection[Edit], part: Part) -
         )
     ]
     for point in (stated or points[:1])[:_MOST_POINTS]:
-        words = end_words(board.parts, point)
+        words = node_title(board, point)
         yield from _of_point(board, edits, wanted, point, f"Coordinates of {words}")
 
 
@@ -234,7 +234,11 @@ def _near_part(board: Board, part: Part, index: int) -> Iterator[Json]:
         slots = board.given.arrays.element_node[[0, 2]][:, list(part.elements)].T - 1
         points = list(dict.fromkeys(int(n) for n in slots.ravel() if n >= 0))
         for point in points[:_MOST_NEAR]:
-            yield {"words": end_words(board.parts, point), "node": int(numbers[point])}
+            yield {"words": node_title(board, point), "node": int(numbers[point])}
+    elif part.kind is PartKind.HINGE:
+        for node in board.given.arrays.element_node[[1, 3], index] - 1:
+            if node >= 0:
+                yield {"words": node_words(board.parts, int(node)), "node": int(numbers[node])}
     else:
         for end in part.ends:
             yield {"words": place_words(board.parts, end, part), "node": int(numbers[end])}

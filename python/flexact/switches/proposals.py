@@ -46,6 +46,9 @@ class Proposals(NamedTuple):
 def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
     """What may be done about the motions and the self-stresses of the mechanism as it is now."""
     ways = (*on_motions(now), *on_self_stresses(now))
+    if any(way.step is Step.DECLARE_INTERNAL for way in ways):
+        # What else there is to do is seen once each divided part is one beam.
+        ways = tuple(way for way in ways if way.step is Step.DECLARE_INTERNAL)
     made = (_proposals(board, now, way) for way in ways)
     return tuple(each for each in made if each.items)
 
@@ -88,9 +91,9 @@ def _one(board: Board, now: Result, step: Step, part: Part) -> Iterator[Proposal
     is_coordinate = isinstance(part, Coordinate)
     if step in (Step.DECLARE_OR_HOLD, Step.DECLARE_OR_HOLD_RELEASED):
         stop = "fix" if is_coordinate else "hold"
-        choices = (("declare", Class.INDEPENDENT), (stop, Class.FIXED))
+        choices = [("declare", Class.INDEPENDENT), (stop, Class.FIXED)]
     else:
-        choices = (("free" if is_coordinate else "release", Class.DEPENDENT),)
+        choices = [("free" if is_coordinate else "release", Class.DEPENDENT)]
     yield Proposal(words, tuple(Choice(word, (Edit(place, to),)) for word, to in choices))
 
 

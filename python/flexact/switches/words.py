@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from ..core.elements import NodeKind, keywords_of
 from ..model.parts.parts import Part, PartKind
-from ..text.deformation import deformation_words
-from ..text.places import end_words, node_words, part_words
+from ..text.deformation import bending_of, deformation_words
+from ..text.places import end_words, node_words, part_words, point_words, with_article
 from .board import Board
 from .places import CoordinatePlace, DeformationPlace, Edit, Place, state_word
 
@@ -30,9 +30,17 @@ def edit_in_words(board: Board, edit: Edit) -> str:
 
 def deformation_in_words(board: Board, place: DeformationPlace) -> str:
     """Such as "in-plane bending at its clamp"."""
-    is_whole = board.given.element_index[place.element] in board.wholes
-    outcome = board.base if is_whole else board.plain
-    return deformation_words(outcome, outcome.data.element_index[place.element], place.number)
+    given = board.given.element_index[place.element]
+    outcome = board.base if given in board.wholes else board.plain
+    index = outcome.data.element_index[place.element]
+    words = deformation_words(outcome, index, place.number)
+    part = board.parts.of_element(given)
+    bending = bending_of(outcome, index, place.number)
+    if bending is None or given in board.wholes or len(part.elements) == 1:
+        return words
+    # Of one beam of several the ends are not those of the part.
+    point = board.parts.name_of_point(bending.position)
+    return f"{words.partition(' at ')[0]} at {point or point_words(board.parts, bending.position)}"
 
 
 def way_in_words(name: str) -> str:
@@ -69,5 +77,6 @@ def elements_words(board: Board, part: Part) -> str:
 def node_title(board: Board, index: int) -> str:
     """What a node is called: a point of a body by its part, a turn by what turns."""
     if board.given.arrays.node_kind[index] <= NodeKind.POSITION:
-        return end_words(board.parts, index)
+        name = board.parts.name_of_point(index)
+        return with_article(name) if name else end_words(board.parts, index)
     return node_words(board.parts, index)
