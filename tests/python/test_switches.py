@@ -16,7 +16,7 @@ from reference_decks import NAMES, ROOT
 import flexact
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
-from flexact.switches import Session
+from flexact.switches import Session, answered
 from flexact.switches.board import Board
 from flexact.switches.calls import Calls
 from flexact.switches.places import Edit, Place, states_of
@@ -570,3 +570,13 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
     watched.parent.write_text("a file in the place of the folder")
     with pytest.raises(flexact.FlexactError, match=r"cannot|not"):
         session.ask({"do": "save", "name": "new.dat"})
+
+
+@pytest.mark.parametrize(
+    "body", [b"", b"{", b"\xff\xfe", b"[" * 100_000, b"9" * 5000, b"null", b"[1]"]
+)
+def test_what_is_no_json_is_refused_in_words(body: bytes) -> None:
+    session = Session(GUIDE)
+    session.renew(board_of("flexures/parallel_guide").base)
+    reply = answered(session, body)
+    assert 400 <= reply.status < 500 and reply.content["error"] and not reply.changed

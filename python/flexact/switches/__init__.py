@@ -5,7 +5,8 @@ Releases, declarations and supports, as a change of the model, as the lines of i
 calls of Python.
 """
 
+from .answering import Reply, answered, refused
 from .refusal import RefusedError
 from .session import Session
 
-__all__ = ["RefusedError", "Session"]
+__all__ = ["RefusedError", "Reply", "Session", "answered", "refused"]

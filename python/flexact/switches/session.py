@@ -9,7 +9,10 @@ from typing import Any, NamedTuple
 
 from ..base.plain_text import harmless
 from ..model.data import ModelData
+from ..page.verdict_part import kind_of
 from ..result.result import Result
+from ..text.margin import margin_in_short
+from ..text.naming import counts_in_words
 from .board import Board, Edits
 from .calls import Calls
 from .history import History
@@ -81,6 +84,11 @@ class Session:
         renewal = Renewal(old, self._board)
         self.history.renewed(renewal.edits)
         return tuple(_dropped(old, self._board, renewal, before, self.history.now))
+
+    @property
+    def now(self) -> Result:
+        """The analysis of the mechanism with all edits; as given where that was not made."""
+        return self.board.base if self._now is None else self._now
 
     def model(self) -> ModelData:
         """The mechanism with all edits."""
@@ -198,17 +206,19 @@ class Session:
     def proposals(self) -> tuple[Proposals, ...]:
         """What the advice proposes for the mechanism as it is now."""
         if self._proposed is None:
-            now = self.board.base if self._now is None else self._now
-            self._proposed = proposals(self.board, now)
+            self._proposed = proposals(self.board, self.now)
         return self._proposed
 
     def told(self) -> Json:
         """All that the page shows of the session."""
         if self._board is None:
             return {"is": "none", "edits": [], "undo": False, "redo": False}
-        board, edits = self._board, self.history.now
+        board, edits, now = self._board, self.history.now, self.now
         return {
             "is": "deck" if board.given.source is not None else "model",
+            "verdict": _capital(counts_in_words(now.under_constrained, now.over_constrained)),
+            "kind": kind_of(now)[0],
+            "margin": f"{_capital(margin_in_short(now))}.",
             "edits": [
                 {"words": edit_in_words(board, each), "place": place_json(each.place)}
                 for each in edits
@@ -286,6 +296,10 @@ def _number(given: Mapping[str, Any], key: str) -> int:
     if isinstance(number, bool) or not isinstance(number, int):
         raise RefusedError(f'"{key}" must be a whole number, not {_short(number)}')
     return number
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
 
 
 def _short(given: object) -> str:
