@@ -47,9 +47,16 @@ const Switches = (() => {
       document.removeEventListener("keydown", this.keys);
     }
 
+    /** Ask what there is to be shown. */
+    async renew() {
+      const answer = await this.send({ do: "tell" });
+      if (answer.told) this.tell(answer.told);
+    }
+
     /** Show what the server tells of the session. */
     tell(told) {
       this.told = told;
+      if (told.said && told.said.length) this.say(told.said.join(" "));
       const is = (name, value) => { this.part(name).disabled = !value; };
       is("undo", told.undo);
       is("redo", told.redo);
@@ -142,7 +149,9 @@ const Switches = (() => {
       part.hidden = !verdict;
       part.className = `now ${kind || ""}`;
       part.replaceChildren(element("b", verdict || "", "says"), ` ${margin || ""}`);
-      this.section.hidden = is === "none";
+      const off = is === "none";
+      for (const name of ["find", "card", "proposals"]) this.part(name).hidden = off;
+      if (off) this.say("The file has errors: once they are mended, parts can be switched again.");
     }
 
     refocus() {

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from http import HTTPStatus
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..base.plain_text import harmless
+from ..deck.reading import read_bytes
 from ..model.data import ModelData
 from ..page.verdict_part import kind_of
 from ..result.result import Result
@@ -56,17 +58,26 @@ class Session:
         self._now: Result | None = None
         self._proposed: tuple[Proposals, ...] | None = None
         self._deck: tuple[Edits, EditedDeck] | None = None
+        self._is_broken = False
+        self._said: tuple[str, ...] = ()
 
     @property
     def board(self) -> Board:
         """The mechanism as given.
 
         Raises:
-            RefusedError: There is none so far.
+            RefusedError: There is none, or the file has errors now.
         """
-        if self._board is None:
-            raise RefusedError("there is no mechanism to be changed: the file has errors")
+        if self._board is None or self._is_broken:
+            raise RefusedError(
+                "nothing can be changed while the file has errors: mend them first",
+                HTTPStatus.CONFLICT,
+            )
         return self._board
+
+    def broken(self) -> None:
+        """Wait for the file, which has errors, to be mended; edits stay."""
+        self._is_broken = True
 
     def renew(self, base: Result) -> tuple[str, ...]:
         """Take the analysis of the file as it is now; edits stay.
@@ -77,13 +88,14 @@ class Session:
         """
         old, self._board = self._board, Board(base)
         self._calls, self._proposed, self._deck = Calls(self._board), None, None
-        self._now = None
+        self._now, self._is_broken, self._said = None, False, ()
         if old is None:
             return ()
         before = self.history.now
         renewal = Renewal(old, self._board)
         self.history.renewed(renewal.edits)
-        return tuple(_dropped(old, self._board, renewal, before, self.history.now))
+        self._said = tuple(_dropped(old, self._board, renewal, before, self.history.now))
+        return self._said
 
     @property
     def now(self) -> Result:
@@ -91,8 +103,12 @@ class Session:
         return self.board.base if self._now is None else self._now
 
     def model(self) -> ModelData:
-        """The mechanism with all edits."""
-        return self.board.model(self.history.now)
+        """The mechanism with all edits, of a deck as reading its changed text gives it."""
+        if not self.history.now:
+            return self.board.given
+        if self.board.given.source is None:
+            return self.board.model(self.history.now)
+        return read_bytes(self.deck().text, self.board.given.name)
 
     def analysed(self, now: Result) -> None:
         """Take the analysis of the mechanism with all edits."""
@@ -102,8 +118,8 @@ class Session:
         """Do what a request says.
 
         Args:
-            request: A JSON object; "do" is one of "set", "undo", "redo", "reset", "look" and
-                "save".
+            request: A JSON object; "do" is one of "set", "undo", "redo", "reset", "look",
+                "save" and "tell".
 
         Raises:
             RefusedError: It is not understood, or cannot be done; then nothing has changed.
@@ -118,12 +134,15 @@ class Session:
             "reset": self._reset,
             "look": self._look,
             "save": self._save,
+            "tell": self._tell,
         }
         if not isinstance(what, str) or what not in actions:
             known = ", ".join(actions)
             raise RefusedError(f'"do" must be one of {known}, not {_short(what)}')
         before = self.history.now
         content = actions[what](request)
+        if self.history.now != before:
+            self._said = ()
         return Answer(self.history.now != before, content)
 
     def _set(self, request: Mapping[str, Any]) -> Json:
@@ -135,16 +154,26 @@ class Session:
         return {}
 
     def _undo(self, _: Mapping[str, Any]) -> Json:
+        self._require_sound()
         self.history.undo()
         return {}
 
     def _redo(self, _: Mapping[str, Any]) -> Json:
+        self._require_sound()
         self.history.redo()
         return {}
 
     def _reset(self, _: Mapping[str, Any]) -> Json:
+        self._require_sound()
         self.history.take(())
         return {}
+
+    def _tell(self, _: Mapping[str, Any]) -> Json:
+        return {"told": self.told()}
+
+    def _require_sound(self) -> None:
+        """Raise as `board` does."""
+        assert self.board is not None
 
     def _look(self, request: Mapping[str, Any]) -> Json:
         """What is offered of a part or a point."""
@@ -200,7 +229,8 @@ class Session:
         """The deck with all edits, and the lines that differ."""
         edits = self.history.now
         if self._deck is None or self._deck[0] != edits:
-            self._deck = (edits, edited(self.board.given, self.model()))
+            changed = self.board.model(edits)
+            self._deck = (edits, edited(self.board.given, changed))
         return self._deck[1]
 
     def proposals(self) -> tuple[Proposals, ...]:
@@ -211,7 +241,7 @@ class Session:
 
     def told(self) -> Json:
         """All that the page shows of the session."""
-        if self._board is None:
+        if self._board is None or self._is_broken:
             return {"is": "none", "edits": [], "undo": False, "redo": False}
         board, edits, now = self._board, self.history.now, self.now
         return {
@@ -244,6 +274,7 @@ class Session:
                 for each in self.proposals()
             ],
             "names": names(board),
+            "said": list(self._said),
             "save": harmless(free_name(self.watched)),
             **self._how(),
         }
