@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from .base.loading import load
 from .base.version import VERSION
+from .model.showing import shown_by
 
 if TYPE_CHECKING:
     from .advising import Advice, Step
@@ -171,6 +172,10 @@ __all__ = [
     "tolerances",
     "trace",
 ]
+
+
+# A model may know nothing of what stands on top of it.
+shown_by(lambda model, path: load("flexact.analysis").show_model(model, path))
 
 
 def __getattr__(name: str) -> object:

@@ -27,7 +27,7 @@ FLOORS = (
     ("text",),
     ("mesh", "page", "picture"),
     ("advising", "costing", "saving", "switches", "tracing", "variants"),
-    ("analysis", "cli"),
+    ("analysis", "cli", "watching"),
     ("", "__main__"),
 )
 #: Folders of the core, in the order of dependence.

@@ -6,7 +6,8 @@ from __future__ import annotations
 from .copies import CopyMethods
 from .edits import EditMethods
 from .loading import LoadMethods
+from .showing import ShowMethods
 
 
-class Builder(CopyMethods, EditMethods, LoadMethods):
+class Builder(CopyMethods, EditMethods, LoadMethods, ShowMethods):
     """The half of `Model` that makes it; see there."""

@@ -35,7 +35,9 @@ SCRIPTS = (
     "theme.js",
     "printing.js",
     "viewer.js",
+    "views.js",
     "main.js",
+    "start.js",
 )
 #: Of pages without a drawing.
 PLAIN_SCRIPTS = ("theme.js", "printing.js", "plain.js")

@@ -9,6 +9,7 @@ const Controls = (() => {
   class Choices {
     constructor(viewer) {
       Object.assign(this, { viewer, root: viewer.root });
+      this.picked = new Map(); // what a person has chosen, by its words
       const act = {
         movement: (value) => viewer.showMovement(value === "" ? -1 : Number(value)),
         stress: (value) => viewer.showStress(value === "" ? -1 : Number(value)),
@@ -17,7 +18,10 @@ const Controls = (() => {
       };
       for (const [name, show] of Object.entries(act)) {
         for (const input of this.inputs(name)) {
-          input.addEventListener("change", () => show(input.value));
+          input.addEventListener("change", () => {
+            this.picked.set(name, this.words(input));
+            show(input.value);
+          });
         }
       }
       for (const button of this.root.querySelectorAll("button[data-show]")) {
@@ -40,6 +44,18 @@ const Controls = (() => {
       input.dispatchEvent(new Event("change", { bubbles: true }));
     }
 
+    words(input) {
+      return input.title || input.parentElement.textContent;
+    }
+
+    /** Choose again what has the same words. */
+    restore(picked) {
+      for (const [name, words] of Object.entries(picked)) {
+        const input = this.inputs(name).find((each) => this.words(each) === words);
+        if (input) this.choose(name, input.value);
+      }
+    }
+
     /** Fit what can be chosen to what is shown. */
     refresh() {
       const { stress, quantity, quantities } = this.viewer;
@@ -52,17 +68,45 @@ const Controls = (() => {
 
   /** What acts on all viewers: what plays, from where it is seen, what else is drawn; keys. */
   class Toolbar {
-    constructor(viewers) {
-      this.viewers = viewers;
+    constructor(viewers, root) {
+      Object.assign(this, { viewers, root });
       [this.play, this.amplitude, this.speed, this.fit] = ["play", "amplitude", "speed", "fit"].map(
-        (name) => document.querySelector(`.toolbar .${name}`));
-      this.layers = Array.from(document.querySelectorAll("input[data-layer]"));
+        (name) => root.querySelector(`.toolbar .${name}`));
+      this.layers = Array.from(root.querySelectorAll("input[data-layer]"));
       for (const { dataset, checked } of this.layers) {
         for (const viewer of viewers) viewer.layers[dataset.layer] = checked;
       }
       this.listenToPlayer();
       this.listenToView();
       for (const viewer of viewers) this.listenToKeys(viewer);
+    }
+
+    /** What has been set, as plain data. */
+    view() {
+      const layers = this.layers.map(({ dataset, checked }) => [dataset.layer, checked]);
+      const { amplitude, speed } = this;
+      const values = { amplitude: amplitude.value, speed: speed.value };
+      const cycle = this.viewers[0].player.cycle;
+      const playing = this.viewers[0].player.playing;
+      return { layers: Object.fromEntries(layers), ...values, playing, cycle };
+    }
+
+    /** Set it again. */
+    restore({ layers, amplitude, speed, playing, cycle }) {
+      for (const input of this.layers) {
+        const on = layers[input.dataset.layer];
+        if (on === undefined || on === input.checked) continue;
+        input.checked = on;
+        input.dispatchEvent(new Event("change", { bubbles: true }));
+      }
+      for (const [input, value] of [[this.amplitude, amplitude], [this.speed, speed]]) {
+        input.value = value;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+      }
+      for (const viewer of this.viewers) {
+        viewer.player.cycle = cycle;
+        viewer.play(playing);
+      }
     }
 
     get playing() {
@@ -88,7 +132,7 @@ const Controls = (() => {
     listenToView() {
       const { viewers } = this;
       const [{ stage }] = viewers; // the others are seen from the same side
-      for (const button of document.querySelectorAll("button[data-view]")) {
+      for (const button of this.root.querySelectorAll("button[data-view]")) {
         button.addEventListener("click", () => stage.look(button.dataset.view));
       }
       this.fit.addEventListener("click", () => stage.fit());

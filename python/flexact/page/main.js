@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Starts the page: its drawings where there is WebGL, else the still pictures stay. Several are
-// seen from the same side, and play in step.
+// Starts what a root holds, the body of a page or any other element or shadow root: its drawings
+// where there is WebGL, else the still pictures stay. Several drawings of a root are seen from the
+// same side, and play in step.
 
 const Main = (() => {
   const MANY = 1000; // members
 
-  function start() {
-    const roots = Array.from(document.querySelectorAll(".viewer"));
-    const found = roots.map((root) => ({ root, data: PageData.read(root) }))
-      .map(({ root, data }) => ({ root, data, context: contextOf(root, data) }));
+  /**
+   * Start the drawings of a root. What it returns: its `viewers`; `view()`, what a person has
+   * chosen, as plain data; `restore(view)`, which chooses it again in another scene as far as
+   * it is there; `dispose()`, which frees what the drawings hold.
+   */
+  function mount(root) {
+    const ending = new AbortController();
+    const found = Array.from(root.querySelectorAll(".viewer"))
+      .map((each) => ({ root: each, data: PageData.read(each) }))
+      .map(({ root: each, data }) => ({ root: each, data, context: contextOf(each, data) }));
     const viewers = found.every(({ context }) => context) ? found.map(make) : [];
-    if (viewers.length) show(viewers);
-    Theme.listen(() => viewers.forEach((viewer) => viewer.dress()));
-    Printing.listen(viewers);
-    return viewers;
+    const toolbar = viewers.length ? show(root, viewers) : null;
+    Theme.listen(root, () => viewers.forEach((viewer) => viewer.dress()), ending.signal);
+    Printing.listen(root, viewers, ending.signal);
+    const dispose = () => {
+      ending.abort();
+      for (const { stage } of viewers) stage.dispose();
+    };
+    return { viewers, dispose, ...Views.of(root, viewers, toolbar) };
   }
 
   function contextOf(root, data) {
@@ -30,10 +41,10 @@ const Main = (() => {
     return new Viewer.Viewer(root, data, context);
   }
 
-  function show(viewers) {
-    for (const each of document.querySelectorAll(".shared")) each.hidden = false;
+  function show(root, viewers) {
+    for (const each of root.querySelectorAll(".shared")) each.hidden = false;
     viewers.slice(1).forEach((each) => viewers[0].join(each));
-    const toolbar = new Controls.Toolbar(viewers);
+    const toolbar = new Controls.Toolbar(viewers, root);
     const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     // What is beside the drawings is linked with the first.
     const nearest = (part) => part.closest(".viewer") || viewers[0].root;
@@ -41,18 +52,20 @@ const Main = (() => {
       viewer.player.playing = !calm;
       viewer.choices = new Controls.Choices(viewer);
       viewer.changed = () => [viewer.choices, toolbar].forEach((each) => each.refresh());
-      link(viewer, (part) => nearest(part) === viewer.root);
+      link(root, viewer, (part) => nearest(part) === viewer.root);
     }
     for (const viewer of viewers) {
       viewer.showStress(-1);
       viewer.stage.look("iso");
       for (const [name, value] of viewer.data.first) viewer.choices.choose(name, value);
+      viewer.choices.picked.clear();
     }
+    return toolbar;
   }
 
   /** Let the drawing and the tables light each other. */
-  function link(viewer, owns) {
-    const links = new Links.Links(owns,
+  function link(root, viewer, owns) {
+    const links = new Links.Links(root, owns,
       (target) => viewer.mark(target), (target) => viewer.visit(target));
     viewer.pointing = new Pointing.Pointing(viewer.stage, viewer, (found) => {
       const target = found ? viewer.targetOf(found) : null;
@@ -60,6 +73,11 @@ const Main = (() => {
       links.light(target);
       tell(viewer, found);
     });
+    viewer.pointing.clicked = (found) => {
+      const target = found ? { ...viewer.targetOf(found), kind: found.kind } : {};
+      const told = { detail: target, bubbles: true, composed: true };
+      viewer.root.dispatchEvent(new CustomEvent("flexact-click", told));
+    };
   }
 
   /** Words beside the pointer. */
@@ -83,9 +101,5 @@ const Main = (() => {
     return made;
   }
 
-  return { start };
+  return { mount };
 })();
-
-// For whoever looks at the drawings by hand, and for tests: the first, and all.
-window.drawings = Main.start();
-window.flexact = window.drawings[0] || null;

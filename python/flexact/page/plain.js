@@ -2,5 +2,5 @@
 "use strict";
 // Starts a page without a drawing.
 
-Theme.listen(() => {});
-Printing.listen([]);
+Theme.listen(document.body, () => {});
+Printing.listen(document.body, []);

@@ -6,23 +6,24 @@
 const Printing = (() => {
   const RATIO = 2; // pixels of the still for one of the canvas
 
-  function listen(viewers) {
+  /** Until the signal, where there is one. */
+  function listen(root, viewers, signal) {
     let closed = [];
     let theme = null;
     window.addEventListener("beforeprint", () => {
-      const root = document.documentElement;
-      theme = root.dataset.theme;
-      root.dataset.theme = "light";
-      closed = Array.from(document.querySelectorAll("details:not([open])"));
+      const { dataset } = document.documentElement;
+      theme = dataset.theme;
+      dataset.theme = "light";
+      closed = Array.from(root.querySelectorAll("details:not([open])"));
       for (const each of closed) each.open = true;
       for (const each of viewers) draw(each);
-    });
+    }, { signal });
     window.addEventListener("afterprint", () => {
       for (const each of closed) each.open = false;
       if (theme) document.documentElement.dataset.theme = theme;
       else delete document.documentElement.dataset.theme;
       for (const each of viewers) each.dress();
-    });
+    }, { signal });
   }
 
   function draw(viewer) {

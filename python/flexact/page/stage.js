@@ -36,7 +36,8 @@ const Stage = (() => {
       this.renderer.outputColorSpace = "srgb-linear";
       this.illuminate();
       this.control();
-      new ResizeObserver(() => this.fill()).observe(canvas.parentElement);
+      this.observer = new ResizeObserver(() => this.fill());
+      this.observer.observe(canvas.parentElement);
       canvas.addEventListener("webglcontextrestored", () => this.request());
       this.fill();
     }
@@ -91,6 +92,37 @@ const Stage = (() => {
       const aspect = this.width / this.height;
       Object.assign(this.camera, { left: -aspect / 2, right: aspect / 2, top: 0.5, bottom: -0.5 });
       this.camera.updateProjectionMatrix();
+    }
+
+    /** Free what the stage holds; it cannot be drawn on any more. */
+    dispose() {
+      this.disposed = true;
+      cancelAnimationFrame(this.waiting);
+      clearTimeout(this.resting);
+      this.observer.disconnect();
+      this.controls.dispose();
+      this.renderer.dispose();
+      this.renderer.forceContextLoss();
+    }
+
+    /** From where it is seen, as plain data. */
+    looks() {
+      const { camera, controls, fitted } = this;
+      const target = controls.target.toArray();
+      return { eye: camera.position.toArray(), target, zoom: camera.zoom, fitted };
+    }
+
+    /** Be seen from there again; what was fitted is fitted. */
+    lookAgain({ eye, target, zoom, fitted }) {
+      this.camera.position.set(...eye);
+      this.controls.target.set(...target);
+      this.camera.zoom = zoom;
+      this.camera.updateProjectionMatrix();
+      this.controls.update();
+      this.fitted = fitted;
+      if (fitted) this.fit();
+      this.lead();
+      this.request();
     }
 
     /** Look along a named direction, and fit. */
@@ -218,7 +250,7 @@ const Stage = (() => {
 
     /** Have a frame drawn soon; where frames take long, a light one until all is at rest. */
     request() {
-      if (this.waiting) return;
+      if (this.waiting || this.disposed) return;
       const running = performance.now() - this.drawn < RUNNING;
       this.waiting = requestAnimationFrame((time) => {
         this.waiting = 0;

@@ -10,19 +10,24 @@ const Theme = (() => {
     return chosen ? chosen === "dark" : dark.matches;
   }
 
-  /** Make the switch work; `changed` is called whenever the page gets light or dark. */
-  function listen(changed) {
-    const button = document.getElementById("theme");
+  /**
+   * Make the switch within the root work, where there is one; `changed` is called whenever the
+   * page gets light or dark, until the signal.
+   */
+  function listen(root, changed, signal) {
+    const button = root.querySelector("#theme");
     const show = () => {
-      button.setAttribute("aria-pressed", String(isDark()));
+      if (button) button.setAttribute("aria-pressed", String(isDark()));
       changed();
     };
-    button.hidden = false;
-    button.addEventListener("click", () => {
-      document.documentElement.dataset.theme = isDark() ? "light" : "dark";
-      show();
-    });
-    dark.addEventListener("change", show);
+    if (button) {
+      button.hidden = false;
+      button.addEventListener("click", () => {
+        document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+        show();
+      });
+    }
+    dark.addEventListener("change", show, { signal });
     show();
   }
 

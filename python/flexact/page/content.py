@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a page of a deck holds, to stand in a page of its own or in another."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from ..advice.spaces.spaces import Spaces
+from ..base.errors import require_kind
+from ..base.plain_text import file_name
+from ..diagnostics.errors import ProblemsError
+from ..drawing import drawing_of
+from ..result.result import Result
+from ..text.describe import VerdictInWords, verdict_in_words
+from ..text.margin import verdict_word
+from ..text.warnings import warnings_of
+from .controls_part import choices_part, keys, layers, toolbar
+from .deck_part import deck_of_model, deck_part
+from .drawing_data import frames_of
+from .drawing_part import drawing_part
+from .markup import section, text
+from .modes_part import motions_part, stresses_part
+from .origin_part import origin_part
+from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
+from .viewer_data import left_out, stuck_in, viewer_data
+
+
+class Content(NamedTuple):
+    """What stands in the body of a page.
+
+    Attributes:
+        title: Of the page, as text.
+        body: HTML, with the data of its drawing.
+        kind: "result", or "broken" where the deck cannot be analysed.
+    """
+
+    title: str
+    body: str
+    kind: str
+
+
+def content_of(
+    analysis: Result, still: bytes | None = None, spaces: Spaces | None = None
+) -> Content:
+    """What the page of a result holds.
+
+    Args:
+        analysis: The result.
+        still: A picture of it, as PNG, for browsers without scripts or WebGL.
+        spaces: The freedom space and the constraint space of a body, to be switched on.
+    """
+    require_kind(analysis, Result, "a page is that of a result")
+    (frame,) = frames_of(drawing_of(analysis.given))
+    data = viewer_data(analysis, frame, spaces)
+    every = warnings_of(analysis)
+    name = file_name(analysis.name)
+    raw, is_written = deck_of_model(analysis.given)
+    drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
+    warnings = [item for item in every if item.line == 0]
+    in_deck = [item for item in every if item.line > 0]
+    words = str(verdict_in_words(analysis))
+    advice = advised(analysis)
+    stuck = stuck_in(analysis)
+    below = toolbar(data) + keys(data)
+    body = (
+        verdict(analysis, name, advice),
+        '<main class="viewer">',
+        drawing_part(data, still, words, below, left_out(analysis, data)),
+        '<div class="side">',
+        choices_part(data, stuck, layers(data)),
+        advice_part(advice),
+        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
+        motions_part(analysis, drawn),
+        stresses_part(analysis),
+        decision_part(analysis),
+        "</div>",
+        '<div class="below">',
+        deck_part(raw, in_deck, is_written),
+        origin_part(raw, name, analysis, is_written),
+        "</div></main>",
+    )
+    title = f"{name or 'model'}: {verdict_word(analysis)}"
+    return Content(title, "\n".join(body), "result")
+
+
+def broken_content(error: Exception, name: str) -> Content:
+    """What the page of a deck holds that cannot be analysed: why.
+
+    Args:
+        error: Why: with diagnostics, or a sentence.
+        name: The deck's file name.
+    """
+    name = file_name(name)
+    words = reason_in_words(error)
+    raw, told = b"", ""
+    if isinstance(error, ProblemsError):
+        raw = error.source.text if error.source is not None else b""
+        told = deck_part(raw, error.diagnostics)
+    body = (
+        head(
+            *BROKEN,
+            VerdictInWords("Cannot be analysed", words),
+            f'<span class="name">{text(name)}</span>',
+        ),
+        '<main class="plain">',
+        told,
+        origin_part(raw, name, None, False) if raw else "",
+        "</main>",
+    )
+    return Content(f"{name}: cannot be analysed", "\n".join(body), "broken")
+
+
+def reason_in_words(error: Exception) -> str:
+    """Why a deck cannot be analysed, in a few words."""
+    if isinstance(error, ProblemsError):
+        count = error.problems.errors
+        return f"{count} error{'s' * (count != 1)}"
+    return str(error) or "not enough memory"
+
+
+def _note(item: Any) -> str:
+    hint = f" {text(item.help)}" if item.help else ""
+    return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
