@@ -25,9 +25,9 @@ FLOORS = (
     ("deck", "result"),
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
-    ("mesh", "page", "picture"),
-    ("advising", "costing", "saving", "switches", "tracing", "variants"),
-    ("analysis", "cli", "watching"),
+    ("mesh", "page", "picture", "switches"),
+    ("advising", "costing", "saving", "tracing", "variants", "watching"),
+    ("analysis", "cli"),
     ("", "__main__"),
 )
 #: Folders of the core, in the order of dependence.

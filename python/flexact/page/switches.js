@@ -17,6 +17,14 @@ const Switches = (() => {
       this.focus = "";
       this.section = this.make();
       this.listening = (event) => this.hear(event);
+      this.section.addEventListener("focusin", ({ target: { dataset } }) => {
+        this.focus = dataset.key || "";
+      });
+      // What is taken away with a scene comes back with the next.
+      this.section.addEventListener("focusout", () => setTimeout(() => {
+        const active = this.section.getRootNode().activeElement;
+        if (this.section.isConnected && !this.section.contains(active)) this.focus = "";
+      }));
       this.keys = (event) => this.key(event);
       document.addEventListener("keydown", this.keys);
     }
@@ -29,12 +37,11 @@ const Switches = (() => {
       if (side) side.prepend(this.section);
       for (const name of ["flexact-click", "click"]) root.addEventListener(name, this.listening);
       this.refocus();
+      this.renew();
     }
 
     /** Leave the scene, which is renewed or goes. */
     leave() {
-      const active = this.section.getRootNode().activeElement;
-      if (active && this.section.contains(active)) this.focus = active.dataset.key || "";
       for (const name of ["flexact-click", "click"]) {
         this.root.removeEventListener(name, this.listening);
       }
@@ -441,5 +448,36 @@ const Switches = (() => {
     return made;
   }
 
-  return { Panel };
+  const GONE = "The server does not answer: is flexact watch still running?";
+
+  /** Ask the server of the page; what is refused is told in words. */
+  async function send(request) {
+    try {
+      const answer = await fetch("edit", {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body: JSON.stringify(request),
+      });
+      const words = await answer.text();
+      try {
+        return { status: answer.status, ...JSON.parse(words) };
+      } catch {
+        return { status: answer.status, error: words.trim() || GONE };
+      }
+    } catch {
+      return { status: 0, error: GONE };
+    }
+  }
+
+  /** Go along with a page that is watched. */
+  function start(root) {
+    const panel = new Panel(send);
+    root.addEventListener("flexact-renewed", () => panel.mount(root.querySelector(".live-scene")));
+    root.addEventListener("flexact-told", () => panel.renew());
+    return panel;
+  }
+
+  return { Panel, start };
 })();
+
+window.switches = Switches.start(document.body);

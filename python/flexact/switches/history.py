@@ -19,6 +19,12 @@ class History:
         self._states: list[Edits] = [()]
         self._at = 0
 
+    def copy(self) -> History:
+        """The same again, to go back to."""
+        made = History()
+        made._states, made._at = self._states, self._at
+        return made
+
     @property
     def now(self) -> Edits:
         """The edits that hold."""

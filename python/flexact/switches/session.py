@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 from ..base.plain_text import harmless
 from ..deck.reading import read_bytes
 from ..model.data import ModelData
-from ..page.verdict_part import kind_of
 from ..result.result import Result
 from ..text.margin import margin_in_short
 from ..text.naming import counts_in_words
@@ -101,6 +100,17 @@ class Session:
     def now(self) -> Result:
         """The analysis of the mechanism with all edits; as given where that was not made."""
         return self.board.base if self._now is None else self._now
+
+    @property
+    def known(self) -> Result | None:
+        """As `now`; None where there is nothing."""
+        return None if self._board is None else self.now
+
+    def put_aside(self, why: str) -> None:
+        """Take all edits back, as they cannot be analysed with the file as it is now."""
+        self.history = History()
+        self._said = (f"The changes were put aside: with the file as it is now {why}.",)
+        self._now = None
 
     def model(self) -> ModelData:
         """The mechanism with all edits, of a deck as reading its changed text gives it."""
@@ -247,7 +257,6 @@ class Session:
         return {
             "is": "deck" if board.given.source is not None else "model",
             "verdict": _capital(counts_in_words(now.under_constrained, now.over_constrained)),
-            "kind": kind_of(now)[0],
             "margin": f"{_capital(margin_in_short(now))}.",
             "edits": [
                 {"words": edit_in_words(board, each), "place": place_json(each.place)}

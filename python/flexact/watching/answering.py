@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
+
 from ..deck.reading import read_file
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import render_problems
@@ -20,15 +23,17 @@ from .told import told_of
 def answer_of(job: Job) -> Answer:
     """What a job gives; what is wrong with the deck or the script is an answer too."""
     script = Script(job.path) if job.is_script else None
-    which = ""
+    which = model = ""
     try:
         if script is None:
             result = result_of(read_file(job.path), asked_for(*job.decision))
         else:
             found = script.run()
-            which = found.which
+            which, model = found.which, found.model
             result = _result(found.shown, found.name, job)
-        return _shown(result, which, () if script is None else script.files())
+        shown = shown_of(result, which, () if script is None else script.files())
+        kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
+        return replace(shown, result=kept, model=model)
     except (ProblemsError, AnalysisError, MemoryError) as error:
         return _broken(error, job.path, () if script is None else script.files())
 
@@ -40,7 +45,14 @@ def _result(shown: object, name: str, job: Job) -> Result:
     return result_of(data, asked_for(*job.decision), data.name or name)
 
 
-def _shown(result: Result, which: str, files: tuple[str, ...]) -> Shown:
+def shown_of(result: Result, which: str, files: tuple[str, ...]) -> Shown:
+    """A result as the page shows it.
+
+    Args:
+        result: The result.
+        which: Which model it is, in words.
+        files: What it was made of.
+    """
     text = page(result)
     body = text[text.index("<body>") + 6 : text.index("\n<script>")]
     title = verdict_word(result)

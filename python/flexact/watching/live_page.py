@@ -24,5 +24,9 @@ def live_page(scene: Scene) -> str:
         f'<div class="live-scene">{scene.body}</div>'
     )
     return filled(
-        scene.title, body, (*SCRIPTS, "live.js"), ("style.css", "live.css"), connects=True
+        scene.title,
+        body,
+        (*SCRIPTS, "switches.js", "live.js"),
+        ("style.css", "live.css", "switches.css"),
+        connects=True,
     )

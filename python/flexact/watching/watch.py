@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from .crew import Crew, Worker, WorkerDied
+from .editor import Editor
 from .errors_part import errors_part
 from .messages import Answer, Broken, Job
 from .saved import Saved
@@ -60,6 +61,8 @@ class Watch:
         self._heard = heard
         self.stage = Stage(self.name)
         self.server = Server(path, self.stage, port)
+        self.editor = Editor(path, self.stage)
+        self.server.posts["edit"] = self.editor.post
         self.crew = Crew(fresh=self.job.is_script)
         self._saved = Saved(path)
         self._lock = threading.Lock()
@@ -102,7 +105,7 @@ class Watch:
             if number != self._number:
                 return
             self._saved.also(answer.files)
-            self._heard.renewed(self.stage.put(answer), answer)
+            self._heard.renewed(self.editor.renewed(answer), answer)
         self.crew.prepare()
 
 
