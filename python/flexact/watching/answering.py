@@ -10,7 +10,7 @@ from ..deck.reading import read_file
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import render_problems
 from ..model.data import ModelData
-from ..page.page import broken_page, page
+from ..page.content import broken_content, content_of
 from ..result.decompose import AnalysisError, asked_for
 from ..result.result import Result, result_of
 from ..text.margin import verdict_word
@@ -53,8 +53,7 @@ def shown_of(result: Result, which: str, files: tuple[str, ...]) -> Shown:
         which: Which model it is, in words.
         files: What it was made of.
     """
-    text = page(result)
-    body = text[text.index("<body>") + 6 : text.index("\n<script>")]
+    body = content_of(result).body
     title = verdict_word(result)
     given = result.given
     problems = given.problems
@@ -64,6 +63,5 @@ def shown_of(result: Result, which: str, files: tuple[str, ...]) -> Shown:
 
 def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:
     words = str(error) or "not enough memory"
-    text = broken_page(error, path)
-    body = text[text.index("<body>") + 6 : text.index("\n<script>")]
+    body = broken_content(error, path).body
     return Broken("cannot be analysed", errors_part(error, path), body, words, files)

@@ -31,7 +31,7 @@ def _problem(item: Diagnostic, name: str, source: Source | None) -> str:
     severity, _, words = head.partition(": ")
     hint = f'<p class="help">help: {text(item.help)}</p>' if item.help else ""
     # The label is an arrow's word; without a place it stands alone.
-    place = f"<pre>{text(chr(10).join(lines))}</pre>" if lines else ""
+    place = f"<pre>{chr(10).join(map(text, lines))}</pre>" if lines else ""
     return (
         f'<div class="told {item.severity}"><b>{text(severity)}</b>: {text(words)}'
         f"{place}{hint}</div>"

@@ -7,6 +7,9 @@ from ..page.assets import SCRIPTS, filled
 from ..page.markup import text
 from .scene import Scene
 
+#: The viewer without what starts a page at once, and what starts this one.
+_SCRIPTS = (*(name for name in SCRIPTS if name != "start.js"), "switches.js", "live.js")
+
 
 def live_page(scene: Scene) -> str:
     """The whole page."""
@@ -24,9 +27,5 @@ def live_page(scene: Scene) -> str:
         f'<div class="live-scene">{scene.body}</div>'
     )
     return filled(
-        scene.title,
-        body,
-        (*SCRIPTS, "switches.js", "live.js"),
-        ("style.css", "live.css", "switches.css"),
-        connects=True,
+        scene.title, body, _SCRIPTS, ("style.css", "live.css", "switches.css"), connects=True
     )
