@@ -500,6 +500,9 @@ def test_the_nearest_name_is_told() -> None:
 def test_without_a_sound_file_nothing_can_be_switched() -> None:
     session = Session(GUIDE)
     assert session.told()["edits"] == []
+    with pytest.raises(flexact.FlexactError, match="still being analysed"):
+        session.ask({"do": "look", "element": 1})
+    session.broken()
     for do in ("set", "look", "save"):
         with pytest.raises(flexact.FlexactError, match="has errors"):
             session.ask({"do": do, "set": [in_plane()], "element": 1, "name": "x"})

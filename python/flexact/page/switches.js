@@ -134,6 +134,7 @@ const Switches = (() => {
       const answer = await this.send(request);
       this.section.removeAttribute("aria-busy");
       this.say(answer.error || "", Boolean(answer.error));
+      if (answer.told) this.tell(answer.told);
       if (answer.error && this.target) this.look(this.target, true);
       return answer;
     }
@@ -155,7 +156,14 @@ const Switches = (() => {
       const part = this.part("verdict");
       part.hidden = !verdict;
       part.className = `now ${kind || ""}`;
-      part.replaceChildren(element("b", verdict || "", "says"), ` ${margin || ""}`);
+      if (verdict && verdict !== this.before) {
+        const first = this.before ? `${this.before} \u2192 ` : "";
+        this.words = first ? first + verdict.toLowerCase() : verdict;
+        this.before = verdict;
+      }
+      const words = [element("b", this.words || "", "says"), ` ${margin || ""}`];
+      // Said again it would be read out again.
+      if (part.textContent !== `${this.words}${words[1]}`) part.replaceChildren(...words);
       const off = is === "none";
       for (const name of ["find", "card", "proposals"]) this.part(name).hidden = off;
       if (off) this.say("The file has errors: once they are mended, parts can be switched again.");
@@ -473,7 +481,9 @@ const Switches = (() => {
   function start(root) {
     const panel = new Panel(send);
     root.addEventListener("flexact-renewed", () => panel.mount(root.querySelector(".live-scene")));
-    root.addEventListener("flexact-told", () => panel.renew());
+    root.addEventListener("flexact-told", ({ detail }) => {
+      if (detail.broken) panel.renew();
+    });
     return panel;
   }
 

@@ -65,8 +65,10 @@ class Session:
         """The mechanism as given.
 
         Raises:
-            RefusedError: There is none, or the file has errors now.
+            RefusedError: There is none yet, or the file has errors now.
         """
+        if self._board is None and not self._is_broken:
+            raise RefusedError("the file is still being analysed", HTTPStatus.CONFLICT)
         if self._board is None or self._is_broken:
             raise RefusedError(
                 "nothing can be changed while the file has errors: mend them first",

@@ -12,6 +12,7 @@ from typing import Any
 from ..base.errors import FlexactError
 from ..base.plain_text import harmless
 from ..diagnostics.errors import ProblemsError
+from ..page.markup import text
 from ..page.verdict_part import kind_of
 from ..result.result import Result, result_of
 from ..switches import Session, answered
@@ -36,39 +37,46 @@ class Editor:
         #: The file as it is, until somebody clicks.
         self._file: Shown | None = None
         self._is_taken = True
+        self._number = 0
 
     def renewed(self, answer: Answer) -> str:
         """Show what came of the file, with all edits; what has changed, in words."""
         with self._lock:
+            self._number += 1
             if isinstance(answer, Broken):
                 self._session.broken()
                 return self._stage.put(answer)
             self._file, self._is_taken = answer, False
             if not self._session.history.now:
                 return self._stage.put(answer)
-            self._take()
             try:
-                shown = self._shown()
+                self._take()
+                shown = self._with_edits(self._analysed())
             except (FlexactError, MemoryError) as error:
                 self._session.put_aside(_in_short(error))
                 shown = answer
             return self._stage.put(shown)
 
     def post(self, body: bytes) -> tuple[HTTPStatus, dict[str, Any]]:
-        """Answer a request; its errors are in words."""
+        """Answer a request; its errors are in words.
+
+        The verdict is in the answer, and the scene follows.
+        """
         with self._lock:
             self._take()
             before = self._session.history.copy()
             reply = answered(self._session, body)
             if reply.changed:
                 try:
-                    self._stage.put(self._shown())
+                    self._show(self._analysed())
                 except (FlexactError, MemoryError) as error:
                     self._session.history = before
                     words = f"this cannot be analysed: {_in_short(error)}"
                     return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": words}
-            if "told" in reply.content:
-                reply.content["told"].update(self._looks())
+            if reply.changed or "told" in reply.content:
+                now = self._session.known
+                looks = {} if now is None else {"kind": kind_of(now)[0]}
+                reply.content["told"] = {**self._session.told(), **looks}
             return reply.status, reply.content
 
     def _take(self) -> None:
@@ -79,28 +87,47 @@ class Editor:
             self._session.model_name = self._file.model or "model"
             self._session.renew(base)
 
-    def _shown(self) -> Shown:
-        """What the page shows with all edits.
+    def _analysed(self) -> Result:
+        """The analysis with all edits.
 
         Raises:
             FlexactError: The mechanism cannot be analysed.
             MemoryError: It is too large.
         """
-        assert self._file is not None
-        base, count = self._session.board.base, len(self._session.history.now)
-        if not count:
-            self._session.analysed(base)
-            return self._file
-        now = result_of(self._session.model(), base.asked, base.name)
+        base = now = self._session.board.base
+        if self._session.history.now:
+            now = result_of(self._session.model(), base.asked, base.name, kind=Result)
         self._session.analysed(now)
+        return now
+
+    def _show(self, now: Result) -> None:
+        """Show a result, unless another one comes meanwhile."""
+        self._number += 1
+        number = self._number
+        if now is self._session.board.base and self._file is not None:
+            self._stage.put(self._file)
+            return
+        self._stage.work("the drawing is being renewed")
+
+        def show() -> None:
+            try:
+                shown: Answer = self._with_edits(now)
+            except (FlexactError, MemoryError) as error:
+                words = _in_short(error)
+                shown = Broken("cannot be drawn", text(words), text(words), words, ())
+            with self._lock:
+                if number == self._number:
+                    self._stage.put(shown)
+
+        threading.Thread(target=show, daemon=True).start()
+
+    def _with_edits(self, now: Result) -> Shown:
+        """What the page shows of a result with edits."""
+        assert self._file is not None
+        count = len(self._session.history.now)
         changes = f"with {count} change{'s' * (count > 1)} that the file does not have"
         which = f"{self._file.which}, {changes}" if self._file.which else changes
         return shown_of(now, which, self._file.files)
-
-    def _looks(self) -> dict[str, Any]:
-        """The colour of the verdict, by the class of the page."""
-        now = self._session.known
-        return {} if now is None else {"kind": kind_of(now)[0]}
 
 
 def _in_short(error: FlexactError | MemoryError) -> str:
