@@ -6,6 +6,8 @@
 const Switches = (() => {
   const HINT = "Click a sheet, a wire, a body, a hinge, a clamp or a point in the drawing, "
     + "or find it by its name.";
+  const BROKEN = "The file has errors: once they are mended, parts can be switched again.";
+  const SOON = "The file is still being analysed.";
 
   class Panel {
     /** `send(request)` asks the server, and promises its answer or an error in words. */
@@ -30,9 +32,9 @@ const Switches = (() => {
     }
 
     /** Take a place in a scene: in the side of its first viewer; nowhere in a page without. */
-    mount(root) {
+    mount(root, viewers = []) {
       if (this.root) this.leave();
-      this.root = root;
+      Object.assign(this, { root, viewers });
       const side = root.querySelector(".side");
       if (side) side.prepend(this.section);
       for (const name of ["flexact-click", "click"]) root.addEventListener(name, this.listening);
@@ -79,6 +81,11 @@ const Switches = (() => {
       if (this.target) this.look(this.target, true);
       else this.card(null);
       this.refocus();
+    }
+
+    /** Light what is named in the drawing. */
+    mark(target) {
+      for (const viewer of this.viewers || []) viewer.mark(target);
     }
 
     // What was clicked ------------------------------------------------------------
@@ -164,9 +171,10 @@ const Switches = (() => {
       const words = [element("b", this.words || "", "says"), ` ${margin || ""}`];
       // Said again it would be read out again.
       if (part.textContent !== `${this.words}${words[1]}`) part.replaceChildren(...words);
-      const off = is === "none";
+      const off = is === "none" || is === "broken";
       for (const name of ["find", "card", "proposals"]) this.part(name).hidden = off;
-      if (off) this.say("The file has errors: once they are mended, parts can be switched again.");
+      this.part("off").hidden = !off;
+      this.part("off").textContent = is === "broken" ? BROKEN : off ? SOON : "";
     }
 
     refocus() {
@@ -255,6 +263,12 @@ const Switches = (() => {
       const what = number === undefined ? { node } : { element: number };
       const made = button(words, () => this.look(what), "link");
       made.dataset.key = key;
+      for (const event of ["pointerenter", "focusin"]) {
+        made.addEventListener(event, () => this.mark(what));
+      }
+      for (const event of ["pointerleave", "focusout"]) {
+        made.addEventListener(event, () => this.mark({}));
+      }
       return made;
     }
 
@@ -321,10 +335,11 @@ const Switches = (() => {
         tools: element("div", "", "tools"),
         verdict: element("p", "", "now"),
         said: element("p", "", "said"),
+        off: element("p", "", "note"),
         find: element("form", "", "find"),
         card: element("div", "", "card-of-part"),
-        proposals: element("div", "", "proposals"),
         made: this.makeEdits(),
+        proposals: element("div", "", "proposals"),
       };
       parts.head.id = "switches-head";
       for (const [name, part] of Object.entries(parts)) part.dataset.part = name;
@@ -412,13 +427,13 @@ const Switches = (() => {
     const made = [];
     const of = (sign, words, kind, told) => {
       const each = element("div", "", kind);
-      const mark = element("span", `${sign} `, "sign-of-line");
+      const mark = element("span", sign, "sign-of-line");
       mark.setAttribute("aria-hidden", "true");
-      each.append(mark, element("span", told, "unseen"), words);
+      each.append(mark, element("span", told, "unseen"), element("span", words, "statement"));
       return each;
     };
     const where = line ? `line ${line}` : "a line";
-    if (old) made.push(of("\u2212", old, "minus", `instead of ${where}: `));
+    if (old) made.push(of(`${line || ""} \u2212`, old, "minus", `instead of ${where}: `));
     if (now) made.push(of("+", now, "plus", "new: "));
     return made;
   }
@@ -480,7 +495,9 @@ const Switches = (() => {
   /** Go along with a page that is watched. */
   function start(root) {
     const panel = new Panel(send);
-    root.addEventListener("flexact-renewed", () => panel.mount(root.querySelector(".live-scene")));
+    root.addEventListener("flexact-renewed", ({ detail: { viewers } }) => {
+      panel.mount(root.querySelector(".live-scene"), viewers);
+    });
     root.addEventListener("flexact-told", ({ detail }) => {
       if (detail.broken) panel.renew();
     });

@@ -254,7 +254,8 @@ class Session:
     def told(self) -> Json:
         """All that the page shows of the session."""
         if self._board is None or self._is_broken:
-            return {"is": "none", "edits": [], "undo": False, "redo": False}
+            is_ = "broken" if self._is_broken else "none"
+            return {"is": is_, "edits": [], "undo": False, "redo": False}
         board, edits, now = self._board, self.history.now, self.now
         return {
             "is": "deck" if board.given.source is not None else "model",

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from dataclasses import replace
 
 from ..deck.reading import read_file
@@ -15,13 +16,18 @@ from ..result.decompose import AnalysisError, asked_for
 from ..result.result import Result, result_of
 from ..text.margin import verdict_word
 from .errors_part import errors_part
-from .messages import Answer, Broken, Job, Shown
+from .messages import Answer, Broken, Job, Judged, Shown
 from .script import Script
-from .told import told_of
+from .told import Told, told_of
 
 
-def answer_of(job: Job) -> Answer:
-    """What a job gives; what is wrong with the deck or the script is an answer too."""
+def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
+    """What a job gives; what is wrong with the deck or the script is an answer too.
+
+    Args:
+        job: What is asked for.
+        judged: Called with the verdict, which is there before the scene.
+    """
     script = Script(job.path) if job.is_script else None
     which = model = ""
     try:
@@ -31,7 +37,9 @@ def answer_of(job: Job) -> Answer:
             found = script.run()
             which, model = found.which, found.model
             result = _result(found.shown, found.name, job)
-        shown = shown_of(result, which, () if script is None else script.files())
+        told = told_of(result)
+        judged(Judged(told))
+        shown = shown_of(result, told, which, () if script is None else script.files())
         kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
         return replace(shown, result=kept, model=model)
     except (ProblemsError, AnalysisError, MemoryError) as error:
@@ -45,20 +53,24 @@ def _result(shown: object, name: str, job: Job) -> Result:
     return result_of(data, asked_for(*job.decision), data.name or name)
 
 
-def shown_of(result: Result, which: str, files: tuple[str, ...]) -> Shown:
+def shown_of(
+    result: Result, told: Told, which: str, files: tuple[str, ...], *, is_edited: bool = False
+) -> Shown:
     """A result as the page shows it.
 
     Args:
         result: The result.
+        told: What is told of it.
         which: Which model it is, in words.
         files: What it was made of.
+        is_edited: Whether it is not that of the file.
     """
-    body = content_of(result).body
+    body = content_of(result, has_origin=not is_edited).body
     title = verdict_word(result)
     given = result.given
     problems = given.problems
     words = render_problems(problems, given.name, given.source) if problems.kept else ""
-    return Shown(title, body, told_of(result), which, words, files)
+    return Shown(title, body, told, which, words, files)
 
 
 def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 from . import frames
-from .messages import Answer, Job, Printed
+from .messages import Answer, Job, Judged, Printed
 
 #: Starts a worker. The folder at hand is no place for modules: a deck lies there.
 _START = (
@@ -39,29 +39,36 @@ class Worker:
             stdout=subprocess.PIPE,
             start_new_session=True,
         )
-        self.is_used = False
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._jobs, self._line = self._process.stdin, self._process.stdout
         self.is_busy = False
 
-    def answer(self, job: Job, printed: Callable[[str], None]) -> Answer:
-        """What comes of a job; what is printed meanwhile goes to `printed`.
+    def answer(self, job: Job, meanwhile: Callable[[Printed | Judged], None]) -> Answer:
+        """What comes of a job; what is heard before goes to `meanwhile`.
 
         Raises:
             WorkerDied: It has ended.
         """
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self.is_used = self.is_busy = True
+        self.is_busy = True
         try:
-            frames.send(self._process.stdin, job)
-            while True:
-                heard: Any = frames.receive(self._process.stdout)
-                if not isinstance(heard, Printed):
-                    self.is_busy = False
-                    made: Answer = heard
-                    return made
-                printed(heard.text)
+            frames.send(self._jobs, job)
+        except OSError:
+            raise self._death() from None
+        while isinstance(heard := self._hear(), (Printed, Judged)):
+            meanwhile(heard)
+        self.is_busy = False
+        made: Answer = heard
+        return made
+
+    def _hear(self) -> Any:
+        try:
+            return frames.receive(self._line)
         except (EOFError, OSError, ValueError):
-            raise WorkerDied(_how(self._process.wait())) from None
+            raise self._death() from None
+
+    def _death(self) -> WorkerDied:
+        return WorkerDied(_how(self._process.wait()))
 
     @property
     def is_alive(self) -> bool:

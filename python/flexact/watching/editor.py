@@ -19,6 +19,7 @@ from ..switches import Session, answered
 from .answering import shown_of
 from .messages import Answer, Broken, Shown
 from .scene import Stage
+from .told import Told, told_of
 
 
 class Editor:
@@ -51,11 +52,17 @@ class Editor:
                 return self._stage.put(answer)
             try:
                 self._take()
-                shown = self._with_edits(self._analysed())
+                now = self._analysed()
+                shown = self._with_edits(now, told_of(now))
             except (FlexactError, MemoryError) as error:
                 self._session.put_aside(_in_short(error))
                 shown = answer
             return self._stage.put(shown)
+
+    def judged(self, told: Told) -> None:
+        """Say the verdict of the file, unless edits give another one."""
+        if not self._session.history.now:
+            self._stage.judge(told)
 
     def post(self, body: bytes) -> tuple[HTTPStatus, dict[str, Any]]:
         """Answer a request; its errors are in words.
@@ -107,11 +114,15 @@ class Editor:
         if now is self._session.board.base and self._file is not None:
             self._stage.put(self._file)
             return
-        self._stage.work("the drawing is being renewed")
 
         def show() -> None:
             try:
-                shown: Answer = self._with_edits(now)
+                told = told_of(now)
+                with self._lock:
+                    if number != self._number:
+                        return
+                    self._stage.judge(told)
+                shown: Answer = self._with_edits(now, told)
             except (FlexactError, MemoryError) as error:
                 words = _in_short(error)
                 shown = Broken("cannot be drawn", text(words), text(words), words, ())
@@ -121,13 +132,13 @@ class Editor:
 
         threading.Thread(target=show, daemon=True).start()
 
-    def _with_edits(self, now: Result) -> Shown:
+    def _with_edits(self, now: Result, told: Told) -> Shown:
         """What the page shows of a result with edits."""
         assert self._file is not None
         count = len(self._session.history.now)
         changes = f"with {count} change{'s' * (count > 1)} that the file does not have"
         which = f"{self._file.which}, {changes}" if self._file.which else changes
-        return shown_of(now, which, self._file.files)
+        return shown_of(now, told, which, self._file.files, is_edited=True)
 
 
 def _in_short(error: FlexactError | MemoryError) -> str:

@@ -21,7 +21,7 @@ class Job:
 
     path: str
     is_script: bool
-    decision: tuple[Any, ...] = ()
+    decision: tuple[Any, ...] = ("auto", None)
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,13 @@ class Printed:
     """What a script has printed."""
 
     text: str
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What is told of a result whose scene is still being made."""
+
+    told: Told
 
 
 @dataclass(frozen=True)

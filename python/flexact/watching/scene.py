@@ -107,6 +107,11 @@ class Stage:
         self._show(replace(scene, work="", revision=before.revision + 1))
         return words
 
+    def judge(self, told: Told) -> None:
+        """Say what the verdict will be, before its scene is there."""
+        changed = changed_words(self._told, told) if self._told is not None else told.verdict
+        self._show(replace(self._scene, work=f"{changed}; the scene follows"))
+
     def work(self, words: str) -> None:
         """Say what is going on."""
         self._show(replace(self._scene, work=words, began=time.time()))

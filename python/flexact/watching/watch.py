@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from .crew import Crew, Worker, WorkerDied
 from .editor import Editor
 from .errors_part import errors_part
-from .messages import Answer, Broken, Job
+from .messages import Answer, Broken, Job, Judged, Printed
 from .saved import Saved
 from .scene import Stage
 from .server import Server
@@ -43,7 +43,7 @@ class Watch:
         path: str,
         heard: Heard,
         port: int | None = None,
-        decision: tuple[object, ...] = (),
+        decision: tuple[object, ...] = ("auto", None),
     ) -> None:
         """Start the server; nothing is analysed yet.
 
@@ -67,6 +67,7 @@ class Watch:
         self._saved = Saved(path)
         self._lock = threading.Lock()
         self._number = 0
+        self._failure: BaseException | None = None
 
     def run(self) -> None:
         """Go on until an exception, such as that of Ctrl-C, ends it."""
@@ -75,6 +76,8 @@ class Watch:
             self.renew()
             while True:
                 time.sleep(_LOOK)
+                if self._failure is not None:
+                    raise self._failure
                 if self._saved.is_renewed():
                     self.renew()
         finally:
@@ -82,7 +85,8 @@ class Watch:
 
     def renew(self) -> None:
         """Analyse the file as it is now; what was at work before is stopped."""
-        self._number += 1
+        with self._lock:
+            self._number += 1
         self.stage.work(f"{self.name} is {'running' if self.job.is_script else 'being analysed'}")
         worker = self.crew.take()
         threading.Thread(target=self._answer, args=(worker, self._number), daemon=True).start()
@@ -97,16 +101,29 @@ class Watch:
 
     def _answer(self, worker: Worker, number: int) -> None:
         try:
-            answer: Answer = worker.answer(self.job, self._heard.printed)
-        except WorkerDied as error:
-            answer = _died(error, self.job.path)
+            try:
+                answer = worker.answer(self.job, lambda heard: self._meanwhile(heard, number))
+            except WorkerDied as error:
+                answer = _died(error, self.job.path)
+            with self._lock:
+                # Another save came meanwhile, and it is that one's worker that counts.
+                if number != self._number:
+                    return
+                self._saved.also(answer.files)
+                self._heard.renewed(self.editor.renewed(answer), answer)
+            self.crew.prepare()
+        except BaseException as error:
+            # It is the main thread's to end with.
+            self._failure = error
+
+    def _meanwhile(self, heard: Printed | Judged, number: int) -> None:
         with self._lock:
-            # Another save came meanwhile, and it is that one's worker that counts.
             if number != self._number:
                 return
-            self._saved.also(answer.files)
-            self._heard.renewed(self.editor.renewed(answer), answer)
-        self.crew.prepare()
+            if isinstance(heard, Printed):
+                self._heard.printed(heard.text)
+            else:
+                self.editor.judged(heard.told)
 
 
 def _died(error: WorkerDied, path: str) -> Broken:

@@ -27,7 +27,7 @@ def main() -> None:
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_hear, args=(jobs, waiting), daemon=True).start()
     while True:
-        answer = answer_of(waiting.get())
+        answer = answer_of(waiting.get(), said.send)
         sys.stdout.flush()
         said.send(answer)
 
@@ -71,11 +71,15 @@ class _Raw(io.RawIOBase):
 
     def __init__(self, said: _Said) -> None:
         self._said = said
+        self._process = os.getpid()
 
     def writable(self) -> bool:
         return True
 
     def write(self, content: Any) -> int:
         taken = bytes(content)
+        if os.getpid() != self._process:
+            # A process that was forked has the same line, where its words would fall into others.
+            return os.write(2, taken)
         self._said.send(Printed(taken.decode("utf-8", "replace")))
         return len(taken)
