@@ -6,14 +6,18 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from pathlib import Path
 
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
+from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision
 from flexact.cli.outcome import ExitCode
 from flexact.cli.showing import add_no_browser, one_deck
 from flexact.cli.terminal import complain, say
 from flexact.deck.reading import file_bytes
+from flexact.diagnostics.errors import DeckError
+from flexact.files.decks import DeckFile, FolderError
 from flexact.watching.browser import opens
 from flexact.watching.messages import Answer, Broken
 from flexact.watching.watch import SCRIPT, Heard, Watch
@@ -28,7 +32,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "machine, and renew it whenever the file is saved. Ctrl-C ends it."
     )
     parser.add_argument(
-        "file",
+        "deck",
         metavar="FILE",
         help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
     )
@@ -53,11 +57,17 @@ def port(text: str) -> int:
 
 def watch(chosen: argparse.Namespace) -> ExitCode:
     """Serve, until a signal ends it."""
-    path = chosen.file
-    if not path.lower().endswith(SCRIPT):
-        path = one_deck(argparse.Namespace(deck=path)).path
-    # What cannot be read now is more likely to be a slip than a deck to come.
-    file_bytes(path)
+    path = chosen.deck
+    is_script = path.lower().endswith(SCRIPT)
+    deck = DeckFile(path, Path(path)) if is_script else one_deck(chosen)
+    path = deck.path
+    try:
+        if deck.error is not None:
+            raise deck.error
+        # What cannot be read now is more likely to be a slip than a deck to come.
+        file_bytes(path)
+    except (DeckError, FolderError) as error:
+        return failures.report(deck, error, as_json=False).code
     decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     with unwinding():
         watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
