@@ -131,7 +131,8 @@ const Switches = (() => {
       this.card(answer.panel);
       if (again) return this.refocus();
       this.say("");
-      this.part("card").scrollIntoView({ block: "nearest" });
+      // So far that it is seen that there is something, and the drawing stays in sight.
+      this.part("card").firstChild.scrollIntoView({ block: "nearest" });
     }
 
     /** Ask for a change; the scene and what is told come with the next event. */
@@ -402,6 +403,7 @@ const Switches = (() => {
       label.append(name);
       const save = button("Save", () => {});
       save.type = "submit";
+      save.dataset.key = "save";
       form.append(label, save);
       form.addEventListener("submit", (event) => {
         event.preventDefault();
@@ -413,8 +415,11 @@ const Switches = (() => {
         over.hidden = true;
         name.focus();
       };
-      over.append(part("p", "there"), button("Write over it", () => this.save(true)),
-        button("Cancel", back));
+      const write = button("Write over it", () => this.save(true));
+      const cancel = button("Cancel", back);
+      write.dataset.key = "write over";
+      cancel.dataset.key = "do not write over";
+      over.append(part("p", "there"), write, cancel);
       over.setAttribute("role", "alert");
       made.append(heading, part("ul", "edits"), how, lines, part("p", "note", "note"), copy, box,
         form, over);

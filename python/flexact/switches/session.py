@@ -288,6 +288,7 @@ class Session:
             "names": names(board),
             "said": list(self._said),
             "save": harmless(free_name(self.watched)),
+            "folder": harmless(str(self.watched.absolute().parent)),
             **self._how(),
         }
 

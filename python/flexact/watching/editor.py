@@ -53,6 +53,9 @@ class Editor:
             try:
                 self._take()
                 now = self._analysed()
+                # The file may say all of it itself now.
+                if not self._session.history.now:
+                    return self._stage.put(answer)
                 shown = self._with_edits(now, told_of(now))
             except (FlexactError, MemoryError) as error:
                 self._session.put_aside(_in_short(error))
