@@ -24,12 +24,19 @@ from .page.notebook import html_of
 from .result.accuracy import AccuracyGiven
 from .result.decompose import AnalysisError, asked_for
 from .result.result import Result, result_of
-from .saving import as_bytes, page_bytes, save
+from .saving import as_bytes, save
 from .text.describe import MOST_MODES, describe
 from .text.json_result import dictionary_of, text_of
 from .text.margin import margin_in_short
 from .text.warnings import warning_of, warnings_of
-from .watching.showing import InWords, is_displayed, is_taken, open_page
+from .watching.showing import (
+    InWords,
+    is_displayed,
+    is_taken,
+    open_page,
+    page_path,
+    write_page,
+)
 
 if TYPE_CHECKING:
     import meshio
@@ -133,9 +140,12 @@ class Analysis(Result):
         """
         if is_taken(self) or (path is None and is_displayed(self)):
             return None
-        # A still picture takes a while; it is for browsers elsewhere.
-        made = as_bytes(page(self)) if path is None else page_bytes(self)
-        return open_page(made, self.name, path)
+        if path is None:
+            # The still picture of `save` takes a while, and is for browsers elsewhere.
+            return open_page(write_page(as_bytes(page(self)), self.name))
+        target = page_path(path)
+        self.save(target)
+        return open_page(target)
 
     def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
         """What is wrong and why, and steps that mend it, each analysed before it is shown.
@@ -242,5 +252,7 @@ def show_model(model: Model, path: str | os.PathLike[str] | None = None) -> Path
     except (ProblemsError, AnalysisError) as error:
         if path is None and is_displayed(InWords(error)):
             return None
-        return open_page(as_bytes(broken_page(error, model.name or "model")), model.name, path)
+        name = model.name or "model"
+        target = None if path is None else page_path(path)
+        return open_page(write_page(as_bytes(broken_page(error, name)), name, target))
     return analysis.show(path)

@@ -142,11 +142,11 @@ def test_a_broken_deck_keeps_the_last_scene_and_all_windows_hear_of_it(
     deck, watched = served
     text = deck.read_text()
     windows = [Events(watched.address) for _ in range(3)]
-    body = [each.next() for each in windows][0]["body"]
+    bodies = [each.next()["body"] for each in windows]
     deck.write_text(WRONG)
     broken = [each.next() for each in windows]
     assert all(each == broken[0] for each in broken)
-    assert broken[0]["body"] == body
+    assert bodies == [broken[0]["body"]] * 3
     assert "BEAN" in broken[0]["broken"] and "^^^^" in broken[0]["broken"]
     assert "guide.dat:3:1" in broken[0]["broken"]
     # A page that is loaded now has both.
@@ -197,9 +197,7 @@ def test_it_is_reached_from_this_machine_only(served: tuple[Path, Watched]) -> N
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_ends_it_quietly_with_its_processes(
-    deck: Path, state: Path, number: int
-) -> None:
+def test_a_signal_ends_it_quietly_with_its_processes(deck: Path, state: Path, number: int) -> None:
     with watching(deck, state) as watched:
         events = Events(watched.address)
         until(lambda: len(watched.out) > 1)
@@ -235,7 +233,12 @@ def command(*words: object) -> subprocess.CompletedProcess[str]:
     env = {**os.environ, "BROWSER": "", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
     return subprocess.run(
         [sys.executable, "-m", "flexact", *map(str, words)],
-        *(), env=env, capture_output=True, text=True, timeout=60, check=False,
+        *(),
+        env=env,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
     )
 
 
@@ -363,8 +366,12 @@ def test_nothing_is_said_into_a_pipe_that_nobody_reads(deck: Path, state: Path) 
     watch = f"{sys.executable} -m flexact watch {deck} --no-browser"
     done = subprocess.run(
         ["bash", "-c", f"set -o pipefail; {watch} | head -1"],
-        *(), env={**os.environ, "XDG_STATE_HOME": str(state)},
-        capture_output=True, text=True, timeout=60, check=False,
+        *(),
+        env={**os.environ, "XDG_STATE_HOME": str(state)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
     )
     assert done.stdout.count("\n") == 1
     assert "Traceback" not in done.stderr

@@ -24,11 +24,23 @@ def served(place: Path) -> Iterator[Watched]:
         yield watched
 
 
+@pytest.fixture(autouse=True)
+def window(browser: Browser) -> Iterator[None]:
+    """A window of its own for each test, which remembers nothing."""
+    first = browser.driver.current_window_handle
+    browser.driver.switch_to.new_window("tab")
+    yield
+    for handle in browser.driver.window_handles:
+        if handle != first:
+            browser.driver.switch_to.window(handle)
+            browser.driver.close()
+    browser.driver.switch_to.window(first)
+
+
 @pytest.fixture
-def deck(place: Path, served: Watched, browser: Browser) -> Path:
+def deck(place: Path, served: Watched, browser: Browser, window: None) -> Path:
     """The deck as it was at first, with its page open and at rest."""
     deck = place / "guide.dat"
-    browser.driver.get("about:blank")
     if deck.read_text() != GUIDE:
         lines = len(served.out)
         deck.write_text(GUIDE)
@@ -36,7 +48,8 @@ def deck(place: Path, served: Watched, browser: Browser) -> Path:
     browser.driver.get(served.address)
     browser.console()
     browser.requests()
-    browser.run("sessionStorage.clear(); flexact.play(false)")
+    browser.resize(1280, 900)
+    browser.run("flexact.play(false)")
     browser.drawn()
     return deck
 
@@ -55,8 +68,9 @@ def save(browser: Browser, deck: Path, text: str) -> None:
 
 def looks(browser: Browser) -> list[float]:
     return list(
-        browser.run("const {eye, target, zoom} = flexact.stage.looks(); "
-                    "return [...eye, ...target, zoom]")
+        browser.run(
+            "const {eye, target, zoom} = flexact.stage.looks(); return [...eye, ...target, zoom]"
+        )
     )
 
 
@@ -123,18 +137,11 @@ def test_a_reload_keeps_the_view(browser: Browser, deck: Path) -> None:
 def test_all_windows_are_renewed(browser: Browser, deck: Path, served: Watched) -> None:
     first = browser.driver.current_window_handle
     browser.driver.switch_to.new_window("window")
-    try:
-        browser.driver.get(served.address)
-        save(browser, deck, EXACT)
-        assert "→ exactly constrained" in words(browser)
-        browser.driver.switch_to.window(first)
-        until(lambda: "→ exactly constrained" in words(browser))
-    finally:
-        for handle in browser.driver.window_handles:
-            if handle != first:
-                browser.driver.switch_to.window(handle)
-                browser.driver.close()
-        browser.driver.switch_to.window(first)
+    browser.driver.get(served.address)
+    save(browser, deck, EXACT)
+    assert "→ exactly constrained" in words(browser)
+    browser.driver.switch_to.window(first)
+    until(lambda: "→ exactly constrained" in words(browser))
 
 
 def test_the_page_goes_on_when_the_server_comes_back(browser: Browser, tmp_path: Path) -> None:
@@ -155,7 +162,6 @@ def test_the_page_goes_on_when_the_server_comes_back(browser: Browser, tmp_path:
         assert looks(browser) == pytest.approx(seen, abs=1e-6)
         save(browser, deck, GUIDE)
         assert "→ over-constrained by 1" in words(browser)
-        browser.driver.get("about:blank")
 
 
 def test_the_page_says_that_a_script_is_at_work(browser: Browser, tmp_path: Path) -> None:
@@ -172,4 +178,3 @@ def test_the_page_says_that_a_script_is_at_work(browser: Browser, tmp_path: Path
         until(lambda: "name 'nothing' is not defined" in words(browser))
         assert "design.py:1:1" in words(browser)
         assert browser.run("return flexact !== null")
-        browser.driver.get("about:blank")

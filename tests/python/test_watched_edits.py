@@ -220,7 +220,7 @@ def test_a_release_is_clicked_on_and_off(browser: Browser, watch: Watching) -> N
 
 def test_a_part_and_a_clamp_are_clicked_in_the_drawing(browser: Browser, watch: Watching) -> None:
     page = Page(browser, watch("guide.dat", DECK))
-    browser.run("flexact.stage.look('front')")
+    browser.run("flexact.stage.look('iso')")
     browser.drawn()
     x, y = browser.run(
         "const box = flexact.stage.canvas.getBoundingClientRect();"
@@ -230,10 +230,18 @@ def test_a_part_and_a_clamp_are_clicked_in_the_drawing(browser: Browser, watch: 
     title = page.sees("card", "BEAM")
     assert title.startswith(("sheet", "The stage"))
     page.rests()
+    # On the block of the clamp, away from its node.
     clamp = browser.run(
-        "const node = Array.from(PageData.array(flexact.data.nodes.placed))[0];"
-        "const [x, y] = flexact.stage.project(...flexact.place(node));"
-        "const box = flexact.stage.canvas.getBoundingClientRect();"
+        "const { supports, stage } = flexact;"
+        "const { copies, rows } = supports.sets.find(({ rows }) => rows.length);"
+        "const copy = rows.findIndex((row) => PageData.array(flexact.data.nodes.number)"
+        "[supports.node[row]] === 1);"
+        "const matrix = new THREE.Matrix4(); copies.mesh.getMatrixAt(copy, matrix);"
+        "copies.mesh.geometry.computeBoundingBox();"
+        "const { min, max } = copies.mesh.geometry.boundingBox;"
+        "const place = min.clone().lerp(max, 0.85).applyMatrix4(matrix);"
+        "const [x, y] = stage.project(...place.toArray());"
+        "const box = stage.canvas.getBoundingClientRect();"
         "return [box.left + x, box.top + y]"
     )
     page.press(*clamp)

@@ -101,6 +101,7 @@ const Live = (() => {
       const errors = this.part("live-errors");
       const isKept = broken && this.mounted.viewers.length > 0;
       this.bar.classList.toggle("errs", Boolean(broken));
+      this.bar.classList.toggle("alone", Boolean(broken) && !isKept);
       errors.hidden = !isKept;
       errors.innerHTML = isKept ? broken : "";
       const words = isKept ? "cannot be analysed; below is the last good scene"

@@ -32,7 +32,7 @@ def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
     which = model = ""
     try:
         if script is None:
-            result = result_of(read_file(job.path), asked_for(*job.decision))
+            result: Result = result_of(read_file(job.path), asked_for(*job.decision))
         else:
             found = script.run()
             which, model = found.which, found.model

@@ -29,15 +29,13 @@ def changed_words(before: Told, after: Told) -> str:
         rest = [*_counts(before, after), *_certainty(before, after)]
     else:
         start = f"still {after.verdict}"
+        motions, stresses = after.counts["motions"], after.counts["self-stresses"]
         rest = [
             *_counts(before, after),
             *_certainty(before, after),
             *_margin(before, after),
-            *_modes("motion", "s", before.motions, after.motions, after.counts["motions"]),
-            *_modes(
-                *("self-stress", "es"),
-                *(before.stresses, after.stresses, after.counts["self-stresses"]),
-            ),
+            *_modes(("motion", "s"), before.motions, after.motions, motions),
+            *_modes(("self-stress", "es"), before.stresses, after.stresses, stresses),
         ]
         if not rest:
             return f"{start}; nothing has changed that the analysis sees"
@@ -62,15 +60,16 @@ def _margin(before: Told, after: Told) -> Iterator[str]:
 
 
 def _modes(
-    what: str, ending: str, before: Sequence[str], after: Sequence[str], count: int
+    word: tuple[str, str], before: Sequence[str], after: Sequence[str], count: int
 ) -> Iterator[str]:
     """How many motions or self-stresses are others than they were."""
-    # Those without words differ in nothing that a person could read.
+    what, ending = word
     new = sum((Counter(after) - Counter(before)).values())
     if not new or len(before) != len(after):
         return
     if count == 1:
         yield f"the {what} is another"
         return
-    of = f"{len(after)} {what}{ending}" if count == len(after) else f"the first {len(after)}"
+    many = f"{what}{ending}"
+    of = f"{count} {many}" if count == len(after) else f"the first {len(after)} {many}"
     yield f"{new} of {of} {'is another' if new == 1 else 'are others'}"

@@ -24,7 +24,7 @@ _START = (
 _HOME = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
-class WorkerDied(Exception):
+class WorkerError(Exception):
     """A worker ended before it had an answer; the text says how."""
 
 
@@ -48,7 +48,7 @@ class Worker:
         """What comes of a job; what is heard before goes to `meanwhile`.
 
         Raises:
-            WorkerDied: It has ended.
+            WorkerError: It has ended.
         """
         self.is_busy = True
         try:
@@ -67,8 +67,8 @@ class Worker:
         except (EOFError, OSError, ValueError):
             raise self._death() from None
 
-    def _death(self) -> WorkerDied:
-        return WorkerDied(_how(self._process.wait()))
+    def _death(self) -> WorkerError:
+        return WorkerError(_how(self._process.wait()))
 
     @property
     def is_alive(self) -> bool:
@@ -118,7 +118,7 @@ class Crew:
             self._at_work = None if self._closed else (self._spare or Worker())
             self._spare = None
             if self._at_work is None:
-                raise WorkerDied("the end")
+                raise WorkerError("the end")
             return self._at_work
 
     def prepare(self) -> None:

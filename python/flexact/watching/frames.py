@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import pickle
 import struct
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 _LENGTH = struct.Struct("!Q")
 
 
-def send(line: BinaryIO, value: Any) -> None:
+def send(line: IO[bytes], value: Any) -> None:
     """Write a value.
 
     Raises:
@@ -21,7 +21,7 @@ def send(line: BinaryIO, value: Any) -> None:
     line.flush()
 
 
-def receive(line: BinaryIO) -> Any:
+def receive(line: IO[bytes]) -> Any:
     """The next value.
 
     Raises:
@@ -31,7 +31,7 @@ def receive(line: BinaryIO) -> Any:
     return pickle.loads(_read(line, length))
 
 
-def _read(line: BinaryIO, length: int) -> bytes:
+def _read(line: IO[bytes], length: int) -> bytes:
     content = line.read(length)
     if len(content) < length:
         raise EOFError

@@ -8,13 +8,13 @@ import sys
 import time
 import traceback
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType, TracebackType
 from typing import Any
 
 from ..deck.reading import file_bytes
-from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
+from ..diagnostics.diagnostic import Diagnostic, Place, Problems, Severity
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.source import Source
 from ..model.model import Model
@@ -141,16 +141,14 @@ class Script:
             return self._wrong_syntax(error)
         if isinstance(error, ProblemsError) and error.source is not None:
             return error
-        path, *place = self._place(error.__traceback__)
+        path, place, callers = self._place(error.__traceback__)
         problems = [
-            Diagnostic(Severity.ERROR, code, message, *place[:3], help=hint)
+            Diagnostic(Severity.ERROR, code, message, *place, help=hint)
             for code, message, hint in _said(error)
         ]
-        callers = place[3]
         if callers:
-            last = problems[-1]
-            hint = f"{last.help}; {callers}" if last.help else callers
-            problems[-1] = Diagnostic(last.severity, last.code, last.message, *place[:3], help=hint)
+            hint = "; ".join(filter(None, (problems[-1].help, callers)))
+            problems[-1] = replace(problems[-1], help=hint)
         return ScriptError(Problems.of(problems), self._shortened(path), _source(path))
 
     def _want(self, error: BaseException) -> None:
@@ -179,7 +177,7 @@ class Script:
         )
         return ScriptError(Problems.of([item]), self._shortened(path), _source(path))
 
-    def _place(self, trace: TracebackType | None) -> tuple[str, int, int, int, str]:
+    def _place(self, trace: TracebackType | None) -> tuple[str, Place, str]:
         """The innermost place in a file of the user, and by which lines it was called."""
         own = [
             frame
@@ -188,7 +186,7 @@ class Script:
         ]
         self._read |= {frame.filename for frame in own}
         if not own:
-            return self.path, 0, 0, 0, ""
+            return self.path, Place(0, 0, 0), ""
         *callers, inner = own
         line = inner.lineno or 1
         source = _source(inner.filename)
@@ -203,7 +201,7 @@ class Script:
             first, last = source.character_columns(line, first, last)
         names = [f"{self._shortened(each.filename)}:{each.lineno}" for each in reversed(callers)]
         words = f"called from {', '.join(names[:_MOST_CALLERS])}" if names else ""
-        return inner.filename, line, first, last, words
+        return inner.filename, Place(line, first, last), words
 
     def _shortened(self, path: str) -> str:
         return os.path.relpath(path, self.folder) if path.startswith(self.folder) else path

@@ -91,7 +91,7 @@ class Handler(BaseHTTPRequestHandler):
     sys_version = ""
     timeout = 60.0
 
-    def do_GET(self) -> None:  # noqa: N802
+    def do_GET(self) -> None:
         """The page, or its events."""
         rest = self._admitted(writes=False)
         if rest == "":
@@ -102,7 +102,7 @@ class Handler(BaseHTTPRequestHandler):
         elif rest is not None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
-    def do_POST(self) -> None:  # noqa: N802
+    def do_POST(self) -> None:
         """What a page sends."""
         rest = self._admitted(writes=True)
         if rest is None:

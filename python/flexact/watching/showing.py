@@ -14,7 +14,7 @@ from typing import Any
 
 from ..base.errors import BatchError, reason_of
 from ..base.loading import load
-from ..base.plain_text import file_name
+from ..base.plain_text import file_name, harmless
 from ..files.outputs import OutputError, write_together
 from .browser import opens
 
@@ -77,8 +77,20 @@ class InWords:
         return f"<pre>{escape(self._words)}</pre>"
 
 
-def open_page(page: bytes, name: str, path: str | os.PathLike[str] | None) -> Path:
-    """Write a page and open it in the browser; say where it is where none opens.
+def page_path(path: str | os.PathLike[str]) -> Path:
+    """The path of a page, if it can be that of one.
+
+    Raises:
+        FlexactError: It cannot.
+    """
+    target = Path(path)
+    if target.suffix.lower() not in _PAGES or "\0" in str(target):
+        raise BatchError(f"{harmless(str(target))} is not the name of a page, such as guide.html")
+    return target
+
+
+def write_page(page: bytes, name: str, path: Path | None = None) -> Path:
+    """Write a page, whole or not at all.
 
     Args:
         page: The page.
@@ -86,23 +98,20 @@ def open_page(page: bytes, name: str, path: str | os.PathLike[str] | None) -> Pa
         path: Where it goes; by default a temporary file.
 
     Raises:
-        FlexactError: It cannot be written, or this is not the path of a page.
+        FlexactError: It cannot be written.
     """
-    target = write_page(page, name, path)
+    if path is None:
+        return _temporary(page, name)
+    write_together({path: page})
+    return path
+
+
+def open_page(target: Path) -> Path:
+    """Open a page in the browser, or say where it is where none opens; its whole path."""
+    target = target.absolute()
     if not opens(target.as_uri()):
         print(f"The page is {target}", flush=True)
     return target
-
-
-def write_page(page: bytes, name: str, path: str | os.PathLike[str] | None) -> Path:
-    """Write a page, whole or not at all; see `open_page`."""
-    if path is None:
-        return _temporary(page, name)
-    target = Path(path)
-    if target.suffix.lower() not in _PAGES:
-        raise BatchError(f"{target} is not the name of a page, such as guide.html")
-    write_together({target: page})
-    return target.absolute()
 
 
 def _temporary(page: bytes, name: str) -> Path:
@@ -113,4 +122,4 @@ def _temporary(page: bytes, name: str) -> Path:
             file.write(page)
     except OSError as error:
         raise OutputError(f"no temporary page can be written: {reason_of(error)}") from error
-    return Path(made).absolute()
+    return Path(made)

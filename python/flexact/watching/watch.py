@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .crew import Crew, Worker, WorkerDied
+from .crew import Crew, Worker, WorkerError
 from .editor import Editor
 from .errors_part import errors_part
 from .messages import Answer, Broken, Job, Judged, Printed
@@ -103,7 +103,7 @@ class Watch:
         try:
             try:
                 answer = worker.answer(self.job, lambda heard: self._meanwhile(heard, number))
-            except WorkerDied as error:
+            except WorkerError as error:
                 answer = _died(error, self.job.path)
             with self._lock:
                 # Another save came meanwhile, and it is that one's worker that counts.
@@ -126,7 +126,7 @@ class Watch:
                 self.editor.judged(heard.told)
 
 
-def _died(error: WorkerDied, path: str) -> Broken:
+def _died(error: WorkerError, path: str) -> Broken:
     words = str(error)
     errors = errors_part(error, path)
     return Broken("cannot be analysed", errors, f"<main>{errors}</main>", words, ())
