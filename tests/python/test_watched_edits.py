@@ -220,7 +220,7 @@ def test_a_release_is_clicked_on_and_off(browser: Browser, watch: Watching) -> N
 
 def test_a_part_and_a_clamp_are_clicked_in_the_drawing(browser: Browser, watch: Watching) -> None:
     page = Page(browser, watch("guide.dat", DECK))
-    browser.run("flexact.stage.look('iso')")
+    browser.run("flexact.stage.look('front')")
     browser.drawn()
     x, y = browser.run(
         "const box = flexact.stage.canvas.getBoundingClientRect();"
@@ -229,6 +229,7 @@ def test_a_part_and_a_clamp_are_clicked_in_the_drawing(browser: Browser, watch: 
     page.press(x, y)
     title = page.sees("card", "BEAM")
     assert title.startswith(("sheet", "The stage"))
+    browser.run("flexact.stage.look('iso')")
     page.rests()
     # On the block of the clamp, away from its node.
     clamp = browser.run(
