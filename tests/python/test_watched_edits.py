@@ -5,6 +5,7 @@ import http.client
 import json
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from itertools import product
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -31,6 +32,30 @@ guide.independent("stage", "y")
 """
 #: In-plane bending of sheet 1 at its clamp, released and held.
 RELEASED, HELD = "element 1 3 released", "element 1 3 held"
+
+
+#: What of the panel reaches out of it.
+OUTSIDE = """
+    const box = document.querySelector('.switches').getBoundingClientRect();
+    return Array.from(document.querySelectorAll('.switches *'))
+      .filter((each) => each.offsetParent && !each.closest('pre') && !each.matches('.unseen'))
+      .filter((each) => { const own = each.getBoundingClientRect();
+        return own.width && (own.left < box.left - 1 || own.right > box.right + 1); })
+      .map((each) => each.outerHTML.slice(0, 80))
+"""
+#: How many switches overlap their words.
+OVERLAPPING = """
+    return Array.from(document.querySelectorAll('.switch')).filter((row) => {
+      const [a, ...chips] = [row.querySelector('legend'), ...row.querySelectorAll('.chip')]
+        .map((each) => each.getBoundingClientRect());
+      return chips.some((b) => a.left < b.right - 1 && b.left < a.right - 1
+        && a.top < b.bottom - 1 && b.top < a.bottom - 1); }).length
+"""
+#: Whether the panel is beside the drawing.
+BESIDE = """
+    const at = (name) => document.querySelector(name).getBoundingClientRect();
+    return at('.switches').left >= at('.drawing').right
+"""
 
 
 def send(
@@ -383,49 +408,20 @@ def test_what_is_copied_are_the_lines(browser: Browser, watch: Watching) -> None
     assert browser.run("return document.activeElement.value").startswith("RLSE 1 2 3 5 6")
 
 
-@pytest.mark.parametrize("width", [360, 800, 1280])
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_panel_fits(browser: Browser, watch: Watching, width: int, scheme: str) -> None:
-    page = Page(browser, watch("guide.dat", DECK))
-    browser.prefer(prefers_color_scheme=scheme)
-    browser.resize(width, 900)
-    page.find("sheet 1")
-    page.click(RELEASED)
-    page.settled(1)
-    assert browser.run(
-        "return document.documentElement.scrollWidth <= document.documentElement.clientWidth"
-    )
-    outside = browser.run(
-        "const box = document.querySelector('.switches').getBoundingClientRect();"
-        "return Array.from(document.querySelectorAll('.switches *'))"
-        ".filter((each) => each.offsetParent && !each.closest('pre') && !each.matches('.unseen'))"
-        ".filter((each) => { const own = each.getBoundingClientRect();"
-        "return own.width && (own.left < box.left - 1 || own.right > box.right + 1); })"
-        ".map((each) => each.outerHTML.slice(0, 80))"
-    )
-    assert outside == []
-    beside = browser.run(
-        "const at = (name) => document.querySelector(name).getBoundingClientRect();"
-        "return at('.switches').left >= at('.drawing').right"
-    )
-    assert beside == (width >= 960)
-    overlapping = browser.run(
-        "const rows = Array.from(document.querySelectorAll('.switch'));"
-        "return rows.filter((row) => { const [a, ...chips] ="
-        "[row.querySelector('legend'), ...row.querySelectorAll('.chip')]"
-        ".map((each) => each.getBoundingClientRect());"
-        "return chips.some((b) => a.left < b.right - 1 && b.left < a.right - 1"
-        "&& a.top < b.bottom - 1 && b.top < a.bottom - 1); }).length"
-    )
-    assert overlapping == 0
-    assert browser.console() == []
-
-
-def test_everything_has_a_name_for_screen_readers(browser: Browser, watch: Watching) -> None:
+def test_the_panel_fits_and_everything_in_it_has_a_name(browser: Browser, watch: Watching) -> None:
     page = Page(browser, watch("guide.dat", DECK))
     page.find("sheet 1")
     page.click(RELEASED)
     page.settled(1)
+    for width, scheme in product((360, 800, 1280), ("light", "dark")):
+        browser.prefer(prefers_color_scheme=scheme)
+        browser.resize(width, 900)
+        assert browser.run(
+            "return document.documentElement.scrollWidth <= document.documentElement.clientWidth"
+        )
+        assert browser.run(OUTSIDE) == []
+        assert browser.run(OVERLAPPING) == 0
+        assert browser.run(BESIDE) == (width >= 960)
     nameless = browser.run(
         "return Array.from(document.querySelectorAll('.switches button, .switches input'))"
         ".filter((each) => !each.ariaLabel && !each.textContent.trim() && !each.labels?.length)"
@@ -437,6 +433,7 @@ def test_everything_has_a_name_for_screen_readers(browser: Browser, watch: Watch
         ".map((each) => each.querySelector('legend').textContent)"
     )
     assert len(groups) == 6 and groups[2] == "in-plane bending at its clamp was held"
+    assert browser.console() == []
 
 
 @pytest.mark.parametrize(

@@ -196,10 +196,8 @@ const Switches = (() => {
       }
       const head = element("h3", panel.title);
       const about = element("p", `${panel.kind} \u00b7 ${panel.about}`, "note");
-      const near = panel.near.length ? element("p", "Beside it: ", "note near") : "";
-      panel.near.forEach((each, k) => {
-        near.append(k ? ", " : "", this.jump(each, `near ${k}`));
-      });
+      const near = panel.near.length ? element("p", "Beside it:", "note near") : "";
+      panel.near.forEach((each, k) => near.append(this.jump(each, `near ${k}`)));
       card.replaceChildren(head, about, ...panel.groups.map((each) => this.group(each)), near);
     }
 

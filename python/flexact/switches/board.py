@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from functools import cached_property
 
 from ..advice.change import Change
+from ..base.plain_text import in_short
 from ..core.elements import AXES, Class, coordinate_name, element_kinds
 from ..model.data import ModelData
 from ..model.division import classes_of_division
@@ -73,7 +74,7 @@ class Board:
             raise RefusedError(f"there is no node {node}")
         if name not in self.coordinates_of(index):
             there = ", ".join(self.coordinates_of(index))
-            raise RefusedError(f"node {node} has no coordinate {name!r}: it has {there}")
+            raise RefusedError(f"node {node} has no coordinate {in_short(name)}: it has {there}")
         return CoordinatePlace(node, name)
 
     def coordinates_of(self, index: int) -> list[str]:

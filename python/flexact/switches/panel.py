@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..base.plain_text import in_short
 from ..core.elements import Class, NodeKind, element_kinds
 from ..model.names import nearest
 from ..model.parts.parts import Part, PartKind
@@ -128,7 +129,7 @@ def target_named(board: Board, name: str) -> Json:
         for n in nearest(name, known)
     ]
     hint = f"; did you mean {' or '.join(near)}?" if near else ""
-    raise RefusedError(f"no part or support is called {name!r}{hint}")
+    raise RefusedError(f"no part or support is called {in_short(name)}{hint}")
 
 
 def _supports(board: Board) -> Iterator[tuple[str, int]]:
