@@ -28,11 +28,16 @@ class Call(NamedTuple):
     at: Argument | None = None
     """The end of a part, where one is said."""
 
-    def in_words(self, model: str = "model") -> str:
-        """As it is typed; `model` is the name of the model."""
-        words = [*map(_typed, self.arguments)]
+    def in_words(self, model: str = "model", *, exact: bool = False) -> str:
+        """As it is typed.
+
+        Args:
+            model: The name of the model.
+            exact: Whether numbers have all digits where the first twelve are not enough.
+        """
+        words = [_typed(each, exact) for each in self.arguments]
         if self.at is not None:
-            words.append(f"at={_typed(self.at)}")
+            words.append(f"at={_typed(self.at, exact)}")
         return f"{model}.{self.method}({', '.join(words)})"
 
 
@@ -93,14 +98,14 @@ def _point(result: Outcome, position: int) -> Argument:
     return tuple(result.given.arrays.node_value[:count, position].tolist())
 
 
-def _typed(given: Argument) -> str:
+def _typed(given: Argument, exact: bool) -> str:
     if isinstance(given, str):
         return '"' + given.replace("\\", "\\\\").replace('"', '\\"') + '"'
     if isinstance(given, int):
         return str(given)
-    return f"({', '.join(map(_number, given))})"
+    return f"({', '.join(_number(value, exact) for value in given)})"
 
 
-def _number(value: float) -> str:
+def _number(value: float, exact: bool) -> str:
     short = f"{value + 0.0:.12g}"
-    return short if float(short) == value else repr(value)
+    return repr(value) if exact and float(short) != value else short
