@@ -25,7 +25,7 @@ FLOORS = (
     ("deck", "result"),
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
-    ("editor", "mesh", "page", "picture"),
+    ("editor", "mesh", "page", "picture", "switches"),
     ("advising", "costing", "saving", "tracing", "variants", "watching"),
     ("analysis", "cli"),
     ("", "__main__"),

@@ -38,20 +38,25 @@ def edited_deck(given: ModelData, changed: ModelData) -> bytes:
     Returns:
         Its text, in the encoding of the deck.
     """
+    edited = edited_to_the_letter(given, changed)
+    return deck_of(changed).encode() if edited is None else edited
+
+
+def edited_to_the_letter(given: ModelData, changed: ModelData) -> bytes | None:
+    """As `edited_deck`; None where there is no deck, or what it says cannot be changed in it."""
     source = given.source or given.began_as
-    if source is not None:
-        old, new = dict(statements_of(given)), dict(statements_of(changed))
-        # Every byte is a character, so that whatever the deck holds stays.
-        lines = source.text.decode("latin-1").split("\n")
-        edited = {
-            key: new.get(key, "").encode().decode("latin-1")
-            for key in dict.fromkeys((*old, *new))
-            if old.get(key) != new.get(key)
-        }
-        text = "\n".join(_Editor(edited).lines(lines)).encode("latin-1")
-        if _says(text, changed):
-            return text
-    return deck_of(changed).encode()
+    if source is None:
+        return None
+    old, new = dict(statements_of(given)), dict(statements_of(changed))
+    # Every byte is a character, so that whatever the deck holds stays.
+    lines = source.text.decode("latin-1").split("\n")
+    edited = {
+        key: new.get(key, "").encode().decode("latin-1")
+        for key in dict.fromkeys((*old, *new))
+        if old.get(key) != new.get(key)
+    }
+    text = "\n".join(_Editor(edited).lines(lines)).encode("latin-1")
+    return text if _says(text, changed) else None
 
 
 def _says(text: bytes, wanted: ModelData) -> bool:

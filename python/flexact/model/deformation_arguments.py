@@ -141,7 +141,7 @@ def give_deformations(
     """Give deformations of a part a class; of a divided one as if it were one beam."""
     found = find_deformations(draft, target, which, at)
     kind = element_kinds()[draft.kinds[found.indices[0]] - 1]
-    stated, new = classes_of_division(draft, kind, found.indices, found.numbers, value)
+    stated, new = classes_of_division(draft.classes, kind, found.indices, found.numbers, value)
     if value == Class.FIXED:
         for place in stated:
             draft.stated.pop(place, None)

@@ -8,7 +8,7 @@ all of them but one, lets the two ends of the row move as the ends of one beam w
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from ..core.elements import Class, Role
 from ..core.raw import ElementKind
@@ -36,18 +36,29 @@ def declare_inner(draft: Draft, indices: Iterable[int], released: Iterable[int])
 
 
 def classes_of_division(
-    draft: Draft, kind: ElementKind, indices: list[int], numbers: Iterable[int], value: Class
+    classes: Sequence[Sequence[int]],
+    kind: ElementKind,
+    indices: Sequence[int],
+    numbers: Iterable[int],
+    value: Class,
 ) -> tuple[list[Place], list[Given]]:
     """What gives deformations of a flexure a class, and the places under which it is noted.
 
     Bending that is held acts at p on the first beam, at q on the last. Bending that the flexure
     releases is released in one beam: the first, or the last where it is left at q alone.
+
+    Args:
+        classes: (elements, deformations) classes as they are.
+        kind: The kind of the beams.
+        indices: Indices of the beams, from p to q.
+        numbers: The deformations, from 1, as of one beam.
+        value: The class that they get.
     """
     if len(indices) == 1:
         places = [(indices[0], number) for number in numbers]
         return places, [(*place, value) for place in places]
     first, last, inner = indices[0], indices[-1], indices[1:]
-    now = {i: list(draft.classes[i]) for i in indices}
+    now = {i: list(classes[i]) for i in indices}
     places = []
     for number in numbers:
         role = Role(kind.role[number - 1])
@@ -67,7 +78,7 @@ def classes_of_division(
     new = [
         (i, k, Class(made))
         for i in indices
-        for k, (before, made) in enumerate(zip(draft.classes[i], now[i], strict=True), 1)
+        for k, (before, made) in enumerate(zip(classes[i], now[i], strict=True), 1)
         if before != made
     ]
     return places, new
@@ -76,7 +87,7 @@ def classes_of_division(
 def _give_bending(
     now: dict[int, list[int]],
     first: int,
-    inner: list[int],
+    inner: Sequence[int],
     pair: tuple[int, int],
     given: dict[int, Class],
 ) -> None:

@@ -40,7 +40,11 @@ class Content(NamedTuple):
 
 
 def content_of(
-    analysis: Result, still: bytes | None = None, spaces: Spaces | None = None
+    analysis: Result,
+    still: bytes | None = None,
+    spaces: Spaces | None = None,
+    *,
+    has_origin: bool = True,
 ) -> Content:
     """What the page of a result holds.
 
@@ -48,6 +52,7 @@ def content_of(
         analysis: The result.
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
         spaces: The freedom space and the constraint space of a body, to be switched on.
+        has_origin: Whether it is told of what it was made, and how it is made again.
     """
     require_kind(analysis, Result, "a page is that of a result")
     (frame,) = frames_of(drawing_of(analysis.given))
@@ -76,7 +81,7 @@ def content_of(
         "</div>",
         '<div class="below">',
         deck_part(raw, in_deck, is_written),
-        origin_part(raw, name, analysis, is_written),
+        origin_part(raw, name, analysis, is_written) if has_origin else "",
         "</div></main>",
     )
     title = f"{name or 'model'}: {verdict_word(analysis)}"

@@ -83,6 +83,7 @@ const Live = (() => {
       document.title = state.title;
       if (!state.broken || !this.mounted.viewers.length) this.renew(state.body);
       this.tell(state);
+      this.root.dispatchEvent(new CustomEvent("flexact-told", { detail: state }));
       if (!fresh) return;
       this.bar.classList.remove("fresh");
       void this.bar.offsetWidth; // the light begins anew

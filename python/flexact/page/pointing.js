@@ -74,10 +74,13 @@ const Pointing = (() => {
       const pointer = new THREE.Vector2(
         (x / stage.width) * 2 - 1, 1 - (y / stage.height) * 2);
       this.raycaster.setFromCamera(pointer, stage.camera);
-      const { members, bodies, hinges } = state;
-      const solids = [...members.solids, ...bodies.solids, hinges.copies.mesh];
+      const { members, bodies, hinges, supports } = state;
+      const solids = [
+        ...members.solids, ...bodies.solids, hinges.copies.mesh, ...supports.solids];
       const [hit] = this.raycaster.intersectObjects(solids, false);
       if (!hit) return this.lineAt(x, y);
+      const held = supports.nodeOf(hit.object, hit.instanceId);
+      if (held !== undefined) return { kind: "node", row: held, x, y };
       if (hit.object.body) return { kind: "body", row: hit.object.body[hit.faceIndex], x, y };
       const row = hit.object.owner ? hit.object.owner[hit.faceIndex] : hit.instanceId;
       return { kind: hit.object.owner ? "member" : "hinge", row, x, y };

@@ -81,6 +81,17 @@ const Symbols = (() => {
       this.sizes = PageData.array(sizes);
     }
 
+    /** What can be pointed at. */
+    get solids() {
+      return this.group.visible ? this.sets.map(({ copies }) => copies.mesh) : [];
+    }
+
+    /** The node that a copy in one of the solids holds; undefined of another solid. */
+    nodeOf(mesh, copy) {
+      const found = this.sets.find(({ copies }) => copies.mesh === mesh);
+      return found && this.node[found.rows[copy]];
+    }
+
     move(pose) {
       for (const { copies, rows } of this.sets) {
         rows.forEach((row, i) => {

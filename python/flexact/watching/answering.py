@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
+from dataclasses import replace
 
 from ..deck.reading import read_file
 from ..diagnostics.errors import ProblemsError
@@ -27,17 +29,19 @@ def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
         judged: Called with the verdict, which is there before the scene.
     """
     script = Script(job.path) if job.is_script else None
-    which = ""
+    which = model = ""
     try:
         if script is None:
             result: Result = result_of(read_file(job.path), asked_for(*job.decision))
         else:
             found = script.run()
-            which = found.which
+            which, model = found.which, found.model
             result = _result(found.shown, found.name, job)
         told = told_of(result)
         judged(Judged(told))
-        return _shown(result, told, which, () if script is None else script.files())
+        shown = shown_of(result, told, which, () if script is None else script.files())
+        kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
+        return replace(shown, result=kept, model=model)
     except (ProblemsError, AnalysisError, MemoryError) as error:
         return _broken(error, job.path, () if script is None else script.files())
 
@@ -49,8 +53,19 @@ def _result(shown: object, name: str, job: Job) -> Result:
     return result_of(data, asked_for(*job.decision), data.name or name)
 
 
-def _shown(result: Result, told: Told, which: str, files: tuple[str, ...]) -> Shown:
-    body = content_of(result).body
+def shown_of(
+    result: Result, told: Told, which: str, files: tuple[str, ...], *, is_edited: bool = False
+) -> Shown:
+    """A result as the page shows it.
+
+    Args:
+        result: The result.
+        told: What is told of it.
+        which: Which model it is, in words.
+        files: What it was made of.
+        is_edited: Whether it is not that of the file.
+    """
+    body = content_of(result, has_origin=not is_edited).body
     title = verdict_word(result)
     given = result.given
     problems = given.problems

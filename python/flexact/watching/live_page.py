@@ -8,7 +8,7 @@ from ..page.markup import text
 from .scene import Scene
 
 #: The viewer without what starts a page at once, and what starts this one.
-_SCRIPTS = (*(name for name in SCRIPTS if name != "start.js"), "live.js")
+_SCRIPTS = (*(name for name in SCRIPTS if name != "start.js"), "switches.js", "live.js")
 
 
 def live_page(scene: Scene) -> str:
@@ -26,4 +26,6 @@ def live_page(scene: Scene) -> str:
         f'<template class="live-broken">{scene.broken}</template>'
         f'<div class="live-scene">{scene.body}</div>'
     )
-    return filled(scene.title, body, _SCRIPTS, ("style.css", "live.css"), connects=True)
+    return filled(
+        scene.title, body, _SCRIPTS, ("style.css", "live.css", "switches.css"), connects=True
+    )

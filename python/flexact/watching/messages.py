@@ -49,6 +49,8 @@ class Shown:
         which: Which model of a script it is, in words; empty for a deck.
         problems: Warnings and notes, as the terminal has them.
         files: What it was made of, besides the file that is watched.
+        result: The result itself, pickled.
+        model: The name of the model in a script; empty for a deck.
     """
 
     title: str
@@ -57,6 +59,8 @@ class Shown:
     which: str
     problems: str
     files: tuple[str, ...]
+    result: bytes = b""
+    model: str = ""
 
 
 @dataclass(frozen=True)

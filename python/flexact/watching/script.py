@@ -37,11 +37,13 @@ class Found:
         shown: A model, or the result of one.
         name: What it is called where it has no name.
         which: Which of the script's it is, in words.
+        model: The name of the model in the script.
     """
 
     shown: Model | Result
     name: str
     which: str
+    model: str
 
 
 class Script:
@@ -113,7 +115,8 @@ class Script:
             count = len(self._shown)
             of = f", the last of {count} that are shown" if count > 1 else ""
             name = next((k for k, value in vars(main).items() if value is shown), self.name)
-            return Found(shown, name, f"shown in line {line} of {self.name}{of}")
+            which = f"shown in line {line} of {self.name}{of}"
+            return Found(shown, name, which, _model_name(main, shown))
         made = {
             name: value
             for name, value in vars(main).items()
@@ -128,7 +131,8 @@ class Script:
             )
             raise ScriptError(Problems.of([item]), self.name)
         name, value = next(reversed(made.items()))
-        return Found(value, name, f"{name}, the last model or analysis of {self.name}")
+        which = f"{name}, the last model or analysis of {self.name}"
+        return Found(value, name, which, _model_name(main, value))
 
     def _failed(self, error: BaseException) -> ProblemsError:
         """The error in words, at its place in a file of the user."""
@@ -201,6 +205,16 @@ class Script:
 
     def _shortened(self, path: str) -> str:
         return os.path.relpath(path, self.folder) if path.startswith(self.folder) else path
+
+
+def _model_name(main: ModuleType, shown: object) -> str:
+    """The name of the model that is shown, or of which the result is that is shown."""
+    for name, value in vars(main).items():
+        if isinstance(value, Model) and not name.startswith("_"):
+            is_its_result = isinstance(shown, Result) and value.data is shown.given
+            if value is shown or is_its_result:
+                return name
+    return "model"
 
 
 def _said(error: BaseException) -> Iterator[tuple[str, str, str]]:

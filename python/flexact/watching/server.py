@@ -13,8 +13,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from ..base.errors import BatchError, FlexactError, reason_of
-from ..base.plain_text import harmless
+from ..base.errors import BatchError, reason_of
 from .guard import ADDRESS, is_token, port_of, refusal, token_of
 from .live_page import live_page
 from .scene import Scene, Stage
@@ -26,8 +25,8 @@ _RETRY = 500
 #: Bytes of a request that is taken.
 _LARGEST = 2**20
 
-#: Answers what a page sends: JSON for JSON; a FlexactError is answered in words.
-Post = Callable[[Any], dict[str, Any]]
+#: Answers the body of what a page sends: status and JSON.
+Post = Callable[[bytes], tuple[HTTPStatus, dict[str, Any]]]
 
 
 class Server(ThreadingHTTPServer):
@@ -119,11 +118,8 @@ class Handler(BaseHTTPRequestHandler):
         if not 0 <= length <= _LARGEST:
             self._refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "that is too much")
             return
-        try:
-            answer = post(json.loads(self.rfile.read(length)))
-        except (ValueError, FlexactError) as error:
-            answer = {"error": harmless(str(error))}
-        self._answer(json.dumps(answer).encode(), "application/json")
+        status, answer = post(self.rfile.read(length))
+        self._answer(json.dumps(answer).encode(), "application/json", status)
 
     def _admitted(self, *, writes: bool) -> str | None:
         """The address behind the token; None where the request was refused."""

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from .crew import Crew, Worker, WorkerError
+from .editor import Editor
 from .errors_part import errors_part
 from .messages import Answer, Broken, Job, Judged, Printed
 from .saved import Saved
@@ -60,6 +61,8 @@ class Watch:
         self._heard = heard
         self.stage = Stage(self.name)
         self.server = Server(path, self.stage, port)
+        self.editor = Editor(path, self.stage)
+        self.server.posts["edit"] = self.editor.post
         self.crew = Crew(fresh=self.job.is_script)
         self._saved = Saved(path)
         self._lock = threading.Lock()
@@ -107,7 +110,7 @@ class Watch:
                 if number != self._number:
                     return
                 self._saved.also(answer.files)
-                self._heard.renewed(self.stage.put(answer), answer)
+                self._heard.renewed(self.editor.renewed(answer), answer)
             self.crew.prepare()
         except BaseException as error:
             # It is the main thread's to end with.
@@ -120,7 +123,7 @@ class Watch:
             if isinstance(heard, Printed):
                 self._heard.printed(heard.text)
             else:
-                self.stage.judge(heard.told)
+                self.editor.judged(heard.told)
 
 
 def _died(error: WorkerError, path: str) -> Broken:
