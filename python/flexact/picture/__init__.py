@@ -5,6 +5,8 @@ matplotlib and pillow are imported only when one is drawn.
 """
 
 from ..drawing.view import ViewError, check_view
+from .animation import SUFFIXES as MOVING
+from .files import STILLS
 from .make import (
     SUFFIXES,
     PictureError,
@@ -16,11 +18,15 @@ from .make import (
 )
 from .shape import shape_bytes
 from .subject import SubjectError
+from .video import VideoError
 
 __all__ = [
+    "MOVING",
+    "STILLS",
     "SUFFIXES",
     "PictureError",
     "SubjectError",
+    "VideoError",
     "ViewError",
     "check_packages",
     "check_suffix",

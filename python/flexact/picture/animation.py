@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Animations: a motion through a full cosine cycle, or a drawing that turns about the vertical."""
+"""Animations: a motion through a full cosine cycle, or a drawing that turns about the vertical.
+
+A GIF, whose first frame is what a reader sees who has animations off, begins at an end of the
+motion; a video begins at rest.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +17,11 @@ from ..drawing.view import View
 from ..result.result import Result
 from .canvas import Box
 from .figure import compose
-from .files import gif_bytes as bytes_of
-from .files import pixels
+from .files import gif_bytes, pixels
 from .panel import paint
 from .subject import Subject
+from .video import SUFFIXES as VIDEOS
+from .video import video_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,19 +37,26 @@ _LOOKED_AT = (-1.0, -0.5, 0.0, 0.5, 1.0)
 Told = Callable[[float], None]
 
 
-def gif_bytes(
+#: Suffixes of pictures that move.
+SUFFIXES = (".gif", *VIDEOS)
+
+
+def moving_bytes(
     analysis: Result | None,
     drawing: Drawing,
     subject: Subject,
     view: View,
+    suffix: str,
+    title: str,
     *,
     size: tuple[int, int] | None = None,
     plain: bool = False,
     progress: Told | None = None,
 ) -> bytes:
-    """The animation as a GIF that runs without end.
+    """The animation as a GIF that runs without end, or as a video of one cycle that loops.
 
-    All frames share one palette and one scale, so that nothing but what moves changes.
+    All frames share one scale, and those of a GIF one palette, so that nothing but what moves
+    changes.
     """
     made: list[np.ndarray] = []
     order, phases, views = _schedule(drawing, subject, view)
@@ -62,8 +74,14 @@ def gif_bytes(
         )
         made.append(_after(made[0], figure) if made and drawing.planar else pixels(figure))
         if progress is not None:
-            progress((number + 1) / len(phases))
-    return bytes_of(made, order, _DURATION)
+            progress((number + 1) / (len(phases) + (suffix in VIDEOS)))
+    if suffix not in VIDEOS:
+        return gif_bytes(made, order, _DURATION)
+    rest = order.index(int(np.argmin(np.abs(phases))))
+    content = video_bytes(made, order[rest:] + order[:rest], _DURATION, suffix, title)
+    if progress is not None:
+        progress(1.0)
+    return content
 
 
 def _after(first: np.ndarray, figure: Figure) -> np.ndarray:
