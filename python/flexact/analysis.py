@@ -18,7 +18,6 @@ from .diagnostics.diagnostic import Diagnostic
 from .mesh import to_meshio
 from .model.jacobian import jacobian
 from .model.model import Model
-from .page.notebook import html_of
 from .result.accuracy import AccuracyGiven
 from .result.decompose import asked_for
 from .result.result import Result, result_of
@@ -152,7 +151,14 @@ class Analysis(Result):
         )
 
     def _repr_html_(self) -> str:
-        return html_of(self)
+        # Notebooks alone ask for it.
+        made: str = load("flexact.notebook.output").html_of(self)
+        return made
+
+    def in_notebook(self, what: object) -> str | None:
+        """HTML of a motion, a self-stress or a row of them, with pictures."""
+        made: str | None = load("flexact.notebook.modes").html_of(self, what)
+        return made
 
 
 def analyse(

@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("advising", "costing", "saving", "tracing", "variants"),
+    ("advising", "costing", "notebook", "saving", "tracing", "variants"),
     ("analysis", "cli"),
     ("", "__main__"),
 )
@@ -41,7 +41,7 @@ MOST_LINES_OF_BINDINGS = 250
 #: Packages that may be missing, and so are imported where they are needed.
 OPTIONAL = (
     *("matplotlib", "PIL", "meshio", "vtk", "vtkmodules"),
-    *("pyarrow", "distributed", "pandas", "yaml"),
+    *("pyarrow", "distributed", "pandas", "yaml", "imageio_ffmpeg"),
 )
 
 

@@ -36,6 +36,7 @@ SCRIPTS = (
     "printing.js",
     "viewer.js",
     "main.js",
+    "start.js",
 )
 #: Of pages without a drawing.
 PLAIN_SCRIPTS = ("theme.js", "printing.js", "plain.js")

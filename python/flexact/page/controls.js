@@ -52,11 +52,11 @@ const Controls = (() => {
 
   /** What acts on all viewers: what plays, from where it is seen, what else is drawn; keys. */
   class Toolbar {
-    constructor(viewers) {
-      this.viewers = viewers;
+    constructor(viewers, root) {
+      Object.assign(this, { viewers, root });
       [this.play, this.amplitude, this.speed, this.fit] = ["play", "amplitude", "speed", "fit"].map(
-        (name) => document.querySelector(`.toolbar .${name}`));
-      this.layers = Array.from(document.querySelectorAll("input[data-layer]"));
+        (name) => root.querySelector(`.toolbar .${name}`));
+      this.layers = Array.from(root.querySelectorAll("input[data-layer]"));
       for (const { dataset, checked } of this.layers) {
         for (const viewer of viewers) viewer.layers[dataset.layer] = checked;
       }
@@ -67,6 +67,25 @@ const Controls = (() => {
 
     get playing() {
       return this.viewers.some(({ movement, player }) => movement && player.playing);
+    }
+
+    /** Layers, and where the sliders are. */
+    view() {
+      return {
+        layers: Object.fromEntries(this.layers.map((each) => [each.dataset.layer, each.checked])),
+        amplitude: this.amplitude.value, speed: this.speed.value,
+      };
+    }
+
+    restore({ layers, amplitude, speed }) {
+      Object.assign(this.amplitude, { value: amplitude });
+      Object.assign(this.speed, { value: speed });
+      for (const input of this.layers) {
+        const on = layers[input.dataset.layer];
+        if (on === undefined || on === input.checked) continue;
+        input.checked = on;
+        input.dispatchEvent(new Event("change", { bubbles: true }));
+      }
     }
 
     playOrPause() {
@@ -88,7 +107,7 @@ const Controls = (() => {
     listenToView() {
       const { viewers } = this;
       const [{ stage }] = viewers; // the others are seen from the same side
-      for (const button of document.querySelectorAll("button[data-view]")) {
+      for (const button of this.root.querySelectorAll("button[data-view]")) {
         button.addEventListener("click", () => stage.look(button.dataset.view));
       }
       this.fit.addEventListener("click", () => stage.fit());

@@ -7,13 +7,13 @@ const Links = (() => {
 
   class Links {
     /**
-     * `marked({element, node})` is called when something is named, `chosen` when it is pressed;
+     * Within `root`. `marked({element, node})` is called when something is named, `chosen` when it is pressed;
      * `owns(element)` tells what of the page is meant.
      */
-    constructor(owns, marked, chosen) {
+    constructor(root, owns, marked, chosen) {
       Object.assign(this, { marked, chosen });
       this.rows = new Map();
-      const named = Array.from(document.querySelectorAll(NAMED)).filter(owns);
+      const named = Array.from(root.querySelectorAll(NAMED)).filter(owns);
       for (const each of named) {
         this.take(each);
         if (!each.matches("button.link")) continue;

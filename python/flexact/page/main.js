@@ -1,20 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Starts the page: its drawings where there is WebGL, else the still pictures stay. Several are
-// seen from the same side, and play in step.
+// Brings a page, or a part of one, to life: its drawings where there is WebGL, else the still
+// pictures stay. Several are seen from the same side, and play in step.
 
 const Main = (() => {
   const MANY = 1000; // members
 
-  function start() {
-    const roots = Array.from(document.querySelectorAll(".viewer"));
+  /**
+   * Bring to life what is within an element or a shadow root.
+   *
+   * `view()` tells what somebody has chosen as plain values, which `restore` takes again;
+   * `dispose()` gives everything back, and leaves the page as it looks.
+   */
+  function mount(root) {
+    const roots = Array.from(root.querySelectorAll(".viewer"));
+    const ending = new AbortController(), theme = new Theme.Theme(root);
     const found = roots.map((root) => ({ root, data: PageData.read(root) }))
       .map(({ root, data }) => ({ root, data, context: contextOf(root, data) }));
-    const viewers = found.every(({ context }) => context) ? found.map(make) : [];
-    if (viewers.length) show(viewers);
-    Theme.listen(() => viewers.forEach((viewer) => viewer.dress()));
-    Printing.listen(viewers);
-    return viewers;
+    const viewers = found.every(({ context }) => context) ? found.map((each) => make(each, theme)) : [];
+    const toolbar = viewers.length ? show(root, viewers) : null;
+    theme.listen(() => viewers.forEach((viewer) => viewer.dress()), ending.signal);
+    Printing.listen(root, theme, viewers, ending.signal);
+    return {
+      viewers,
+      view: () => ({ viewers: viewers.map((each) => each.view()), ...(toolbar && toolbar.view()) }),
+      restore(view) {
+        if (toolbar) toolbar.restore(view);
+        viewers.forEach((each, k) => view.viewers[k] && each.restore(view.viewers[k]));
+      },
+      dispose() {
+        ending.abort();
+        for (const each of viewers) each.dispose();
+      },
+    };
   }
 
   function contextOf(root, data) {
@@ -23,17 +41,17 @@ const Main = (() => {
     return root.querySelector(".canvas").getContext("webgl2", { alpha: true, antialias });
   }
 
-  function make({ root, data, context }) {
+  function make({ root, data, context }, theme) {
     root.classList.add("live");
     root.querySelector(".still").hidden = true;
     root.querySelector(".interactive").hidden = root.querySelector(".choices").hidden = false;
-    return new Viewer.Viewer(root, data, context);
+    return new Viewer.Viewer(root, data, context, theme);
   }
 
-  function show(viewers) {
-    for (const each of document.querySelectorAll(".shared")) each.hidden = false;
+  function show(root, viewers) {
+    for (const each of root.querySelectorAll(".shared")) each.hidden = false;
     viewers.slice(1).forEach((each) => viewers[0].join(each));
-    const toolbar = new Controls.Toolbar(viewers);
+    const toolbar = new Controls.Toolbar(viewers, root);
     const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     // What is beside the drawings is linked with the first.
     const nearest = (part) => part.closest(".viewer") || viewers[0].root;
@@ -41,18 +59,19 @@ const Main = (() => {
       viewer.player.playing = !calm;
       viewer.choices = new Controls.Choices(viewer);
       viewer.changed = () => [viewer.choices, toolbar].forEach((each) => each.refresh());
-      link(viewer, (part) => nearest(part) === viewer.root);
+      link(root, viewer, (part) => nearest(part) === viewer.root);
     }
     for (const viewer of viewers) {
       viewer.showStress(-1);
       viewer.stage.look("iso");
       for (const [name, value] of viewer.data.first) viewer.choices.choose(name, value);
     }
+    return toolbar;
   }
 
   /** Let the drawing and the tables light each other. */
-  function link(viewer, owns) {
-    const links = new Links.Links(owns,
+  function link(root, viewer, owns) {
+    const links = new Links.Links(root, owns,
       (target) => viewer.mark(target), (target) => viewer.visit(target));
     viewer.pointing = new Pointing.Pointing(viewer.stage, viewer, (found) => {
       const target = found ? viewer.targetOf(found) : null;
@@ -83,9 +102,5 @@ const Main = (() => {
     return made;
   }
 
-  return { start };
+  return { mount };
 })();
-
-// For whoever looks at the drawings by hand, and for tests: the first, and all.
-window.drawings = Main.start();
-window.flexact = window.drawings[0] || null;

@@ -11,7 +11,7 @@ const Overlay = (() => {
     constructor(canvas, stage, data, state) {
       Object.assign(this, { canvas, stage, data, state });
       this.context = canvas.getContext("2d");
-      this.style = getComputedStyle(document.documentElement);
+      this.style = getComputedStyle(canvas);
     }
 
     colour(name) {

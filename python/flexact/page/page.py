@@ -3,27 +3,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..advice.spaces.spaces import Spaces
-from ..base.errors import require_kind
-from ..base.plain_text import file_name
-from ..diagnostics.errors import ProblemsError
-from ..drawing import drawing_of
 from ..result.result import Result
-from ..text.describe import VerdictInWords, verdict_in_words
-from ..text.margin import verdict_word
-from ..text.warnings import warnings_of
 from .assets import PLAIN_SCRIPTS, SCRIPTS, filled
-from .controls_part import choices_part, keys, layers, toolbar
-from .deck_part import deck_of_model, deck_part
-from .drawing_data import frames_of
-from .drawing_part import drawing_part
-from .markup import section, text
-from .modes_part import motions_part, stresses_part
-from .origin_part import origin_part
-from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
-from .viewer_data import left_out, stuck_in, viewer_data
+from .content import broken_content, content_of
 
 
 def page(analysis: Result, still: bytes | None = None, spaces: Spaces | None = None) -> str:
@@ -34,38 +17,8 @@ def page(analysis: Result, still: bytes | None = None, spaces: Spaces | None = N
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
         spaces: The freedom space and the constraint space of a body, to be switched on.
     """
-    require_kind(analysis, Result, "a page is that of a result")
-    (frame,) = frames_of(drawing_of(analysis.given))
-    data = viewer_data(analysis, frame, spaces)
-    every = warnings_of(analysis)
-    name = file_name(analysis.name)
-    raw, is_written = deck_of_model(analysis.given)
-    drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
-    warnings = [item for item in every if item.line == 0]
-    in_deck = [item for item in every if item.line > 0]
-    words = str(verdict_in_words(analysis))
-    advice = advised(analysis)
-    stuck = stuck_in(analysis)
-    below = toolbar(data) + keys(data)
-    body = (
-        verdict(analysis, name, advice),
-        '<main class="viewer">',
-        drawing_part(data, still, words, below, left_out(analysis, data)),
-        '<div class="side">',
-        choices_part(data, stuck, layers(data)),
-        advice_part(advice),
-        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
-        motions_part(analysis, drawn),
-        stresses_part(analysis),
-        decision_part(analysis),
-        "</div>",
-        '<div class="below">',
-        deck_part(raw, in_deck, is_written),
-        origin_part(raw, name, analysis, is_written),
-        "</div></main>",
-    )
-    title = f"{name or 'model'}: {verdict_word(analysis)}"
-    return filled(title, "\n".join(body), SCRIPTS)
+    content = content_of(analysis, still, spaces)
+    return filled(content.title, content.body, SCRIPTS)
 
 
 def broken_page(error: Exception, name: str) -> str:
@@ -75,34 +28,5 @@ def broken_page(error: Exception, name: str) -> str:
         error: Why: with diagnostics, or a sentence.
         name: The deck's file name.
     """
-    name = file_name(name)
-    words = reason_in_words(error)
-    raw, told = b"", ""
-    if isinstance(error, ProblemsError):
-        raw = error.source.text if error.source is not None else b""
-        told = deck_part(raw, error.diagnostics)
-    body = (
-        head(
-            *BROKEN,
-            VerdictInWords("Cannot be analysed", words),
-            f'<span class="name">{text(name)}</span>',
-        ),
-        '<main class="plain">',
-        told,
-        origin_part(raw, name, None, False) if raw else "",
-        "</main>",
-    )
-    return filled(f"{name}: cannot be analysed", "\n".join(body), PLAIN_SCRIPTS)
-
-
-def reason_in_words(error: Exception) -> str:
-    """Why a deck cannot be analysed, in a few words."""
-    if isinstance(error, ProblemsError):
-        count = error.problems.errors
-        return f"{count} error{'s' * (count != 1)}"
-    return str(error) or "not enough memory"
-
-
-def _note(item: Any) -> str:
-    hint = f" {text(item.help)}" if item.help else ""
-    return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
+    content = broken_content(error, name)
+    return filled(content.title, content.body, PLAIN_SCRIPTS)

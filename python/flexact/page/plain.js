@@ -2,5 +2,9 @@
 "use strict";
 // Starts a page without a drawing.
 
-Theme.listen(() => {});
-Printing.listen([]);
+(() => {
+  const { signal } = new AbortController();
+  const theme = new Theme.Theme(document.body);
+  theme.listen(() => {}, signal);
+  Printing.listen(document.body, theme, [], signal);
+})();

@@ -6,35 +6,36 @@
 const Printing = (() => {
   const RATIO = 2; // pixels of the still for one of the canvas
 
-  function listen(viewers) {
+  function listen(root, theme, viewers, signal) {
+    const { dataset } = theme.owner;
     let closed = [];
-    let theme = null;
+    let before = null;
     window.addEventListener("beforeprint", () => {
-      const root = document.documentElement;
-      theme = root.dataset.theme;
-      root.dataset.theme = "light";
-      closed = Array.from(document.querySelectorAll("details:not([open])"));
+      before = dataset.theme;
+      dataset.theme = "light";
+      closed = Array.from(root.querySelectorAll("details:not([open])"));
       for (const each of closed) each.open = true;
       for (const each of viewers) draw(each);
-    });
+    }, { signal });
     window.addEventListener("afterprint", () => {
       for (const each of closed) each.open = false;
-      if (theme) document.documentElement.dataset.theme = theme;
-      else delete document.documentElement.dataset.theme;
+      if (before) dataset.theme = before;
+      else delete dataset.theme;
       for (const each of viewers) each.dress();
-    });
+    }, { signal });
   }
 
-  function draw(viewer) {
+  /** A still of the drawing as it is now. */
+  function draw(viewer, ratioOfStill = RATIO) {
     const still = viewer.part("on-paper");
     const { stage } = viewer;
     const { renderer } = stage;
     const ratio = renderer.getPixelRatio();
     viewer.dress();
-    renderer.setPixelRatio(RATIO);
+    renderer.setPixelRatio(ratioOfStill);
     stage.draw();
-    still.width = stage.width * RATIO;
-    still.height = stage.height * RATIO;
+    still.width = stage.width * ratioOfStill;
+    still.height = stage.height * ratioOfStill;
     const context = still.getContext("2d");
     context.drawImage(stage.canvas, 0, 0, still.width, still.height);
     context.drawImage(viewer.overlay.canvas, 0, 0, still.width, still.height);
@@ -42,5 +43,5 @@ const Printing = (() => {
     stage.draw();
   }
 
-  return { listen };
+  return { listen, draw };
 })();

@@ -36,7 +36,8 @@ const Stage = (() => {
       this.renderer.outputColorSpace = "srgb-linear";
       this.illuminate();
       this.control();
-      new ResizeObserver(() => this.fill()).observe(canvas.parentElement);
+      this.resized = new ResizeObserver(() => this.fill());
+      this.resized.observe(canvas.parentElement);
       canvas.addEventListener("webglcontextrestored", () => this.request());
       this.fill();
     }
@@ -205,6 +206,36 @@ const Stage = (() => {
       this.request();
     }
 
+    /** From where it is seen, as plain values. */
+    seenFrom() {
+      const { camera, controls, fitted } = this;
+      return { position: camera.position.toArray(), target: controls.target.toArray(),
+        zoom: camera.zoom, fitted };
+    }
+
+    seeFrom({ position, target, zoom, fitted }) {
+      this.camera.position.fromArray(position);
+      this.controls.target.fromArray(target);
+      this.camera.zoom = zoom;
+      this.camera.updateProjectionMatrix();
+      this.controls.update();
+      if (fitted) this.fit();
+      else this.fitted = false;
+      this.lead();
+      this.request();
+    }
+
+    /** Draw no more, and free the context: a browser has some sixteen for all of a page. */
+    dispose() {
+      this.disposed = true;
+      cancelAnimationFrame(this.waiting);
+      clearTimeout(this.resting);
+      this.resized.disconnect();
+      this.controls.dispose();
+      this.renderer.dispose();
+      this.renderer.forceContextLoss();
+    }
+
     /** Where a place is on the canvas, in CSS pixels, and how far from the eye. */
     project(x, y, z) {
       const seen = new Vector3(x, y, z).project(this.camera);
@@ -218,7 +249,7 @@ const Stage = (() => {
 
     /** Have a frame drawn soon; where frames take long, a light one until all is at rest. */
     request() {
-      if (this.waiting) return;
+      if (this.waiting || this.disposed) return;
       const running = performance.now() - this.drawn < RUNNING;
       this.waiting = requestAnimationFrame((time) => {
         this.waiting = 0;
@@ -245,7 +276,7 @@ const Stage = (() => {
       clearTimeout(this.resting);
       this.resting = setTimeout(() => {
         // What has been asked for meanwhile is not at rest.
-        if (this.waiting) return;
+        if (this.waiting || this.disposed) return;
         this.lighten(false);
         this.draw();
       }, REST);

@@ -1,30 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Light or dark: as the system has it, until somebody switches.
+// Light or dark: as the system has it, until somebody switches; or as the host of a part says.
 
 const Theme = (() => {
-  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const system = window.matchMedia("(prefers-color-scheme: dark)");
 
-  function isDark() {
-    const chosen = document.documentElement.dataset.theme;
-    return chosen ? chosen === "dark" : dark.matches;
-  }
+  class Theme {
+    /** The theme of a page, or of a shadow tree, whose host has it. */
+    constructor(root) {
+      this.root = root;
+      this.owner = root.host || document.documentElement;
+    }
 
-  /** Make the switch work; `changed` is called whenever the page gets light or dark. */
-  function listen(changed) {
-    const button = document.getElementById("theme");
-    const show = () => {
-      button.setAttribute("aria-pressed", String(isDark()));
-      changed();
-    };
-    button.hidden = false;
-    button.addEventListener("click", () => {
-      document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+    isDark() {
+      const chosen = this.owner.dataset.theme;
+      return chosen ? chosen === "dark" : system.matches;
+    }
+
+    /** Make the switch work; `changed` is called whenever the page gets light or dark. */
+    listen(changed, signal) {
+      const button = this.root.querySelector("#theme");
+      const show = () => {
+        if (button) button.setAttribute("aria-pressed", String(this.isDark()));
+        changed();
+      };
+      if (button && !this.root.host) {
+        button.hidden = false;
+        button.addEventListener("click", () => {
+          this.owner.dataset.theme = this.isDark() ? "light" : "dark";
+        }, { signal });
+      }
+      const watched = new MutationObserver(show);
+      watched.observe(this.owner, { attributeFilter: ["data-theme"] });
+      signal.addEventListener("abort", () => watched.disconnect());
+      system.addEventListener("change", show, { signal });
       show();
-    });
-    dark.addEventListener("change", show);
-    show();
+    }
   }
 
-  return { isDark, listen };
+  return { Theme };
 })();

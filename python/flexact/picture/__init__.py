@@ -16,6 +16,7 @@ from .make import (
     has_packages,
     picture_bytes,
 )
+from .model import model_bytes
 from .shape import shape_bytes
 from .subject import SubjectError
 from .video import VideoError
@@ -33,6 +34,7 @@ __all__ = [
     "check_view",
     "draw",
     "has_packages",
+    "model_bytes",
     "picture_bytes",
     "shape_bytes",
 ]

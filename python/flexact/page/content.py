@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What stands within a page of a result, or of a deck that cannot be analysed: HTML and its data."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from ..advice.spaces.spaces import Spaces
+from ..base.errors import require_kind
+from ..base.plain_text import file_name
+from ..diagnostics.errors import ProblemsError
+from ..drawing import drawing_of
+from ..result.result import Result
+from ..text.describe import VerdictInWords, verdict_in_words
+from ..text.margin import verdict_word
+from ..text.warnings import warnings_of
+from .controls_part import choices_part, keys, layers, toolbar
+from .deck_part import deck_of_model, deck_part
+from .drawing_data import frames_of
+from .drawing_part import drawing_part
+from .markup import folded, section, text
+from .modes_part import motions_part, stresses_part
+from .origin_part import origin_part
+from .verdict_part import BROKEN, advice_part, advised, decision_part, head, kind_of, verdict
+from .viewer_data import left_out, stuck_in, viewer_data
+
+
+class Content(NamedTuple):
+    """A page without what is around it."""
+
+    title: str
+    """As text."""
+    body: str
+    """As HTML, with the data of the drawing."""
+    kind: str
+    """The class of the verdict, such as "exact", or "broken"."""
+
+
+def content_of(
+    analysis: Result,
+    still: bytes | None = None,
+    spaces: Spaces | None = None,
+    *,
+    is_short: bool = False,
+) -> Content:
+    """What stands within the page of a result.
+
+    Args:
+        analysis: The result.
+        still: A picture of it, as PNG, for browsers without scripts or WebGL.
+        spaces: The freedom space and the constraint space of a body, to be switched on.
+        is_short: Whether tables, decision and deck are folded away, as among other things.
+    """
+    require_kind(analysis, Result, "a page is that of a result")
+    (frame,) = frames_of(drawing_of(analysis.given))
+    data = viewer_data(analysis, frame, spaces)
+    every = warnings_of(analysis)
+    name = file_name(analysis.name)
+    raw, is_written = deck_of_model(analysis.given)
+    drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
+    warnings = [item for item in every if item.line == 0]
+    in_deck = [item for item in every if item.line > 0]
+    words = str(verdict_in_words(analysis))
+    advice = advised(analysis)
+    stuck = stuck_in(analysis)
+    below = toolbar(data) + keys(data)
+    tables = (motions_part(analysis, drawn), stresses_part(analysis), decision_part(analysis))
+    origin = (
+        deck_part(raw, in_deck, is_written),
+        origin_part(raw, name, analysis, is_written),
+    )
+    if is_short:
+        tables, origin = (
+            (folded("Motions, self-stresses, counts and decision", *tables),),
+            (folded("Deck and versions", *origin),),
+        )
+    body = (
+        verdict(analysis, name, advice),
+        '<main class="viewer">',
+        drawing_part(data, still, words, below, left_out(analysis, data)),
+        '<div class="side">',
+        choices_part(data, stuck, layers(data)),
+        advice_part(advice),
+        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
+        *tables,
+        "</div>",
+        '<div class="below">',
+        *origin,
+        "</div></main>",
+    )
+    title = f"{name or 'model'}: {verdict_word(analysis)}"
+    return Content(title, "\n".join(body), kind_of(analysis)[0])
+
+
+def broken_content(error: Exception, name: str) -> Content:
+    """What stands within the page of a deck that cannot be analysed; it says why.
+
+    Args:
+        error: Why: with diagnostics, or a sentence.
+        name: The deck's file name.
+    """
+    name = file_name(name)
+    words = reason_in_words(error)
+    raw, told = b"", ""
+    if isinstance(error, ProblemsError):
+        raw = error.source.text if error.source is not None else b""
+        told = deck_part(raw, error.diagnostics)
+    body = (
+        head(
+            *BROKEN,
+            VerdictInWords("Cannot be analysed", words),
+            f'<span class="name">{text(name)}</span>',
+        ),
+        '<main class="plain">',
+        told,
+        origin_part(raw, name, None, False) if raw else "",
+        "</main>",
+    )
+    return Content(f"{name}: cannot be analysed", "\n".join(body), BROKEN[0])
+
+
+def reason_in_words(error: Exception) -> str:
+    """Why a deck cannot be analysed, in a few words."""
+    if isinstance(error, ProblemsError):
+        count = error.problems.errors
+        return f"{count} error{'s' * (count != 1)}"
+    return str(error) or "not enough memory"
+
+
+def _note(item: Any) -> str:
+    hint = f" {text(item.help)}" if item.help else ""
+    return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
