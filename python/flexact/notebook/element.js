@@ -65,7 +65,7 @@
       this.openAgain();
       this.mounted = Main.mount(this.shadowRoot);
       alive.add(this);
-      if (this.view) this.mounted.restore(this.view);
+      if (this.view) this.restore();
       this.mounted.viewers.forEach(listenToWheel);
       if (!this.mounted.viewers.length) this.stand();
     }
@@ -77,12 +77,21 @@
       this.opened = Array.from(this.page.querySelectorAll("details"), ({ open }) => open);
       if (this.mounted.viewers.length) {
         this.view = this.mounted.view();
-        const ratio = Math.min(window.devicePixelRatio || 1, 2);
-        for (const viewer of this.mounted.viewers) Printing.draw(viewer, ratio);
+        this.cycles = this.mounted.viewers.map(({ player }) => player.cycle);
+        this.mounted.viewers.forEach(Printing.draw);
         this.page.classList.add("asleep");
       }
       this.mounted.dispose();
       this.mounted = null;
+    }
+
+    /** What somebody has chosen; the notebook stays where it is. */
+    restore() {
+      this.mounted.restore({ ...this.view, scroll: [window.scrollX, window.scrollY] });
+      this.mounted.viewers.forEach((viewer, k) => {
+        viewer.player.cycle = this.cycles[k];
+        viewer.movePhase(viewer.player.phase);
+      });
     }
 
     openAgain() {

@@ -35,6 +35,7 @@ SCRIPTS = (
     "theme.js",
     "printing.js",
     "viewer.js",
+    "views.js",
     "main.js",
     "start.js",
 )

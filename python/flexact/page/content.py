@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands within a page of a result, or of a deck that cannot be analysed: HTML and its data."""
+"""What a page of a deck holds, to stand in a page of its own or in another."""
 
 from __future__ import annotations
 
@@ -21,19 +21,22 @@ from .drawing_part import drawing_part
 from .markup import folded, section, text
 from .modes_part import motions_part, stresses_part
 from .origin_part import origin_part
-from .verdict_part import BROKEN, advice_part, advised, decision_part, head, kind_of, verdict
+from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
 from .viewer_data import left_out, stuck_in, viewer_data
 
 
 class Content(NamedTuple):
-    """A page without what is around it."""
+    """What stands in the body of a page.
+
+    Attributes:
+        title: Of the page, as text.
+        body: HTML, with the data of its drawing.
+        kind: "result", or "broken" where the deck cannot be analysed.
+    """
 
     title: str
-    """As text."""
     body: str
-    """As HTML, with the data of the drawing."""
     kind: str
-    """The class of the verdict, such as "exact", or "broken"."""
 
 
 def content_of(
@@ -43,13 +46,13 @@ def content_of(
     *,
     is_short: bool = False,
 ) -> Content:
-    """What stands within the page of a result.
+    """What the page of a result holds.
 
     Args:
         analysis: The result.
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
         spaces: The freedom space and the constraint space of a body, to be switched on.
-        is_short: Whether tables, decision and deck are folded away, as among other things.
+        is_short: Whether tables and deck are folded away, as among other things.
     """
     require_kind(analysis, Result, "a page is that of a result")
     (frame,) = frames_of(drawing_of(analysis.given))
@@ -64,16 +67,11 @@ def content_of(
     advice = advised(analysis)
     stuck = stuck_in(analysis)
     below = toolbar(data) + keys(data)
-    tables = (motions_part(analysis, drawn), stresses_part(analysis), decision_part(analysis))
-    origin = (
-        deck_part(raw, in_deck, is_written),
-        origin_part(raw, name, analysis, is_written),
-    )
+    tables = motions_part(analysis, drawn), stresses_part(analysis), decision_part(analysis)
+    origin = deck_part(raw, in_deck, is_written), origin_part(raw, name, analysis, is_written)
     if is_short:
-        tables, origin = (
-            (folded("Motions, self-stresses, counts and decision", *tables),),
-            (folded("Deck and versions", *origin),),
-        )
+        tables = (folded("Motions, self-stresses and decision", *tables),)
+        origin = (folded("Deck and versions", *origin),)
     body = (
         verdict(analysis, name, advice),
         '<main class="viewer">',
@@ -89,11 +87,11 @@ def content_of(
         "</div></main>",
     )
     title = f"{name or 'model'}: {verdict_word(analysis)}"
-    return Content(title, "\n".join(body), kind_of(analysis)[0])
+    return Content(title, "\n".join(body), "result")
 
 
 def broken_content(error: Exception, name: str) -> Content:
-    """What stands within the page of a deck that cannot be analysed; it says why.
+    """What the page of a deck holds that cannot be analysed: why.
 
     Args:
         error: Why: with diagnostics, or a sentence.
@@ -116,7 +114,7 @@ def broken_content(error: Exception, name: str) -> Content:
         origin_part(raw, name, None, False) if raw else "",
         "</main>",
     )
-    return Content(f"{name}: cannot be analysed", "\n".join(body), BROKEN[0])
+    return Content(f"{name}: cannot be analysed", "\n".join(body), "broken")
 
 
 def reason_in_words(error: Exception) -> str:

@@ -9,6 +9,7 @@ const Controls = (() => {
   class Choices {
     constructor(viewer) {
       Object.assign(this, { viewer, root: viewer.root });
+      this.picked = new Map(); // what a person has chosen, by its words
       const act = {
         movement: (value) => viewer.showMovement(value === "" ? -1 : Number(value)),
         stress: (value) => viewer.showStress(value === "" ? -1 : Number(value)),
@@ -17,7 +18,10 @@ const Controls = (() => {
       };
       for (const [name, show] of Object.entries(act)) {
         for (const input of this.inputs(name)) {
-          input.addEventListener("change", () => show(input.value));
+          input.addEventListener("change", () => {
+            this.picked.set(name, this.words(input));
+            show(input.value);
+          });
         }
       }
       for (const button of this.root.querySelectorAll("button[data-show]")) {
@@ -38,6 +42,18 @@ const Controls = (() => {
       if (!input) return;
       input.checked = true;
       input.dispatchEvent(new Event("change", { bubbles: true }));
+    }
+
+    words(input) {
+      return input.title || input.parentElement.textContent;
+    }
+
+    /** Choose again what has the same words. */
+    restore(picked) {
+      for (const [name, words] of Object.entries(picked)) {
+        const input = this.inputs(name).find((each) => this.words(each) === words);
+        if (input) this.choose(name, input.value);
+      }
     }
 
     /** Fit what can be chosen to what is shown. */
@@ -65,27 +81,36 @@ const Controls = (() => {
       for (const viewer of viewers) this.listenToKeys(viewer);
     }
 
-    get playing() {
-      return this.viewers.some(({ movement, player }) => movement && player.playing);
-    }
-
-    /** Layers, and where the sliders are. */
+    /** What has been set, as plain data. */
     view() {
-      return {
-        layers: Object.fromEntries(this.layers.map((each) => [each.dataset.layer, each.checked])),
-        amplitude: this.amplitude.value, speed: this.speed.value,
-      };
+      const layers = this.layers.map(({ dataset, checked }) => [dataset.layer, checked]);
+      const { amplitude, speed } = this;
+      const values = { amplitude: amplitude.value, speed: speed.value };
+      const cycle = this.viewers[0].player.cycle;
+      const playing = this.viewers[0].player.playing;
+      return { layers: Object.fromEntries(layers), ...values, playing, cycle };
     }
 
-    restore({ layers, amplitude, speed }) {
-      Object.assign(this.amplitude, { value: amplitude });
-      Object.assign(this.speed, { value: speed });
+    /** Set it again. */
+    restore({ layers, amplitude, speed, playing, cycle }) {
       for (const input of this.layers) {
         const on = layers[input.dataset.layer];
         if (on === undefined || on === input.checked) continue;
         input.checked = on;
         input.dispatchEvent(new Event("change", { bubbles: true }));
       }
+      for (const [input, value] of [[this.amplitude, amplitude], [this.speed, speed]]) {
+        input.value = value;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+      }
+      for (const viewer of this.viewers) {
+        viewer.player.cycle = cycle;
+        viewer.play(playing);
+      }
+    }
+
+    get playing() {
+      return this.viewers.some(({ movement, player }) => movement && player.playing);
     }
 
     playOrPause() {

@@ -7,8 +7,8 @@ const Links = (() => {
 
   class Links {
     /**
-     * Within `root`. `marked({element, node})` is called when something is named, `chosen` when it is pressed;
-     * `owns(element)` tells what of the page is meant.
+     * `marked({element, node})` is called when something is named, `chosen` when it is pressed;
+     * `owns(element)` tells what within the root is meant.
      */
     constructor(root, owns, marked, chosen) {
       Object.assign(this, { marked, chosen });

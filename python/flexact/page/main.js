@@ -1,38 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Brings a page, or a part of one, to life: its drawings where there is WebGL, else the still
-// pictures stay. Several are seen from the same side, and play in step.
+// Starts what a root holds, the body of a page or any other element or shadow root: its drawings
+// where there is WebGL, else the still pictures stay. Several drawings of a root are seen from the
+// same side, and play in step.
 
 const Main = (() => {
   const MANY = 1000; // members
 
   /**
-   * Bring to life what is within an element or a shadow root.
-   *
-   * `view()` tells what somebody has chosen as plain values, which `restore` takes again;
-   * `dispose()` gives everything back, and leaves the page as it looks.
+   * Start the drawings of a root. What it returns: its `viewers`; `view()`, what a person has
+   * chosen, as plain data; `restore(view)`, which chooses it again in another scene as far as
+   * it is there; `dispose()`, which frees what the drawings hold.
    */
   function mount(root) {
-    const roots = Array.from(root.querySelectorAll(".viewer"));
-    const ending = new AbortController(), theme = new Theme.Theme(root);
-    const found = roots.map((root) => ({ root, data: PageData.read(root) }))
-      .map(({ root, data }) => ({ root, data, context: contextOf(root, data) }));
-    const viewers = found.every(({ context }) => context) ? found.map((each) => make(each, theme)) : [];
+    const ending = new AbortController();
+    const found = Array.from(root.querySelectorAll(".viewer"))
+      .map((each) => ({ root: each, data: PageData.read(each) }))
+      .map(({ root: each, data }) => ({ root: each, data, context: contextOf(each, data) }));
+    const viewers = found.every(({ context }) => context) ? found.map(make) : [];
     const toolbar = viewers.length ? show(root, viewers) : null;
-    theme.listen(() => viewers.forEach((viewer) => viewer.dress()), ending.signal);
-    Printing.listen(root, theme, viewers, ending.signal);
-    return {
-      viewers,
-      view: () => ({ viewers: viewers.map((each) => each.view()), ...(toolbar && toolbar.view()) }),
-      restore(view) {
-        if (toolbar) toolbar.restore(view);
-        viewers.forEach((each, k) => view.viewers[k] && each.restore(view.viewers[k]));
-      },
-      dispose() {
-        ending.abort();
-        for (const each of viewers) each.dispose();
-      },
+    Theme.listen(root, () => viewers.forEach((viewer) => viewer.dress()), ending.signal);
+    Printing.listen(root, viewers, ending.signal);
+    const dispose = () => {
+      ending.abort();
+      for (const { stage } of viewers) stage.dispose();
     };
+    return { viewers, dispose, ...Views.of(root, viewers, toolbar) };
   }
 
   function contextOf(root, data) {
@@ -41,11 +34,11 @@ const Main = (() => {
     return root.querySelector(".canvas").getContext("webgl2", { alpha: true, antialias });
   }
 
-  function make({ root, data, context }, theme) {
+  function make({ root, data, context }) {
     root.classList.add("live");
     root.querySelector(".still").hidden = true;
     root.querySelector(".interactive").hidden = root.querySelector(".choices").hidden = false;
-    return new Viewer.Viewer(root, data, context, theme);
+    return new Viewer.Viewer(root, data, context);
   }
 
   function show(root, viewers) {
@@ -65,6 +58,7 @@ const Main = (() => {
       viewer.showStress(-1);
       viewer.stage.look("iso");
       for (const [name, value] of viewer.data.first) viewer.choices.choose(name, value);
+      viewer.choices.picked.clear();
     }
     return toolbar;
   }
@@ -79,6 +73,11 @@ const Main = (() => {
       links.light(target);
       tell(viewer, found);
     });
+    viewer.pointing.clicked = (found) => {
+      const target = found ? { ...viewer.targetOf(found), kind: found.kind } : {};
+      const told = { detail: target, bubbles: true, composed: true };
+      viewer.root.dispatchEvent(new CustomEvent("flexact-click", told));
+    };
   }
 
   /** Words beside the pointer. */

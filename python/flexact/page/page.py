@@ -10,23 +10,12 @@ from .content import broken_content, content_of
 
 
 def page(analysis: Result, still: bytes | None = None, spaces: Spaces | None = None) -> str:
-    """The page of a result.
-
-    Args:
-        analysis: The result.
-        still: A picture of it, as PNG, for browsers without scripts or WebGL.
-        spaces: The freedom space and the constraint space of a body, to be switched on.
-    """
+    """The page of a result; arguments as those of `content_of`."""
     content = content_of(analysis, still, spaces)
     return filled(content.title, content.body, SCRIPTS)
 
 
 def broken_page(error: Exception, name: str) -> str:
-    """The page of a deck that cannot be analysed; it says why.
-
-    Args:
-        error: Why: with diagnostics, or a sentence.
-        name: The deck's file name.
-    """
+    """The page of a deck that cannot be analysed; it says why."""
     content = broken_content(error, name)
     return filled(content.title, content.body, PLAIN_SCRIPTS)

@@ -2,9 +2,5 @@
 "use strict";
 // Starts a page without a drawing.
 
-(() => {
-  const { signal } = new AbortController();
-  const theme = new Theme.Theme(document.body);
-  theme.listen(() => {}, signal);
-  Printing.listen(document.body, theme, [], signal);
-})();
+Theme.listen(document.body, () => {});
+Printing.listen(document.body, []);

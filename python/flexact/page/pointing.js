@@ -4,6 +4,7 @@
 
 const Pointing = (() => {
   const REACH = 8; // pixels
+  const STILL = 4; // pixels that the pointer may move in a click
 
   class Pointing {
     /** `found({kind, row, x, y})` is called when something else is pointed at; null for nothing. */
@@ -15,7 +16,17 @@ const Pointing = (() => {
         if (event.buttons) this.clear();
         else this.later(event);
       });
-      canvas.addEventListener("pointerup", (event) => this.later(event));
+      this.clicked = () => {}; // called with what is clicked; null for nothing
+      canvas.addEventListener("pointerdown", ({ offsetX, offsetY }) => {
+        this.pressed = [offsetX, offsetY];
+      });
+      canvas.addEventListener("pointerup", (event) => {
+        this.later(event);
+        const [x, y] = this.pressed || [Infinity, Infinity];
+        this.pressed = null;
+        if (Math.hypot(event.offsetX - x, event.offsetY - y) > STILL) return;
+        this.clicked(this.look(event.offsetX, event.offsetY));
+      });
       canvas.addEventListener("pointerleave", () => this.clear());
     }
 

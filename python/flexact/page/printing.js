@@ -6,12 +6,13 @@
 const Printing = (() => {
   const RATIO = 2; // pixels of the still for one of the canvas
 
-  function listen(root, theme, viewers, signal) {
-    const { dataset } = theme.owner;
+  /** Until the signal, where there is one. */
+  function listen(root, viewers, signal) {
+    const { dataset } = Theme.ownerOf(root);
     let closed = [];
-    let before = null;
+    let theme = null;
     window.addEventListener("beforeprint", () => {
-      before = dataset.theme;
+      theme = dataset.theme;
       dataset.theme = "light";
       closed = Array.from(root.querySelectorAll("details:not([open])"));
       for (const each of closed) each.open = true;
@@ -19,23 +20,23 @@ const Printing = (() => {
     }, { signal });
     window.addEventListener("afterprint", () => {
       for (const each of closed) each.open = false;
-      if (before) dataset.theme = before;
+      if (theme) dataset.theme = theme;
       else delete dataset.theme;
       for (const each of viewers) each.dress();
     }, { signal });
   }
 
-  /** A still of the drawing as it is now. */
-  function draw(viewer, ratioOfStill = RATIO) {
+  /** Leave a still of what is seen. */
+  function draw(viewer) {
     const still = viewer.part("on-paper");
     const { stage } = viewer;
     const { renderer } = stage;
     const ratio = renderer.getPixelRatio();
     viewer.dress();
-    renderer.setPixelRatio(ratioOfStill);
+    renderer.setPixelRatio(RATIO);
     stage.draw();
-    still.width = stage.width * ratioOfStill;
-    still.height = stage.height * ratioOfStill;
+    still.width = stage.width * RATIO;
+    still.height = stage.height * RATIO;
     const context = still.getContext("2d");
     context.drawImage(stage.canvas, 0, 0, still.width, still.height);
     context.drawImage(viewer.overlay.canvas, 0, 0, still.width, still.height);

@@ -36,8 +36,8 @@ const Stage = (() => {
       this.renderer.outputColorSpace = "srgb-linear";
       this.illuminate();
       this.control();
-      this.resized = new ResizeObserver(() => this.fill());
-      this.resized.observe(canvas.parentElement);
+      this.observer = new ResizeObserver(() => this.fill());
+      this.observer.observe(canvas.parentElement);
       canvas.addEventListener("webglcontextrestored", () => this.request());
       this.fill();
     }
@@ -92,6 +92,37 @@ const Stage = (() => {
       const aspect = this.width / this.height;
       Object.assign(this.camera, { left: -aspect / 2, right: aspect / 2, top: 0.5, bottom: -0.5 });
       this.camera.updateProjectionMatrix();
+    }
+
+    /** Free what the stage holds; it cannot be drawn on any more. */
+    dispose() {
+      this.disposed = true;
+      cancelAnimationFrame(this.waiting);
+      clearTimeout(this.resting);
+      this.observer.disconnect();
+      this.controls.dispose();
+      this.renderer.dispose();
+      this.renderer.forceContextLoss();
+    }
+
+    /** From where it is seen, as plain data. */
+    looks() {
+      const { camera, controls, fitted } = this;
+      const target = controls.target.toArray();
+      return { eye: camera.position.toArray(), target, zoom: camera.zoom, fitted };
+    }
+
+    /** Be seen from there again; what was fitted is fitted. */
+    lookAgain({ eye, target, zoom, fitted }) {
+      this.camera.position.set(...eye);
+      this.controls.target.set(...target);
+      this.camera.zoom = zoom;
+      this.camera.updateProjectionMatrix();
+      this.controls.update();
+      this.fitted = fitted;
+      if (fitted) this.fit();
+      this.lead();
+      this.request();
     }
 
     /** Look along a named direction, and fit. */
@@ -206,36 +237,6 @@ const Stage = (() => {
       this.request();
     }
 
-    /** From where it is seen, as plain values. */
-    seenFrom() {
-      const { camera, controls, fitted } = this;
-      return { position: camera.position.toArray(), target: controls.target.toArray(),
-        zoom: camera.zoom, fitted };
-    }
-
-    seeFrom({ position, target, zoom, fitted }) {
-      this.camera.position.fromArray(position);
-      this.controls.target.fromArray(target);
-      this.camera.zoom = zoom;
-      this.camera.updateProjectionMatrix();
-      this.controls.update();
-      if (fitted) this.fit();
-      else this.fitted = false;
-      this.lead();
-      this.request();
-    }
-
-    /** Draw no more, and free the context: a browser has some sixteen for all of a page. */
-    dispose() {
-      this.disposed = true;
-      cancelAnimationFrame(this.waiting);
-      clearTimeout(this.resting);
-      this.resized.disconnect();
-      this.controls.dispose();
-      this.renderer.dispose();
-      this.renderer.forceContextLoss();
-    }
-
     /** Where a place is on the canvas, in CSS pixels, and how far from the eye. */
     project(x, y, z) {
       const seen = new Vector3(x, y, z).project(this.camera);
@@ -276,7 +277,7 @@ const Stage = (() => {
       clearTimeout(this.resting);
       this.resting = setTimeout(() => {
         // What has been asked for meanwhile is not at rest.
-        if (this.waiting || this.disposed) return;
+        if (this.waiting) return;
         this.lighten(false);
         this.draw();
       }, REST);

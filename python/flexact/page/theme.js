@@ -1,42 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 "use strict";
-// Light or dark: as the system has it, until somebody switches; or as the host of a part says.
+// Light or dark: as the system has it, until somebody switches.
 
 const Theme = (() => {
-  const system = window.matchMedia("(prefers-color-scheme: dark)");
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
 
-  class Theme {
-    /** The theme of a page, or of a shadow tree, whose host has it. */
-    constructor(root) {
-      this.root = root;
-      this.owner = root.host || document.documentElement;
-    }
+  /** Where light or dark stands: on the page, or on the host of a tree of its own. */
+  const ownerOf = (part) => part.getRootNode().host || document.documentElement;
 
-    isDark() {
-      const chosen = this.owner.dataset.theme;
-      return chosen ? chosen === "dark" : system.matches;
-    }
-
-    /** Make the switch work; `changed` is called whenever the page gets light or dark. */
-    listen(changed, signal) {
-      const button = this.root.querySelector("#theme");
-      const show = () => {
-        if (button) button.setAttribute("aria-pressed", String(this.isDark()));
-        changed();
-      };
-      if (button && !this.root.host) {
-        button.hidden = false;
-        button.addEventListener("click", () => {
-          this.owner.dataset.theme = this.isDark() ? "light" : "dark";
-        }, { signal });
-      }
-      const watched = new MutationObserver(show);
-      watched.observe(this.owner, { attributeFilter: ["data-theme"] });
-      signal.addEventListener("abort", () => watched.disconnect());
-      system.addEventListener("change", show, { signal });
-      show();
-    }
+  function isDark(part) {
+    const chosen = ownerOf(part).dataset.theme;
+    return chosen ? chosen === "dark" : dark.matches;
   }
 
-  return { Theme };
+  /**
+   * Make the switch within the root work, where there is one; `changed` is called whenever the
+   * page gets light or dark, until the signal.
+   */
+  function listen(root, changed, signal) {
+    const button = root.querySelector("#theme");
+    const show = () => {
+      if (button) button.setAttribute("aria-pressed", String(isDark(root)));
+      changed();
+    };
+    if (button && !root.host) {
+      button.hidden = false;
+      button.addEventListener("click", () => {
+        document.documentElement.dataset.theme = isDark(root) ? "light" : "dark";
+        show();
+      });
+    }
+    dark.addEventListener("change", show, { signal });
+    show();
+  }
+
+  return { isDark, listen, ownerOf };
 })();

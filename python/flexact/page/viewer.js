@@ -11,8 +11,8 @@ const Viewer = (() => {
 
   class Viewer {
     /** A viewer of some data in the part of the page that is its root. */
-    constructor(root, data, context, theme) {
-      Object.assign(this, { root, data, theme });
+    constructor(root, data, context) {
+      Object.assign(this, { root, data });
       this.peers = []; // viewers that look from the same side, and play in step
       this.changed = () => {}; // called when something else is shown
       this.pose = Tracks.reference(data);
@@ -268,7 +268,7 @@ const Viewer = (() => {
 
     /** The page has become light or dark. */
     dress() {
-      const chrome = CHROME[this.theme.isDark() ? "dark" : "light"];
+      const chrome = CHROME[Theme.isDark(this.root) ? "dark" : "light"];
       this.members.dress(chrome);
       this.bodies.dress(chrome);
       this.spaces.dress(chrome);
@@ -293,38 +293,6 @@ const Viewer = (() => {
         one.peers.push(two);
         one.stage.peers.push(two.stage);
       }
-    }
-
-    /** What somebody has chosen, as plain values; titles outlast a change of the mechanism. */
-    view() {
-      const { movement, stress, quantity, space, player, stage } = this;
-      const title = (each) => (each ? each.title : "");
-      return {
-        movement: title(movement), stress: title(stress), space: title(space), quantity,
-        playing: player.playing, cycle: player.cycle, amplitude: player.amplitude,
-        speed: player.speed, camera: stage.seenFrom(),
-      };
-    }
-
-    /** Show what `view` tells, but for what is not there any more. */
-    restore(view) {
-      const { data, player, stage, choices } = this;
-      for (const [name, all] of [["movement", data.movements], ["stress", data.stresses],
-        ["space", data.spaces]]) {
-        const which = all.findIndex(({ title }) => title === view[name]);
-        if (which >= 0 || !view[name]) choices.choose(name, which < 0 ? "" : String(which));
-      }
-      if (this.quantities.includes(view.quantity)) choices.choose("quantity", view.quantity);
-      Object.assign(player, { cycle: view.cycle, amplitude: view.amplitude, speed: view.speed });
-      stage.seeFrom(view.camera);
-      if (this.movement) this.movePhase(player.phase);
-      this.play(view.playing);
-    }
-
-    /** Give the graphics card back what it holds. */
-    dispose() {
-      this.player.playing = false;
-      this.stage.dispose();
     }
 
     caption() {
