@@ -67,10 +67,16 @@ def content_of(
     advice = advised(analysis)
     stuck = stuck_in(analysis)
     below = toolbar(data) + keys(data)
-    tables = motions_part(analysis, drawn), stresses_part(analysis), decision_part(analysis)
+    tables = (
+        advice_part(advice),
+        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
+        motions_part(analysis, drawn),
+        stresses_part(analysis),
+        decision_part(analysis),
+    )
     origin = deck_part(raw, in_deck, is_written), origin_part(raw, name, analysis, is_written)
     if is_short:
-        tables = (folded("Motions, self-stresses and decision", *tables),)
+        tables = (folded("What can be done, tables, decision", *tables),)
         origin = (folded("Deck and versions", *origin),)
     body = (
         verdict(analysis, name, advice),
@@ -78,8 +84,6 @@ def content_of(
         drawing_part(data, still, words, below, left_out(analysis, data)),
         '<div class="side">',
         choices_part(data, stuck, layers(data)),
-        advice_part(advice),
-        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
         *tables,
         "</div>",
         '<div class="below">',
