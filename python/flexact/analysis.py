@@ -90,9 +90,9 @@ class Analysis(Result):
         """Write the result to a file, whole or not at all.
 
         Args:
-            path: Its suffix says what it is to be: a picture (.png, .svg, .pdf, or
-                .gif, .mp4 and .webm, which move; `flexact.picture`), a page (.html; `flexact.page`), a cycle for ParaView (.pvd),
-                or a mesh (.vtu, .vtp, .vtk, .xdmf, ...; `flexact.mesh`).
+            path: Its suffix says what it is to be: a picture (.png, .svg, .pdf, or .gif, .mp4 and
+                .webm, which move; `flexact.picture`), a page (.html; `flexact.page`), a cycle for
+                ParaView (.pvd), or a mesh (.vtu, .vtp, .vtk, .xdmf, ...; `flexact.mesh`).
             motion: Number of the motion that is shown, from 1; of pictures and meshes.
             freedom: Number of the declared degree of freedom that is shown, likewise.
             stress: Number of the self-stress that is shown, of pictures.

@@ -391,16 +391,6 @@ def test_an_index_of_entries() -> None:
     assert words.count("margin 10 um") == 1
 
 
-def test_a_notebook_shows_the_page_and_words() -> None:
-    analysis = flexact.analyse(twelve_trusses())
-    cell = analysis._repr_html_()
-    found = re.search(r'srcdoc="([^"]*)"', cell)
-    assert found and html.unescape(found[1]) == page(analysis)
-    without = cell.replace(found[0], "")
-    assert analysis.describe() in html.unescape(without)
-    assert str(verdict_in_words(analysis)) in without
-
-
 def test_every_script_is_embedded() -> None:
     assert {path.name for path in PAGE.glob("*.js")} == {*SCRIPTS, "plain.js"}
 

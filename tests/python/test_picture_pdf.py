@@ -83,7 +83,9 @@ def test_the_same_result_gives_the_same_bytes_in_every_process(tmp_path: Path) -
     assert made[0] == made[1]
 
 
-@pytest.mark.parametrize("name", ["a (b) \\ c", "\u00e9 \u2192 \U0001f600", "\ud800\x00\x1b[31m", "$x_1$"])
+@pytest.mark.parametrize(
+    "name", ["a (b) \\ c", "\u00e9 \u2192 \U0001f600", "\ud800\x00\x1b[31m", "$x_1$"]
+)
 def test_any_name_makes_a_title(name: str, tmp_path: Path) -> None:
     analysis = flexact.analyse(of_text(tmp_path, COLLINEAR).model, name=name)
     content = picture_bytes(analysis, ".pdf", size=(200, 150))
@@ -96,7 +98,11 @@ def test_every_picture_of_the_command_can_be_a_pdf(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     hinge = str(INPUT / "flexures" / "cross_hinge_undeclared.dat")
-    for verb, more in (("picture", ()), ("advise", ("--body", "body")), ("trace", ("--motion", "1"))):
+    for verb, more in (
+        ("picture", ()),
+        ("advise", ("--body", "body")),
+        ("trace", ("--motion", "1")),
+    ):
         target = tmp_path / f"{verb}.pdf"
         assert main([verb, hinge, *more, "-o", str(target)]) == 0
         assert target.read_bytes().startswith(b"%PDF")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from browser import Browser, browser, chromium  # noqa: F401
+from browser import Browser
 from pictures import deck, of_text
 from reference_decks import ROOT
 from small_decks import COLLINEAR, files_in
@@ -91,7 +91,10 @@ def frame_at(browser: Browser, frame: int) -> np.ndarray:
 
 @pytest.mark.parametrize(("suffix", "kind"), [(".mp4", "video/mp4"), (".webm", "video/webm")])
 def test_a_browser_plays_what_the_gif_shows(
-    suffix: str, kind: str, browser: Browser, tmp_path: Path  # noqa: F811
+    suffix: str,
+    kind: str,
+    browser: Browser,
+    tmp_path: Path,
 ) -> None:
     require_encoder(suffix)
     analysis = deck("paper/twelve_trusses")

@@ -56,8 +56,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE",
-        help="the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values and places "
-        "along the path; .pvd, a cycle that plays in ParaView",
+        help="the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values and "
+        "places along the path; .pvd, a cycle that plays in ParaView",
     )
     add_decision(parser)
     parser.set_defaults(run=trace_deck, accuracy=None)

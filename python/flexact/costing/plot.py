@@ -9,7 +9,6 @@ from ..base.plain_text import file_name
 from ..drawing.charts.values import BarChart, Chart
 from ..picture.bar_charts import bars_height, draw_bars
 from ..picture.charts import draw_chart
-from ..picture.files import STILLS as SUFFIXES
 from ..picture.files import png_bytes, still_bytes
 from ..picture.loading import load_matplotlib
 from ..picture.make import check_packages

@@ -15,8 +15,8 @@ from ..page.assets import SCRIPTS, asset
 
 #: What starts a page from disk is left out.
 _START = "start.js"
-_REM = re.compile(r"(?<![\w.-])(\d*\.?\d+)rem\b")
-_VW = re.compile(r"(?<![\w.-])(\d*\.?\d+)vw\b")
+_REM = re.compile(r"(?<![\w.])(\d*\.?\d+)rem\b")
+_VW = re.compile(r"(?<![\w.])(\d*\.?\d+)vw\b")
 _WIDTHS = re.compile(r"@media \((m(?:in|ax)-width: [^)]*)\)")
 
 

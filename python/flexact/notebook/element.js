@@ -36,7 +36,8 @@
     /** A tree of its own, with its own styles; at first it shows the still picture. */
     furnish() {
       const tree = this.attachShadow({ mode: "open" });
-      tree.innerHTML = `<style>${style}</style><div class="page"><slot></slot></div>`;
+      tree.innerHTML = `<style>${style}</style>`
+        + '<div class="own"><div class="page"><slot></slot></div></div>';
       this.page = tree.querySelector(".page");
       this.addEventListener("pointerenter", () => this.wake());
       tree.addEventListener("keydown", keep);
@@ -111,8 +112,11 @@
       if (!link) return;
       event.preventDefault();
       const place = this.shadowRoot.getElementById(link.getAttribute("href").slice(1));
-      for (let each = place; each; each = each.parentElement) if (each.open === false) each.open = true;
-      if (place) place.scrollIntoView({ block: "nearest" });
+      if (!place) return;
+      for (const each of [...this.page.querySelectorAll("details")]) {
+        each.open = each.open || each.contains(place);
+      }
+      place.scrollIntoView({ block: "nearest" });
     }
   }
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..page.markup import text
-from ..result.modes import Mode, Modes, Motion, SelfStress
+from ..result.modes import Modes, Motion, SelfStress
 from ..result.result import Result
 from ..text.describe import MOST_MODES
 from ..text.motions import motion_in_parts
@@ -22,14 +22,13 @@ _PARTS = 6
 def html_of(analysis: Result, what: object) -> str | None:
     """A motion, a self-stress, or a row of them as a table; None of anything else."""
     if isinstance(what, Modes):
-        return _table(analysis, what.kind, tuple(what[:MOST_MODES]), len(what))
+        return _table(analysis, what.kind is Motion, tuple(what[:MOST_MODES]), len(what))
     if isinstance(what, (Motion, SelfStress)):
-        return _table(analysis, type(what), (what,), 1)
+        return _table(analysis, isinstance(what, Motion), (what,), 1)
     return None
 
 
-def _table(analysis: Result, kind: type[Mode], modes: Sequence[Mode], count: int) -> str:
-    moves = kind is Motion
+def _table(analysis: Result, moves: bool, modes: Sequence[Motion | SelfStress], count: int) -> str:
     what = "motion" if moves else "self-stress"
     if not count:
         return f"<p>No {what}{'s' if moves else 'es'}.</p>"
@@ -46,7 +45,8 @@ def _table(analysis: Result, kind: type[Mode], modes: Sequence[Mode], count: int
 def _row(analysis: Result, mode: Motion | SelfStress) -> tuple[str, str, str]:
     number = mode.index + 1
     if isinstance(mode, Motion):
-        title, lead, parts = f"Motion {number}", (), motion_in_parts(mode, _PARTS)
+        title, parts = f"Motion {number}", motion_in_parts(mode, _PARTS)
+        lead: Pieces = ()
         picture = still(analysis, SMALL, title, motion=number)
     else:
         title, lead = f"Self-stress {number}", conflict_in_words(mode)

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from html import escape
+
 from ..page.content import content_of
 from ..page.markup import text
 from ..result.result import Result
-from ..text.describe import verdict_in_words
+from ..text.describe import MOST_MODES, describe, verdict_in_words
 from ..text.margin import margin_in_short
 from .bundle import packed, script, tag
 from .given import begin, is_wanted
@@ -35,8 +37,10 @@ def _light(analysis: Result) -> str:
     head = f"<b>{text(words)}</b>"
     line = f"border-left:5px solid {analysis.colour};padding-left:10px"
     margin = text(margin_in_short(analysis).capitalize())
+    told = escape(describe(analysis, most=MOST_MODES))
     return (
         f"<div><p style='{line}'>{name}{head} {margin}.</p>{still(analysis, WHOLE, words)}"
+        f"<details><summary>In words</summary><pre>{told}</pre></details>"
         f"<p><small>{_HOW}</small></p></div>"
     )
 

@@ -18,6 +18,7 @@ from .controls_part import choices_part, keys, layers, toolbar
 from .deck_part import deck_of_model, deck_part
 from .drawing_data import frames_of
 from .drawing_part import drawing_part
+from .limits import FEW_SHAPES, MOST_SHAPES
 from .markup import folded, section, text
 from .modes_part import motions_part, stresses_part
 from .origin_part import origin_part
@@ -56,7 +57,7 @@ def content_of(
     """
     require_kind(analysis, Result, "a page is that of a result")
     (frame,) = frames_of(drawing_of(analysis.given))
-    data = viewer_data(analysis, frame, spaces)
+    data = viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
     every = warnings_of(analysis)
     name = file_name(analysis.name)
     raw, is_written = deck_of_model(analysis.given)
@@ -67,14 +68,17 @@ def content_of(
     advice = advised(analysis)
     stuck = stuck_in(analysis)
     below = toolbar(data) + keys(data)
-    tables = (
+    tables: tuple[str, ...] = (
         advice_part(advice),
         section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
         motions_part(analysis, drawn),
         stresses_part(analysis),
         decision_part(analysis),
     )
-    origin = deck_part(raw, in_deck, is_written), origin_part(raw, name, analysis, is_written)
+    origin: tuple[str, ...] = (
+        deck_part(raw, in_deck, is_written),
+        origin_part(raw, name, analysis, is_written),
+    )
     if is_short:
         tables = (folded("What can be done, tables, decision", *tables),)
         origin = (folded("Deck and versions", *origin),)

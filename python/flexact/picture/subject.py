@@ -118,7 +118,9 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
         SubjectError: Several were chosen.
     """
     if chosen.spaces is not None:
-        raise SubjectError("freedom and constraint spaces do not move: they are a PNG, an SVG or a PDF")
+        raise SubjectError(
+            "freedom and constraint spaces do not move: they are a PNG, an SVG or a PDF"
+        )
     if chosen.moves or chosen.is_stressed:
         made = _asked_for(analysis, drawing, chosen)
         if len(made) > 1:

@@ -74,8 +74,9 @@ def video_bytes(
         VideoError: There is no encoder, or it fails.
     """
     program, encoder = check_encoder(suffix)
-    height, width = (side + side % 2 for side in drawings[0].shape[:2])
-    frames = [_even(each).tobytes() for each in drawings]
+    even = [_even(each) for each in drawings]
+    height, width = even[0].shape[:2]
+    frames = [each.tobytes() for each in even]
     with tempfile.TemporaryDirectory(prefix="flexact-") as folder:
         made = Path(folder) / f"video{suffix}"
         command = [

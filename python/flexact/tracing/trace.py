@@ -25,7 +25,8 @@ class Trace(Traced):
 
         Args:
             path: Its suffix says what it is to be: .csv, a row a step; a picture (.png, .svg, .pdf)
-                of singular values and coordinates along the path; .pvd, a cycle that plays in ParaView.
+                of singular values and coordinates along the path; .pvd, a cycle that plays in
+                ParaView.
 
         Raises:
             FlexactError: There is no such kind of file, a package is missing, or the file cannot
