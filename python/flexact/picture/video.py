@@ -20,7 +20,7 @@ from ..base.plain_text import harmless
 
 #: Of each suffix the encoders that browsers can play, the best first, and what they are told.
 _H264 = ("-preset", "slow", "-crf", "16", "-tune", "animation", "-movflags", "+faststart")
-_ENCODERS = {
+_ENCODERS: dict[str, dict[str, tuple[str, ...]]] = {
     ".mp4": {"libx264": _H264, "libopenh264": ("-b:v", "4M", "-movflags", "+faststart")},
     ".webm": {"libvpx-vp9": ("-crf", "22", "-b:v", "0", "-deadline", "good", "-cpu-used", "2")},
 }
