@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .base.loading import load
 from .base.version import VERSION
-from .model.in_notebook import shown_in_notebooks_by
+from .model.showing import shown_by
 
 if TYPE_CHECKING:
     from .advising import Advice, Step
@@ -179,8 +179,12 @@ __all__ = [
     "viewer",
 ]
 
+
 # A model may know nothing of what stands on top of it.
-shown_in_notebooks_by(lambda model: load("flexact.notebook.models").html_of(model.data))
+shown_by(
+    lambda model, path: load("flexact.analysis").show_model(model, path),
+    lambda model: load("flexact.notebook.models").html_of(model.data),
+)
 
 
 def __getattr__(name: str) -> object:

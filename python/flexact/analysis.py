@@ -15,17 +15,27 @@ from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.models import read
 from .diagnostics.diagnostic import Diagnostic
+from .diagnostics.errors import ProblemsError
 from .mesh import to_meshio
 from .model.jacobian import jacobian
 from .model.model import Model
+from .page import broken_page, page
 from .result.accuracy import AccuracyGiven
-from .result.decompose import asked_for
+from .result.decompose import AnalysisError, asked_for
 from .result.result import Result, result_of
-from .saving import save
+from .saving import as_bytes, save
 from .text.describe import MOST_MODES, describe
 from .text.json_result import dictionary_of, text_of
 from .text.margin import margin_in_short
 from .text.warnings import warning_of, warnings_of
+from .watching.showing import (
+    InWords,
+    is_displayed,
+    is_taken,
+    open_page,
+    page_path,
+    write_page,
+)
 
 if TYPE_CHECKING:
     import meshio
@@ -112,6 +122,29 @@ class Analysis(Result):
             "view": view,
         }
         save(self, Path(path), choice)
+
+    def show(self, path: str | os.PathLike[str] | None = None) -> Path | None:
+        """Show the page of the result: in the browser, or in the notebook.
+
+        Where no browser can be opened, it is said where the page is.
+
+        Args:
+            path: Where the page is written, such as "guide.html"; by default a temporary file.
+
+        Returns:
+            Where the page is; None in a notebook, and in a script that `flexact watch` runs.
+
+        Raises:
+            FlexactError: The page cannot be written, or the path is not that of a page.
+        """
+        if is_taken(self) or (path is None and is_displayed(self)):
+            return None
+        if path is None:
+            # The still picture of `save` takes a while, and is for browsers elsewhere.
+            return open_page(write_page(as_bytes(page(self)), self.name))
+        target = page_path(path)
+        self.save(target)
+        return open_page(target)
 
     def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
         """What is wrong and why, and steps that mend it, each analysed before it is shown.
@@ -214,3 +247,18 @@ def analyse(
     if not isinstance(model, Model):
         model = read(model)
     return result_of(model.data, asked, name, progress, Analysis)
+
+
+def show_model(model: Model, path: str | os.PathLike[str] | None = None) -> Path | None:
+    """Analyse a model and show its page, or that of its errors; see `Model.show`."""
+    if is_taken(model):
+        return None
+    try:
+        analysis = analyse(model)
+    except (ProblemsError, AnalysisError) as error:
+        if path is None and is_displayed(InWords(error)):
+            return None
+        name = model.name or "model"
+        target = None if path is None else page_path(path)
+        return open_page(write_page(as_bytes(broken_page(error, name)), name, target))
+    return analysis.show(path)

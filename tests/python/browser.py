@@ -19,14 +19,14 @@ from flexact.page import page
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")
 
-#: Software drawing, no network: names do not resolve, and the proxy is a port without a server.
+#: Software drawing, no network but this machine: names do not resolve, and no proxy answers.
 OPTIONS = (
     "--headless=new",
     "--no-sandbox",
     "--disable-dev-shm-usage",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
-    "--host-resolver-rules=MAP * ~NOTFOUND",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
     "--proxy-server=127.0.0.1:9",
     "--disable-background-networking",
     "--disable-component-update",

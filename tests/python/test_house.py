@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("mesh", "page", "picture"),
-    ("advising", "costing", "notebook", "saving", "tracing", "variants"),
+    ("advising", "costing", "notebook", "saving", "tracing", "variants", "watching"),
     ("analysis", "cli"),
     ("", "__main__"),
 )

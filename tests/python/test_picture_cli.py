@@ -160,7 +160,7 @@ def test_an_existing_picture_stays_until_the_new_one_is_complete(
         raise BatchError("in the middle")
 
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.picture.make.png_bytes", fail)
+        patch.setattr("flexact.picture.make.still_bytes", fail)
         assert main(["picture", str(decks / "both.dat"), "-o", str(target)]) == 1
     assert target.read_text() == "old"
     assert files_in(target.parent) == ["x.png"]

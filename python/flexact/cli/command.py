@@ -40,6 +40,8 @@ VERBS = {
     "picture": "a deck's mechanism as a picture: its motion, its self-stress",
     "export": "a deck's mechanism with its modes as a mesh, for ParaView",
     "trace": "the path of a motion, both ways, with its dead points",
+    "view": "a deck's page in the browser",
+    "watch": "the page of a deck or a script in the browser, renewed whenever it is saved",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
 }

@@ -27,6 +27,11 @@ def add_shown(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_no_browser(parser: argparse.ArgumentParser) -> None:
+    """Add to a verb's parser that no browser is to be opened."""
+    parser.add_argument("--no-browser", action="store_true", help="open no browser")
+
+
 def number(text: str) -> int:
     """A whole number from 1, as an option's type."""
     try:

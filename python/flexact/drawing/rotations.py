@@ -116,7 +116,8 @@ def aligned(frame: FloatArray, direction: FloatArray) -> FloatArray:
 
 def _skew(vectors: FloatArray) -> FloatArray:
     """Matrices (..., 3, 3) that make cross products with vectors (..., 3)."""
-    x, y, z = np.moveaxis(vectors, -1, 0)
-    zero = np.zeros_like(x)
-    rows = ((zero, -z, y), (z, zero, -x), (-y, x, zero))
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    made = np.zeros((*vectors.shape, 3))
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[..., j, i] = vectors[..., k]
+        made[..., i, j] = -vectors[..., k]
+    return made

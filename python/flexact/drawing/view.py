@@ -147,12 +147,19 @@ def _sample(drawing: Drawing) -> FloatArray:
 def _seen(points: FloatArray, view: View, size: float) -> float:
     """The part of a member that is not hidden by others, on the mean."""
     flat = view.project(points)
-    member = np.broadcast_to(np.arange(len(points))[:, None], flat.shape[:2]).ravel()
+    many = len(points)
+    member = np.broadcast_to(np.arange(many)[:, None], flat.shape[:2]).ravel()
     cell = np.floor(flat[..., :2].reshape(-1, 2) / (_SQUARE * size)).astype(np.int64)
-    key = cell[:, 0] * (1 << 32) + cell[:, 1]
-    order = np.lexsort((-flat[..., 2].ravel(), key))
-    key, owner = key[order], member[order]
-    first = np.r_[True, key[1:] != key[:-1]]
-    own = np.unique(np.stack((key, owner)), axis=1)[1]
-    visible = np.bincount(owner[first], minlength=len(points))
-    return float(np.mean(visible / np.maximum(np.bincount(own, minlength=len(points)), 1)))
+    cell -= cell.min(axis=0)
+    wide, tall = (cell.max(axis=0) + 1).tolist()
+    square, depth = cell[:, 0] * tall + cell[:, 1], flat[..., 2].ravel()
+    nearest = np.full(wide * tall, -np.inf)
+    np.maximum.at(nearest, square, depth)
+    # Of several that are as near the first is seen, which is what is put down last.
+    seen = np.flatnonzero(depth == nearest[square])[::-1]
+    owner = np.full(nearest.size, -1)
+    owner[square[seen]] = member[seen]
+    there = np.zeros((nearest.size, many), bool)
+    there[square, member] = True
+    visible = np.bincount(owner[owner >= 0], minlength=many)
+    return float(np.mean(visible / np.maximum(there.sum(axis=0), 1)))

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from .copies import CopyMethods
 from .edits import EditMethods
-from .in_notebook import NotebookMethods
 from .loading import LoadMethods
+from .showing import ShowMethods
 
 
-class Builder(CopyMethods, EditMethods, LoadMethods, NotebookMethods):
+class Builder(CopyMethods, EditMethods, LoadMethods, ShowMethods):
     """The half of `Model` that makes it; see there."""

@@ -12,6 +12,9 @@ from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, IntArray, floats
 from ..core.elements import NodeKind
 
+#: Kinds of nodes; a search among all of them would take as long as all else that is done here.
+_FIRST, _LAST = min(NodeKind), max(NodeKind)
+
 
 @dataclass(frozen=True, eq=False)
 class Configuration(Frozen):
@@ -62,7 +65,7 @@ class Configuration(Frozen):
 
 def _kinds(given: ArrayLike) -> IntArray:
     kinds = floats(given, "kinds")
-    if not np.all(np.isin(kinds, tuple(NodeKind))):
+    if not np.all((kinds >= _FIRST) & (kinds <= _LAST) & (kinds % 1 == 0)):
         raise ValueError("kinds has a number that is no kind of node")
     return kinds.astype(np.int32)
 
@@ -76,7 +79,15 @@ def _turned(euler: FloatArray, rotation: FloatArray) -> FloatArray:
     made: FloatArray = np.hstack(
         [
             scalar * old_scalar - np.sum(vector * old_vector, axis=1, keepdims=True),
-            scalar * old_vector + old_scalar * vector + np.cross(vector, old_vector),
+            scalar * old_vector + old_scalar * vector + _cross(vector, old_vector),
         ]
     )
+    return made
+
+
+def _cross(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Products of vectors (k, 3); numpy's own looks at their shapes for longer."""
+    made = np.empty_like(one)
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[:, k] = one[:, i] * other[:, j] - one[:, j] * other[:, i]
     return made

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..base.errors import FlexactError
 from ..core.elements import Class, NodeKind
+from ..diagnostics.errors import ProblemsError
 from ..model.data import ModelData
 from ..model.parts.parts import PartKind, Parts
 from ..page.markup import text
@@ -23,7 +24,7 @@ _PLURALS = {PartKind.BODY: "bodies"}
 def html_of(data: ModelData) -> str:
     """What a model is made of so far, a picture of it, and what is wrong with it."""
     name = f"<b>{text(data.name)}</b><br>" if data.name else ""
-    told = "".join(f"<br>{text(each)}" for each in _problems(data))
+    told = "".join(f"<br>{text(each)}" for each in _problems(data) if each)
     return f"<div><p>{name}{text(_made_of(data))}{told}</p>{_picture(data)}</div>"
 
 
@@ -32,7 +33,7 @@ def _made_of(data: ModelData) -> str:
     arrays = data.arrays
     elements, nodes = arrays.element_number.size, arrays.node_number.size
     if not elements:
-        return "A model without elements."
+        return "A model without elements so far."
     kinds = Counter(part.kind for part in Parts(data).all)
     parts = listed([_counted(count, kind) for kind, count in kinds.items()])
     classes = arrays.coordinate_class
@@ -55,8 +56,9 @@ def _problems(data: ModelData) -> list[str]:
     """Errors that an analysis would end with."""
     try:
         data.require_sound()
-    except FlexactError as error:
-        return [f"It cannot be analysed yet: {error}"]
+    except ProblemsError as error:
+        first = error.diagnostics[0]
+        return [f"It cannot be analysed yet: {first.message}.", first.help or ""]
     return []
 
 

@@ -65,12 +65,16 @@ def three_version() -> str:
 
 
 @cache
-def policy(names: tuple[str, ...], style: str) -> str:
-    """A content security policy: these scripts and styles, and nothing from a network."""
+def policy(names: tuple[str, ...], style: str, connects: bool = False) -> str:
+    """A content security policy: these scripts and styles, and nothing from a network.
+
+    A page that `connects` may ask the server that it comes from.
+    """
+    server = "connect-src 'self'; " if connects else ""
     scripts = " ".join(_hashed(script(name)) for name in names)
     return (
         f"default-src 'none'; script-src {scripts}; style-src {_hashed(style)}; "
-        "img-src data:; base-uri 'none'; form-action 'none'"
+        f"{server}img-src data:; base-uri 'none'; form-action 'none'"
     )
 
 
@@ -80,6 +84,7 @@ def filled(
     scripts: tuple[str, ...],
     styles: tuple[str, ...] = ("style.css",),
     further: str = "",
+    connects: bool = False,
 ) -> str:
     """A whole page; all but the title is HTML.
 
@@ -89,12 +94,13 @@ def filled(
         scripts: Names of files.
         styles: Names of files, later ones behind earlier ones.
         further: Styles behind them.
+        connects: Whether the page may ask the server that it comes from.
     """
     style = "".join(map(asset, styles)) + further
     return Template(asset("template.html")).substitute(
         title=escape(harmless(title)),
         version=VERSION,
-        policy=escape(policy(scripts, style)),
+        policy=escape(policy(scripts, style, connects)),
         style=style,
         body=body,
         scripts="\n".join(f"<script>{script(name)}</script>" for name in scripts),

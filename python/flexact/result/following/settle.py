@@ -43,7 +43,7 @@ def settle(held: Held, start: Place, ahead: FloatArray, step: float) -> Place | 
         went += correction
         if went > _FARTHEST * step:
             return None
-        here = held.at(held.at(here.configuration, back).configuration)
+        here = held.at(held.moved(here.configuration, back))
     return None
 
 

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact view``: the page of a deck in the browser."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from flexact.base.interruption import unwinding
+from flexact.base.plain_text import harmless
+from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
+from flexact.cli.bar import Bar
+from flexact.cli.decks import take
+from flexact.cli.outcome import ExitCode, Outcome
+from flexact.cli.pages import broken_page_of
+from flexact.cli.showing import add_no_browser, one_deck
+from flexact.cli.terminal import say
+from flexact.diagnostics.errors import DeckError
+from flexact.files.decks import DeckFile
+from flexact.files.outputs import plan_file
+from flexact.page import page
+from flexact.result.decompose import AnalysisError
+from flexact.saving import as_bytes, page_bytes
+from flexact.text.margin import verdict_word
+from flexact.watching.browser import opens
+from flexact.watching.showing import page_path, write_page
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Open the page of a deck in the browser: verdict, drawing in motion, self-stresses in "
+        "colour, tables, deck. Where no browser can be opened it says where the page is. A deck "
+        "with errors gives a page with its diagnostics."
+    )
+    parser.add_argument("deck", metavar="DECK", help="a deck")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="PAGE", help="keep the page, NAME.html"
+    )
+    add_no_browser(parser)
+    add_decision(parser)
+    add_accuracy(parser)
+    parser.set_defaults(run=view_deck)
+
+
+def view_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Show the deck that was asked for."""
+    deck = one_deck(chosen)
+    if chosen.output is not None:
+        plan_file(deck, page_path(chosen.output))
+    return take((deck,), lambda each: _step(each, chosen))
+
+
+def _step(deck: DeckFile, chosen: argparse.Namespace) -> Outcome:
+    place = deck.relative.as_posix()
+    try:
+        with Bar(deck.name, deck.path) as bar:
+            analysis = read_and_analysed(deck, chosen, bar)
+            bar.show("drawing")
+            with unwinding():
+                # A still picture takes a while; it is for browsers elsewhere.
+                kept = chosen.output is not None
+                content = page_bytes(analysis) if kept else as_bytes(page(analysis))
+    except (DeckError, AnalysisError) as error:
+        broken = broken_page_of(error, deck.name, place)
+        if broken is not None:
+            _show(deck, broken.content, "cannot be analysed", chosen)
+        raise
+    _show(deck, content, verdict_word(analysis), chosen)
+    return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))
+
+
+def _show(deck: DeckFile, content: bytes, word: str, chosen: argparse.Namespace) -> None:
+    with unwinding():
+        target = write_page(content, deck.name, chosen.output).absolute()
+    say(f"{harmless(deck.name)}: {word}; page in {harmless(str(target))}")
+    if not chosen.no_browser:
+        opens(target.as_uri())

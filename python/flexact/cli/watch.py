@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact watch``: the page of a deck or a script, renewed whenever it is saved."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from flexact.base.interruption import unwinding
+from flexact.base.plain_text import harmless
+from flexact.cli import failures
+from flexact.cli.analysed import add_accuracy, add_decision
+from flexact.cli.outcome import ExitCode
+from flexact.cli.showing import add_no_browser, one_deck
+from flexact.cli.terminal import complain, say
+from flexact.deck.reading import file_bytes
+from flexact.diagnostics.errors import DeckError
+from flexact.files.decks import DeckFile, FolderError
+from flexact.watching.browser import opens
+from flexact.watching.messages import Answer, Broken
+from flexact.watching.watch import SCRIPT, Heard, Watch
+
+_LARGEST_PORT = 65535
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
+        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
+    )
+    parser.add_argument(
+        "deck",
+        metavar="FILE",
+        help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
+    )
+    parser.add_argument(
+        "--port", type=port, metavar="N", help="the port of this machine (a free one)"
+    )
+    add_no_browser(parser)
+    add_decision(parser)
+    add_accuracy(parser)
+    parser.set_defaults(run=watch)
+
+
+def port(text: str) -> int:
+    """A port, as an option's type."""
+    number = int(text) if text.isascii() and text.isdigit() else 0
+    if not 1 <= number <= _LARGEST_PORT:
+        raise argparse.ArgumentTypeError(
+            f"a number from 1 to {_LARGEST_PORT} is wanted, not {text!r}"
+        )
+    return number
+
+
+def watch(chosen: argparse.Namespace) -> ExitCode:
+    """Serve, until a signal ends it."""
+    path = chosen.deck
+    is_script = path.lower().endswith(SCRIPT)
+    deck = DeckFile(path, Path(path)) if is_script else one_deck(chosen)
+    path = deck.path
+    try:
+        if deck.error is not None:
+            raise deck.error
+        # What cannot be read now is more likely to be a slip than a deck to come.
+        file_bytes(path)
+    except (DeckError, FolderError) as error:
+        return failures.report(deck, error, as_json=False).code
+    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
+    with unwinding():
+        watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
+        say(f"{harmless(path)} is shown at {watched.server.address}")
+        if not chosen.no_browser and not opens(watched.server.address):
+            complain("no browser opens here; open this address in one of this machine")
+        watched.run()
+    return ExitCode.ANALYSED
+
+
+class _Renewed:
+    """Tells of each save."""
+
+    def __init__(self, path: str) -> None:
+        self._name = harmless(path)
+
+    def __call__(self, words: str, answer: Answer) -> None:
+        """Say what has changed, or what is wrong."""
+        if isinstance(answer, Broken):
+            complain(harmless_lines(answer.words))
+            words = "cannot be analysed"
+        elif answer.problems:
+            complain(harmless_lines(answer.problems))
+        encoding = sys.stdout.encoding or "ascii"
+        try:
+            words.encode(encoding)
+        except UnicodeEncodeError:
+            words = words.replace("\N{RIGHTWARDS ARROW}", "->")
+        say(f"{time.strftime('%H:%M:%S')} {self._name}: {words}")
+
+
+def harmless_lines(text: str) -> str:
+    """Text of several lines in which nothing can move a cursor."""
+    return "\n".join(harmless(line, keep_tabs=True) for line in text.split("\n"))
+
+
+def _printed(text: str) -> None:
+    sys.stdout.write(text)
+    sys.stdout.flush()

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a deck or a script to what the page shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..deck.reading import read_file
+from ..diagnostics.errors import ProblemsError
+from ..diagnostics.rendering import render_problems
+from ..model.data import ModelData
+from ..page.content import broken_content, content_of
+from ..result.decompose import AnalysisError, asked_for
+from ..result.result import Result, result_of
+from ..text.margin import verdict_word
+from .errors_part import errors_part
+from .messages import Answer, Broken, Job, Judged, Shown
+from .script import Script
+from .told import Told, told_of
+
+
+def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
+    """What a job gives; what is wrong with the deck or the script is an answer too.
+
+    Args:
+        job: What is asked for.
+        judged: Called with the verdict, which is there before the scene.
+    """
+    script = Script(job.path) if job.is_script else None
+    which = ""
+    try:
+        if script is None:
+            result: Result = result_of(read_file(job.path), asked_for(*job.decision))
+        else:
+            found = script.run()
+            which = found.which
+            result = _result(found.shown, found.name, job)
+        told = told_of(result)
+        judged(Judged(told))
+        return _shown(result, told, which, () if script is None else script.files())
+    except (ProblemsError, AnalysisError, MemoryError) as error:
+        return _broken(error, job.path, () if script is None else script.files())
+
+
+def _result(shown: object, name: str, job: Job) -> Result:
+    if isinstance(shown, Result):
+        return shown
+    data: ModelData = shown.data  # type: ignore[attr-defined]
+    return result_of(data, asked_for(*job.decision), data.name or name)
+
+
+def _shown(result: Result, told: Told, which: str, files: tuple[str, ...]) -> Shown:
+    body = content_of(result).body
+    title = verdict_word(result)
+    given = result.given
+    problems = given.problems
+    words = render_problems(problems, given.name, given.source) if problems.kept else ""
+    return Shown(title, body, told, which, words, files)
+
+
+def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:
+    words = str(error) or "not enough memory"
+    body = broken_content(error, path).body
+    return Broken("cannot be analysed", errors_part(error, path), body, words, files)

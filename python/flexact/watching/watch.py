@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Watches a deck or a script: whenever it is saved, what it gives is shown anew."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from .crew import Crew, Worker, WorkerError
+from .errors_part import errors_part
+from .messages import Answer, Broken, Job, Judged, Printed
+from .saved import Saved
+from .scene import Stage
+from .server import Server
+
+#: Between two looks at the files [s].
+_LOOK = 0.03
+SCRIPT = ".py"
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What the watching tells whoever started it.
+
+    Attributes:
+        renewed: Called with what a save has changed, and the answer.
+        printed: Called with what a script prints.
+    """
+
+    renewed: Callable[[str, Answer], None]
+    printed: Callable[[str], None]
+
+
+class Watch:
+    """A file that is watched, and the server of its page."""
+
+    def __init__(
+        self,
+        path: str,
+        heard: Heard,
+        port: int | None = None,
+        decision: tuple[object, ...] = ("auto", None),
+    ) -> None:
+        """Start the server; nothing is analysed yet.
+
+        Args:
+            path: The deck, or the script (.py).
+            heard: Who hears of what is going on.
+            port: The port; by default a free one.
+            decision: Arguments of `flexact.result.decompose.asked_for`.
+
+        Raises:
+            BatchError: The port cannot be had.
+        """
+        self.name = os.path.basename(path)
+        self.job = Job(path, path.lower().endswith(SCRIPT), decision)
+        self._heard = heard
+        self.stage = Stage(self.name)
+        self.server = Server(path, self.stage, port)
+        self.crew = Crew(fresh=self.job.is_script)
+        self._saved = Saved(path)
+        self._lock = threading.Lock()
+        self._number = 0
+        self._failure: BaseException | None = None
+
+    def run(self) -> None:
+        """Go on until an exception, such as that of Ctrl-C, ends it."""
+        threading.Thread(target=self.server.serve_forever, args=(0.1,), daemon=True).start()
+        try:
+            self.renew()
+            while True:
+                time.sleep(_LOOK)
+                if self._failure is not None:
+                    raise self._failure
+                if self._saved.is_renewed():
+                    self.renew()
+        finally:
+            self.close()
+
+    def renew(self) -> None:
+        """Analyse the file as it is now; what was at work before is stopped."""
+        with self._lock:
+            self._number += 1
+        self.stage.work(f"{self.name} is {'running' if self.job.is_script else 'being analysed'}")
+        worker = self.crew.take()
+        threading.Thread(target=self._answer, args=(worker, self._number), daemon=True).start()
+
+    def close(self) -> None:
+        """Stop everything, and let the pages know."""
+        with self._lock:
+            self._number += 1
+        self.stage.close()
+        self.crew.close()
+        self.server.server_close()
+
+    def _answer(self, worker: Worker, number: int) -> None:
+        try:
+            try:
+                answer = worker.answer(self.job, lambda heard: self._meanwhile(heard, number))
+            except WorkerError as error:
+                answer = _died(error, self.job.path)
+            with self._lock:
+                # Another save came meanwhile, and it is that one's worker that counts.
+                if number != self._number:
+                    return
+                self._saved.also(answer.files)
+                self._heard.renewed(self.stage.put(answer), answer)
+            self.crew.prepare()
+        except BaseException as error:
+            # It is the main thread's to end with.
+            self._failure = error
+
+    def _meanwhile(self, heard: Printed | Judged, number: int) -> None:
+        with self._lock:
+            if number != self._number:
+                return
+            if isinstance(heard, Printed):
+                self._heard.printed(heard.text)
+            else:
+                self.stage.judge(heard.told)
+
+
+def _died(error: WorkerError, path: str) -> Broken:
+    words = str(error)
+    errors = errors_part(error, path)
+    return Broken("cannot be analysed", errors, f"<main>{errors}</main>", words, ())

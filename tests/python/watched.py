@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`flexact watch` in a process of its own, and a listener to its events."""
+
+import contextlib
+import http.client
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+#: For a machine on which much else is going on [s].
+PATIENCE = 60.0
+
+
+class Watched:
+    """A running `flexact watch`, with what it says."""
+
+    def __init__(self, file: Path, state: Path, *more: str) -> None:
+        env = {**os.environ, "XDG_STATE_HOME": str(state), "PYTHONUNBUFFERED": "1"}
+        for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
+            env.pop(name, None)
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "flexact", "watch", str(file), *more],
+            env=env,
+            cwd=file.parent,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            encoding="utf-8",
+        )
+        self.out: list[str] = []
+        self.err: list[str] = []
+        self._readers = [
+            threading.Thread(target=self._read, args=pair, daemon=True)
+            for pair in ((self.process.stdout, self.out), (self.process.stderr, self.err))
+        ]
+        for reader in self._readers:
+            reader.start()
+        self.address = until(lambda: self._address())
+
+    def _read(self, stream: Any, lines: list[str]) -> None:
+        for line in stream:
+            lines.append(line)
+
+    def _address(self) -> str:
+        found = re.search(r"http://\S+", "".join(self.out))
+        assert found or self.process.poll() is None, "".join(self.err)
+        return found[0] if found else ""
+
+    @property
+    def port(self) -> int:
+        return urlsplit(self.address).port or 0
+
+    def children(self) -> list[int]:
+        """Its processes, and theirs."""
+        return descendants(self.process.pid)
+
+    def end(self, number: int = signal.SIGINT) -> int:
+        """Send a signal; the code with which it ends."""
+        self.process.send_signal(number)
+        code = self.process.wait(PATIENCE)
+        for reader in self._readers:
+            reader.join(PATIENCE)
+        return code
+
+
+def descendants(pid: int) -> list[int]:
+    try:
+        listed = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except OSError:
+        return []
+    found = [int(each) for each in listed]
+    return [*found, *(deep for each in found for deep in descendants(each))]
+
+
+def is_running(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state != "Z"
+
+
+def until(found: Callable[[], Any], patience: float = PATIENCE) -> Any:
+    """The first true value."""
+    end = time.monotonic() + patience
+    while not (value := found()):
+        assert time.monotonic() < end, "it did not come"
+        time.sleep(0.02)
+    return value
+
+
+class Events:
+    """What a page hears."""
+
+    def __init__(self, address: str) -> None:
+        where = urlsplit(address)
+        self._line = http.client.HTTPConnection(where.hostname or "", where.port, timeout=PATIENCE)
+        self._line.request("GET", f"{where.path}events")
+        self._answer = self._line.getresponse()
+        assert self._answer.status == 200
+
+    def next(self, kind: str = "scene") -> dict[str, Any]:
+        """The next event of a kind."""
+        event = ""
+        while True:
+            line = self._answer.readline().decode()
+            assert line, "the line has ended"
+            name, _, value = line.rstrip("\n").partition(": ")
+            if name == "event":
+                event = value
+            elif name == "data" and event == kind:
+                data: dict[str, Any] = json.loads(value)
+                return data
+
+    def close(self) -> None:
+        self._line.close()
+
+
+@contextlib.contextmanager
+def watching(file: Path, state: Path, *more: str) -> Iterator[Watched]:
+    watched = Watched(file, state, *more)
+    try:
+        yield watched
+    finally:
+        if watched.process.poll() is None:
+            watched.process.kill()
+        watched.process.wait()
+        for stream in (watched.process.stdout, watched.process.stderr):
+            if stream is not None:
+                stream.close()
+
+
+def ask(
+    address: str, path: str = "", method: str = "GET", **headers: str
+) -> tuple[int, str, dict[str, str]]:
+    """Status, text and headers of a request; names of headers with _ for -."""
+    where = urlsplit(address)
+    line = http.client.HTTPConnection("127.0.0.1", where.port, timeout=PATIENCE)
+    given = {name.replace("_", "-"): value for name, value in headers.items()}
+    line.putrequest(method, path or where.path, skip_host="Host" in given)
+    for name, value in given.items():
+        line.putheader(name, value)
+    line.endheaders()
+    answer = line.getresponse()
+    text = answer.read().decode()
+    line.close()
+    return answer.status, text, dict(answer.getheaders())
