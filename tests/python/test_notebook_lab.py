@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,9 @@ from reference_decks import ROOT
 
 from flexact.notebook.bundle import tag
 
-pytest.importorskip("jupyterlab")
-pytest.importorskip("ipykernel")
-pytest.importorskip("nbconvert")
+# It is large, and no part of what set-up brings.
+if any(find_spec(each) is None for each in ("jupyterlab", "ipykernel", "nbconvert")):
+    pytest.skip("for a desk with JupyterLab, ipykernel and nbconvert", allow_module_level=True)
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 

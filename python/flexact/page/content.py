@@ -26,6 +26,9 @@ from .verdict_part import BROKEN, advice_part, advised, decision_part, head, ver
 from .viewer_data import left_out, stuck_in, viewer_data
 
 
+_SCROLLS = "Until you click on the drawing, the wheel scrolls past it."
+
+
 class Content(NamedTuple):
     """What stands in the body of a page.
 
@@ -80,6 +83,7 @@ def content_of(
         origin_part(raw, name, analysis, is_written),
     )
     if is_short:
+        below += f'<p class="keys">{_SCROLLS}</p>'
         tables = (folded("What can be done, tables, decision", *tables),)
         origin = (folded("Deck and versions", *origin),)
     body = (
