@@ -25,7 +25,6 @@ from .origin_part import origin_part
 from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
 from .viewer_data import left_out, stuck_in, viewer_data
 
-
 _SCROLLS = "Until you click on the drawing, the wheel scrolls past it."
 
 
