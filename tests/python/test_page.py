@@ -20,7 +20,7 @@ from proofs import NEEDS_FLINT
 from reference_decks import ROOT
 
 import flexact
-from flexact.page import Entry, broken_page, index_page, modes_data, page, tracks
+from flexact.page import Entry, broken_page, content, index_page, modes_data, page
 from flexact.page.assets import SCRIPTS, asset, script
 from flexact.page.packing import json_for_script
 from flexact.text.describe import verdict_in_words
@@ -287,7 +287,7 @@ def test_only_what_moves_has_tracks() -> None:
 
 
 def test_long_movements_have_fewer_phases(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tracks, "MOST_SHAPES", 3000)
+    monkeypatch.setattr(content, "MOST_SHAPES", 3000)
     movement = data_of(page(flexact.analyse(CLAMPED)))["movements"][0]
     assert movement["phases"] == 5
     assert unpacked(movement["tracks"]["position"]["change"]).size == 5 * 3
@@ -392,7 +392,7 @@ def test_an_index_of_entries() -> None:
 
 
 def test_every_script_is_embedded() -> None:
-    assert {path.name for path in PAGE.glob("*.js")} == {*SCRIPTS, "plain.js"}
+    assert {path.name for path in PAGE.glob("*.js")} == {*SCRIPTS, "plain.js", "live.js"}
 
 
 def test_verdicts_have_one_colour_in_pages_and_pictures() -> None:
