@@ -100,6 +100,11 @@ if [ "$purpose" = test ] && ! has_browser; then
     has_browser || echo "There is no working Chromium with chromedriver: tests of pages in a browser are skipped, or fail in CI." >&2
 fi
 
+# Completion is tested in the shells themselves; tests of one that is missing are skipped, or fail in CI.
+if [ "$purpose" = test ] && ! { has_command bash && has_command zsh && has_command fish; }; then
+    (install_packages bash zsh fish) || true
+fi
+
 [ -x .venv/bin/python ] || "$python" -m venv .venv
 requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm threadpoolctl matplotlib pillow"
 [ "$purpose" = run ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis imageio-ffmpeg jsonschema mpmath selenium vtk pyarrow pypdfium2 PyYAML ruff mypy fprettify"

@@ -91,9 +91,9 @@ def measure(folder: Path, count: int, rounds: int) -> None:
 
     runs: dict[str, Callable[[], object]] = {
         "`analyse(path)`, one after the other": in_process(folder, None),
-        "the same, and the columns of `--want verdict`": in_process(folder, "verdict"),
-        "the same, and the columns of `--want values`": in_process(folder, "values"),
-        "`batch -j 1 --want verdict`": batch("-j1", "--want", "verdict"),
+        "the same, and the columns of `--columns verdict`": in_process(folder, "verdict"),
+        "the same, and the columns of `--columns values`": in_process(folder, "values"),
+        "`batch -j 1 --columns verdict`": batch("-j1", "--columns", "verdict"),
         "`batch -j 1`": batch("-j1"),
         "`batch -j 2`": batch("-j2"),
     }

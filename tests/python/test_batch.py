@@ -119,7 +119,7 @@ def test_a_deck_that_kills_its_worker_costs_one_row(
 def test_folders_without_decks_exit_with_2(decks: Path, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     arguments = ["batch", str(tmp_path / "empty"), str(decks), "-o", str(tmp_path / "t.csv")]
-    assert main(arguments) == 2
+    assert main(arguments) == 1
     rows = rows_of(tmp_path / "t.csv")
     assert len(rows) == 5 and rows[0]["error"].startswith(f"{tmp_path / 'empty'}: no deck")
 
@@ -163,7 +163,7 @@ def has_pyarrow() -> bool:
 
 def test_less_is_wanted(decks: Path, tmp_path: Path) -> None:
     table = tmp_path / "t.csv"
-    assert main(["batch", str(decks), "-o", str(table), "--want", "verdict"]) == 0
+    assert main(["batch", str(decks), "-o", str(table), "--columns", "verdict"]) == 0
     assert tuple(rows_of(table)[0]) == (*COLUMNS[:8], "error", "seconds")
 
 
@@ -202,7 +202,7 @@ def test_files_are_those_of_analyse(decks: Path, tmp_path: Path) -> None:
 def test_pages_are_those_of_report(decks: Path, tmp_path: Path) -> None:
     write(decks / "sub" / "broken.dat", BROKEN)
     (decks / "unread.dat").symlink_to("nowhere")
-    assert main(["report", str(decks), "-o", str(tmp_path / "one")]) == 2
+    assert main(["report", str(decks), "-o", str(tmp_path / "one")]) == 1
     arguments = ["-o", str(tmp_path / "t.csv"), "--report", str(tmp_path / "two")]
     assert main(["batch", str(decks), *arguments]) == 0
     assert files_in(tmp_path / "one") == files_in(tmp_path / "two")
@@ -218,7 +218,7 @@ def test_pages_are_those_of_report(decks: Path, tmp_path: Path) -> None:
         (["-o", "decks/exact.dat/t.csv"], "is not a folder"),
         (["-o", "folder.csv"], "it is a folder"),
         (["-o", "t.csv", "--where", "over_constraind > 0"], "did you mean over_constrained"),
-        (["-o", "t.csv", "--want", "verdict", "--where", "margin > 0"], "--want values"),
+        (["-o", "t.csv", "--columns", "verdict", "--where", "margin > 0"], "--columns values"),
         (["-o", "t.csv", "--format", "vtk"], "--files DIR"),
         (["-o", "t.csv", "--files", "f", "--format", "nonsense"], "nonsense"),
         (["-o", "t.csv", "-j", "0"], "a whole number from 1"),
@@ -237,7 +237,7 @@ def test_wrong_use_is_refused_before_anything_is_done(
     write(decks / "exact.csv", DECKS["exact"])
     (tmp_path / "folder.csv").mkdir()
     before = files_in(tmp_path)
-    assert main(["batch", "decks/exact.csv", "decks", *arguments]) == 1
+    assert main(["batch", "decks/exact.csv", "decks", *arguments]) == 2
     assert said in capsys.readouterr().err
     assert files_in(tmp_path) == before
 
@@ -245,7 +245,7 @@ def test_wrong_use_is_refused_before_anything_is_done(
 def test_decks_that_would_share_files_are_refused(decks: Path, tmp_path: Path) -> None:
     write(tmp_path / "other" / "exact.dat", DECKS["exact"])
     both = ["batch", str(decks), str(tmp_path / "other"), "-o", str(tmp_path / "t.csv")]
-    assert main([*both, "--files", str(tmp_path / "f")]) == 1
+    assert main([*both, "--files", str(tmp_path / "f")]) == 2
     assert main(both) == 0
 
 

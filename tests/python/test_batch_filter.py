@@ -148,7 +148,7 @@ def test_what_is_no_condition_is_refused_in_words(expression: str, said: str) ->
 
 
 def test_a_column_that_is_not_wanted_says_how_to_have_it() -> None:
-    with pytest.raises(FilterError, match="--want values"):
+    with pytest.raises(FilterError, match="--columns values"):
         filter_of("margin > 0", deck_columns("verdict"))
 
 

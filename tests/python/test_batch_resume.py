@@ -145,7 +145,7 @@ def test_where_the_disk_is_full_it_goes_on_later(many: Path, tmp_path: Path) -> 
     table, journal = tmp_path / "table.csv", tmp_path / "table.csv.journal"
     full = batch(many, "-o", table, "-j2", limit=30_000)
     _, said = full.communicate(timeout=60.0)
-    assert full.returncode == 1 and b"go on with --resume" in said
+    assert full.returncode == 2 and b"go on with --resume" in said
     assert b"Traceback" not in said
     assert files_in(tmp_path)[-1] == "table.csv.journal" and not table.exists()
     done = journaled(journal)
@@ -167,7 +167,7 @@ def interrupted(decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     arguments = ["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]
     with monkeypatch.context() as patch:
         patch.setattr("flexact.cli.batch_run.write_table", refuse)
-        assert main(arguments) == 1
+        assert main(arguments) == 2
     assert len(journaled(tmp_path / "t.csv.journal")) == 5
     return arguments
 
@@ -222,7 +222,7 @@ def test_files_that_are_not_there_any_more_are_made_again(
 
     with monkeypatch.context() as patch:
         patch.setattr("flexact.cli.batch_run.write_table", refuse)
-        assert main(arguments) == 1
+        assert main(arguments) == 2
     (folder / "over.log").unlink()
     (folder / "both.vtu").write_bytes(b"half")
     assert analysed(monkeypatch, [*arguments, "--resume"]) == ["both.dat", "over.dat"]
@@ -233,7 +233,7 @@ def test_a_journal_is_not_passed_over(
     interrupted: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = (tmp_path / "t.csv.journal").read_bytes()
-    assert main(interrupted) == 1
+    assert main(interrupted) == 2
     said = capsys.readouterr().err
     assert "--resume" in said and "delete" in said
     assert (tmp_path / "t.csv.journal").read_bytes() == before
@@ -242,7 +242,7 @@ def test_a_journal_is_not_passed_over(
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        (["--want", "verdict"], "--want was values, now verdict"),
+        (["--columns", "verdict"], "--columns was values, now verdict"),
         (["--where", "rank > 0"], "--where was not given, now rank > 0"),
         (["--tolerance", "1e-9"], "--tolerance was not given, now 1e-09"),
         (["--method", "jacobi"], "--method was auto, now jacobi"),
@@ -257,7 +257,7 @@ def test_another_run_is_not_gone_on_with(
 ) -> None:
     options = more if more[0].startswith("-") else []
     extra = [] if options else more
-    assert main([*interrupted[:2], *extra, *interrupted[2:], *options, "--resume"]) == 1
+    assert main([*interrupted[:2], *extra, *interrupted[2:], *options, "--resume"]) == 2
     assert said in capsys.readouterr().err
     assert main([*interrupted, "-j2", "--resume"]) == 0
 
@@ -296,7 +296,7 @@ def test_a_cluster_that_is_lost_leaves_what_is_done(tmp_path: Path) -> None:
         wait_until(run, lambda: lines_in(journal) > 20)
         cluster.kill_scheduler()
         _, said = run.communicate(timeout=60.0)
-    assert run.returncode == 1 and b"Traceback" not in said
+    assert run.returncode == 2 and b"Traceback" not in said
     assert b"scheduler" in said and b"go on with --resume" in said
     done = journaled(journal)
     assert 20 <= len(done) < 80, said
@@ -316,7 +316,7 @@ def test_a_scheduler_that_is_not_there_leaves_nothing(
         address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
         arguments = ["batch", str(decks), "-o", str(tmp_path / "t.csv"), "--dask", address]
         with dask_patience("1s"):
-            assert main(arguments) == 1
+            assert main(arguments) == 2
     said = capsys.readouterr().err
     assert address in said and "Traceback" not in said
     assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []

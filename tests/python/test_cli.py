@@ -51,19 +51,19 @@ def test_method_and_tolerance_are_those_that_are_asked_for(
     assert result["rank"] == 0
 
 
-def test_a_deck_with_errors_exits_with_2(
+def test_a_deck_with_errors_exits_with_1(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = write(tmp_path / "broken.dat", BROKEN)
-    assert main(["analyse", str(path)]) == 2
+    assert main(["analyse", str(path)]) == 1
     out, err = capsys.readouterr()
     assert out == ""
     assert f"{path}:1:1" in err
     assert "^" in err
 
 
-def test_an_empty_folder_exits_with_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["analyse", str(tmp_path)]) == 2
+def test_an_empty_folder_exits_with_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["analyse", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert out == "" and str(tmp_path) in err
 
@@ -85,14 +85,14 @@ def test_an_empty_folder_exits_with_2(tmp_path: Path, capsys: pytest.CaptureFixt
         ["regress", "x.dat", "--against", "d", "--tolerance", "nan"],
     ],
 )
-def test_wrong_usage_exits_with_1(
+def test_wrong_usage_exits_with_2(
     arguments: list[str],
     capsys: pytest.CaptureFixture[str],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main(arguments) == 1
+    assert main(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith(("flexact", "usage: flexact"))
@@ -113,7 +113,7 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_misspelt_command_gets_a_hint(
     word: str, meant: str | None, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main([word, "x.dat"]) == 1
+    assert main([word, "x.dat"]) == 2
     hint = capsys.readouterr().err.strip().rpartition(";")[2]
     assert hint.endswith(f" {meant}?") == (meant is not None)
 
@@ -125,7 +125,7 @@ def test_one_bad_deck_does_not_stop_the_rest(
     decks: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(decks / "broken.dat", BROKEN)
-    assert main(["analyse", str(decks)]) == 2
+    assert main(["analyse", str(decks)]) == 1
     out, err = capsys.readouterr()
     assert all(f"{name}.dat" in out for name in DECKS)
     assert "broken.dat:1:1" in err
@@ -141,7 +141,7 @@ def test_the_summary_names_each_that_failed(
     empty = tmp_path / "empty"
     empty.mkdir()
     arguments = [str(decks / "exact.dat"), str(broken), str(missing), str(empty)]
-    assert main(["analyse", *arguments]) == 2
+    assert main(["analyse", *arguments]) == 1
     listed = capsys.readouterr().out.split("\n4 ")[1].splitlines()[1:]
     assert [line.split(": ")[1] for line in listed] == [str(broken), str(missing), str(empty)]
     assert len({line.split(": ")[0] for line in listed}) == 3, "each for its own reason"
@@ -160,14 +160,14 @@ def test_a_folder_that_cannot_be_searched_does_not_stop_the_rest(
         return scandir(path)
 
     monkeypatch.setattr(os, "scandir", refuse)
-    assert main(["analyse", "--json", str(decks)]) == 2
+    assert main(["analyse", "--json", str(decks)]) == 1
     out, err = capsys.readouterr()
     results = {Path(line["deck"]).stem: line for line in json_lines(out)}
     assert {name: results[name]["verdict"] for name in DECKS} == VERDICTS
     (diagnostic,) = results["closed"]["error"]["diagnostics"]
     assert diagnostic["code"] == "cannot-read"
     assert len([line for line in err.splitlines() if str(closed) in line]) == 2
-    assert main(["check", str(closed)]) == 2
+    assert main(["check", str(closed)]) == 1
 
 
 def test_a_deck_that_is_named_twice_is_analysed_once(
@@ -181,7 +181,7 @@ def test_a_deck_that_is_named_twice_is_analysed_once(
 def test_deck_errors_outweigh_other_verdicts(decks: Path) -> None:
     broken = write(decks / "broken.dat", BROKEN)
     under = decks / "under.dat"
-    assert main(["analyse", str(under), str(broken), "--expect", "exact"]) == 2
+    assert main(["analyse", str(under), str(broken), "--expect", "exact"]) == 1
     assert main(["analyse", str(under), str(decks / "exact.dat"), "--expect", "exact"]) == 3
 
 
@@ -190,7 +190,7 @@ def test_deck_errors_outweigh_other_verdicts(decks: Path) -> None:
 
 def test_json_is_one_object_a_line(decks: Path, capsys: pytest.CaptureFixture[str]) -> None:
     broken = write(decks / "broken.dat", BROKEN)
-    assert main(["analyse", "--json", str(decks)]) == 2
+    assert main(["analyse", "--json", str(decks)]) == 1
     out, err = capsys.readouterr()
     results = {Path(line["deck"]).stem: line for line in json_lines(out)}
     assert {name: results[name]["verdict"] for name in DECKS} == VERDICTS
@@ -207,7 +207,7 @@ def test_json_counts_all_errors_and_lists_a_hundred(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = write(tmp_path / "broken.dat", BROKEN.replace("END", "NONSENSE\n" * 150 + "END"))
-    assert main(["analyse", "--json", str(path)]) == 2
+    assert main(["analyse", "--json", str(path)]) == 1
     (line,) = json_lines(capsys.readouterr().out)
     assert len(line["error"]["diagnostics"]) == 100
     assert line["error"]["errors"] == 151
@@ -237,7 +237,7 @@ def test_too_large_an_analysis_is_told_in_json(
         raise flexact.AnalysisError("a matrix of 9 x 9")
 
     monkeypatch.setattr("flexact.cli.analysed.result_of", refuse)
-    assert main(["analyse", "--json", str(decks / "exact.dat")]) == 1
+    assert main(["analyse", "--json", str(decks / "exact.dat")]) == 2
     out, err = capsys.readouterr()
     (diagnostic,) = json_lines(out)[0]["error"]["diagnostics"]
     assert (diagnostic["code"], diagnostic["line"]) == ("not-analysed", 0)
@@ -253,7 +253,7 @@ def test_check_says_what_is_wrong(decks: Path, capsys: pytest.CaptureFixture[str
     assert main(["check", str(good)]) == 0
     said = capsys.readouterr()
     assert said.out.startswith(f"{good}: ") and said.err == ""
-    assert main(["check", str(broken), str(good)]) == 2
+    assert main(["check", str(broken), str(good)]) == 1
     out, err = capsys.readouterr()
     assert said.out in out and str(broken) in out
     assert f"{broken}:1:1" in err and str(good) not in err

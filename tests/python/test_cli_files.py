@@ -36,7 +36,7 @@ def test_decks_that_would_share_files_are_refused_beforehand(
 ) -> None:
     paths = [write(tmp_path / f / "x.dat", DECKS["exact"]) for f in "ab"]
     out = tmp_path / "out"
-    assert main(["analyse", *map(str, paths), "-o", str(out)]) == 1
+    assert main(["analyse", *map(str, paths), "-o", str(out)]) == 2
     reported = capsys.readouterr().err
     assert all(str(path) in reported for path in (*paths, out / "x.json"))
     assert not out.exists()
@@ -44,7 +44,7 @@ def test_decks_that_would_share_files_are_refused_beforehand(
 
 def test_a_broken_deck_writes_nothing(tmp_path: Path) -> None:
     path = write(tmp_path / "broken.dat", BROKEN)
-    assert main(["analyse", str(path), "-o", str(tmp_path / "out")]) == 2
+    assert main(["analyse", str(path), "-o", str(tmp_path / "out")]) == 1
     assert not (tmp_path / "out").exists()
 
 
@@ -53,7 +53,7 @@ def test_a_format_that_cannot_hold_a_mesh_is_refused_beforehand(
 ) -> None:
     out = tmp_path / "out"
     arguments = ["analyse", "--json", str(decks / "exact.dat"), "-o", str(out), "--format", "stl"]
-    assert main(arguments) == 1
+    assert main(arguments) == 2
     said, reported = capsys.readouterr()
     assert said == ""
     assert "'stl'" in reported.split() and len(reported.splitlines()) == 1
@@ -74,7 +74,7 @@ def test_a_mesh_that_cannot_be_written_does_not_cost_the_verdict(
     monkeypatch.setattr("flexact.cli.result_files.mesh_bytes", fail)
     out = tmp_path / "out"
     arguments = ["analyse", "--json", str(decks), "-o", str(out)]
-    assert main([*arguments, "--expect", "exact"]) == 1
+    assert main([*arguments, "--expect", "exact"]) == 2
     said, reported = capsys.readouterr()
     verdicts = {Path(line["deck"]).stem: line["verdict"] for line in json_lines(said)}
     assert verdicts == VERDICTS
@@ -90,7 +90,7 @@ def test_a_read_only_file_does_not_cost_the_verdict(
 ) -> None:
     kept = write(tmp_path / "out" / "exact.log", "old")
     kept.chmod(0o444)
-    assert main(["analyse", str(decks / "exact.dat"), "-o", str(kept.parent)]) == 1
+    assert main(["analyse", str(decks / "exact.dat"), "-o", str(kept.parent)]) == 2
     said, reported = capsys.readouterr()
     assert said.startswith(str(decks / "exact.dat"))
     assert str(kept) in reported
@@ -99,5 +99,5 @@ def test_a_read_only_file_does_not_cost_the_verdict(
 
 def test_an_output_that_is_a_file_exits_with_1(decks: Path, tmp_path: Path) -> None:
     file = write(tmp_path / "file", "")
-    assert main(["analyse", str(decks / "exact.dat"), "-o", str(file)]) == 1
+    assert main(["analyse", str(decks / "exact.dat"), "-o", str(file)]) == 2
     assert file.read_text() == ""

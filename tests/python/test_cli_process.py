@@ -46,7 +46,7 @@ def test_what_is_no_deck_exits_with_2(verb: str, content: bytes | None, tmp_path
     if content is not None:
         path.write_bytes(content)
     done = command(verb, path)
-    assert done.returncode == 2
+    assert done.returncode == 1
     assert b"Traceback" not in done.stderr
     assert b"noise.dat" in done.stderr
 
@@ -85,7 +85,7 @@ def test_any_encoding_of_stdout_will_do(encoding: str, tmp_path: Path) -> None:
     surroundings = {"PYTHONIOENCODING": encoding, "PYTHONUTF8": "1"}
     for extra in ([], ["--json"]):
         done = command("analyse", tmp_path, *extra, environment=surroundings)
-        assert done.returncode == 2
+        assert done.returncode == 1
         assert b"Traceback" not in done.stderr
         done.stdout.decode(encoding)
     lines = json_lines(done.stdout.decode(encoding))
@@ -124,7 +124,7 @@ def test_a_full_disk_behind_stdout_is_reported(
             env=process_environment() | {"PYTHONUNBUFFERED": unbuffered},
             check=False,
         )
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert_one_line_of_the_command(done.stderr)
 
 
@@ -139,7 +139,7 @@ def test_a_full_disk_behind_stderr_does_not_cost_the_results(decks: Path) -> Non
             env=process_environment(),
             check=False,
         )
-    assert done.returncode == 2
+    assert done.returncode == 1
     assert len(json_lines(done.stdout.decode())) == 5
 
 
@@ -150,5 +150,5 @@ def test_a_closed_stdout_is_reported(arguments: str, decks: Path) -> None:
     done = subprocess.run(
         ["sh", "-c", line], stderr=subprocess.PIPE, env=process_environment(), check=False
     )
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert_one_line_of_the_command(done.stderr)

@@ -291,18 +291,18 @@ def test_the_command_says_what_is_wrong(
     broken = ROOT / "input_decks" / "broken" / "bad_number.dat"
     target = tmp_path / "target.dat"
     for words, code, said in (
-        ([str(wrong), "-o", str(target)], 2, "3 errors"),
-        ([str(broken), "-o", str(tmp_path / "t.json")], 2, "bad-number"),
+        ([str(wrong), "-o", str(target)], 1, "3 errors"),
+        ([str(broken), "-o", str(tmp_path / "t.json")], 1, "bad-number"),
         ([str(tmp_path / "none.json"), "-o", str(target)], 1, "no such file"),
         ([str(tmp_path / "none.vtu"), "-o", str(target)], 1, "no such file"),
-        ([str(tmp_path / "none.dat"), "-o", str(tmp_path / "t.json")], 2, "no such file"),
-        ([str(deck), "-o", str(tmp_path / "t.foo")], 1, "says no format"),
-        ([str(deck), "-o", str(deck)], 1, "overwrite"),
-        ([str(deck), "-o", str(tmp_path / "t.stl")], 1, "no lines"),
-        ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "0"], 1, "points from 1"),
-        ([str(deck), "-o", str(tmp_path / "t.json"), "--as", "wheel"], 1, "invalid choice"),
-        ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "1"], 1, "is for a mesh"),
-        ([str(deck), "-o", str(tmp_path / "t.json"), "--flexible", "released"], 1, "for tables"),
+        ([str(tmp_path / "none.dat"), "-o", str(tmp_path / "t.json")], 1, "no such file"),
+        ([str(deck), "-o", str(tmp_path / "t.foo")], 2, "says no format"),
+        ([str(deck), "-o", str(deck)], 2, "overwrite"),
+        ([str(deck), "-o", str(tmp_path / "t.stl")], 2, "no lines"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "0"], 2, "points from 1"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--as", "wheel"], 2, "invalid choice"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "1"], 2, "is for a mesh"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--flexible", "released"], 2, "for tables"),
     ):
         assert main(["convert", *words]) == code
         assert said in capsys.readouterr().err

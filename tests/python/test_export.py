@@ -113,12 +113,12 @@ def test_a_degree_of_freedom_that_cannot_move_is_told(
     ],
 )
 def test_wrong_numbers_are_refused(wrong: list[str], deck: Path, tmp_path: Path) -> None:
-    assert main(["export", str(deck), "-o", str(tmp_path / "x.vtu"), *wrong]) == 1
+    assert main(["export", str(deck), "-o", str(tmp_path / "x.vtu"), *wrong]) == 2
     assert files_in(tmp_path) == ["deck.dat"]
 
 
 def test_a_file_is_wanted(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["export", str(deck)]) == 1
+    assert main(["export", str(deck)]) == 2
     assert "-o" in capsys.readouterr().err
 
 
@@ -134,19 +134,19 @@ def test_a_file_is_wanted(deck: Path, capsys: pytest.CaptureFixture[str]) -> Non
 def test_suffixes_that_cannot_be_are_refused(
     name: str, reason: str, deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["export", str(deck), "-o", str(tmp_path / name)]) == 1
+    assert main(["export", str(deck), "-o", str(tmp_path / name)]) == 2
     assert re.search(reason, capsys.readouterr().err)
     assert files_in(tmp_path) == ["deck.dat"]
 
 
 def test_one_deck_at_a_time(decks: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["export", str(decks), "-o", str(decks / "x.vtu")]) == 1
+    assert main(["export", str(decks), "-o", str(decks / "x.vtu")]) == 2
     assert f"{decks} holds 4 decks; this takes one at a time" in capsys.readouterr().err
 
 
 def test_a_broken_deck_exits_with_2(tmp_path: Path) -> None:
     source = write(tmp_path / "broken.dat", "PLTRUS 1 1 2\n")
-    assert main(["export", str(source), "-o", str(tmp_path / "x.vtu")]) == 2
+    assert main(["export", str(source), "-o", str(tmp_path / "x.vtu")]) == 1
     assert files_in(tmp_path) == ["broken.dat"]
 
 
@@ -158,7 +158,7 @@ def test_the_deck_is_not_overwritten(
     other = tmp_path / f"link{suffix}"
     other.symlink_to(source)
     for target in (source, other):
-        assert main(["export", str(source), "-o", str(target)]) == 1
+        assert main(["export", str(source), "-o", str(target)]) == 2
         assert f"{target} would overwrite the deck {source}" in capsys.readouterr().err
     assert source.read_text() == TWO_MOTIONS
 
@@ -167,7 +167,7 @@ def test_a_step_of_a_cycle_does_not_overwrite_the_deck(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source = write(tmp_path / "x_files" / "step_03.vtu", TWO_MOTIONS)
-    assert main(["export", str(source), "-o", str(tmp_path / "x.pvd")]) == 1
+    assert main(["export", str(source), "-o", str(tmp_path / "x.pvd")]) == 2
     assert f"would overwrite the deck {source}" in capsys.readouterr().err
     assert source.read_text() == TWO_MOTIONS
     assert files_in(tmp_path) == ["x_files/step_03.vtu"]
@@ -180,7 +180,7 @@ def test_an_existing_file_stays_until_the_new_one_is_complete(
     target = write(tmp_path / f"x{suffix}", "old")
     with monkeypatch.context() as broken:
         broken.setattr("os.replace", _full)
-        assert main(["export", str(deck), "-o", str(target)]) == 1
+        assert main(["export", str(deck), "-o", str(target)]) == 2
     assert target.read_text() == "old"
     assert files_in(tmp_path) == ["deck.dat", f"x{suffix}"]
     assert main(["export", str(deck), "-o", str(target)]) == 0
@@ -200,7 +200,7 @@ def test_an_unwritable_place_is_told(
         (tmp_path / "file" / "x.vtu", f"{tmp_path / 'file'} is not a folder"),
         (tmp_path / "folder.vtu", f"cannot write {tmp_path / 'folder.vtu'}: it is a folder"),
     ):
-        assert main(["export", str(deck), "-o", str(target)]) == 1
+        assert main(["export", str(deck), "-o", str(target)]) == 2
         assert reason in capsys.readouterr().err
 
 
@@ -208,7 +208,7 @@ def test_a_cycle_where_its_folder_is_a_file(
     deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(tmp_path / "x_files", "mine")
-    assert main(["export", str(deck), "-o", str(tmp_path / "x.pvd")]) == 1
+    assert main(["export", str(deck), "-o", str(tmp_path / "x.pvd")]) == 2
     assert (
         f"cannot write to {tmp_path / 'x_files'}: {tmp_path / 'x_files'} is not a folder"
         in capsys.readouterr().err
@@ -223,13 +223,13 @@ def test_missing_packages_are_named(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setitem(sys.modules, "vtkmodules.vtkIOXML", None)
-    assert main(["export", str(deck), "-o", str(tmp_path / "x.vtp")]) == 1
+    assert main(["export", str(deck), "-o", str(tmp_path / "x.vtp")]) == 2
     told = capsys.readouterr().err
     assert "mesh format vtp needs the package vtk: pip install 'flexact[vtk]'" in told
     assert main(["export", str(deck), "-o", str(tmp_path / "x.vtu")]) == 0
     monkeypatch.setitem(sys.modules, "meshio", None)
     for name in ("y.vtu", "y.pvd"):
-        assert main(["export", str(deck), "-o", str(tmp_path / name)]) == 1
+        assert main(["export", str(deck), "-o", str(tmp_path / name)]) == 2
         assert "mesh files need the package meshio" in capsys.readouterr().err
     assert files_in(tmp_path) == ["deck.dat", "x.vtu"]
 

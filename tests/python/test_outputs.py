@@ -52,7 +52,7 @@ def test_names_of_results_can_be_encoded() -> None:
 
 @pytest.mark.parametrize(
     ("codes", "expected"),
-    [((0, 0), 0), ((0, 3), 3), ((3, 2, 0), 2), ((2, 3, 1), 1), ((), 0)],
+    [((0, 0), 0), ((0, 3), 3), ((3, 1, 0), 1), ((2, 3, 1), 2), ((), 0)],
 )
 def test_the_gravest_deck_decides_the_exit_code(codes: tuple[int, ...], expected: int) -> None:
     assert exit_code(Outcome("deck", ExitCode(code), "") for code in codes) == expected

@@ -79,8 +79,8 @@ def test_everything_is_in_the_page_and_allowed_by_its_policy() -> None:
     assert policy.startswith("default-src 'none'; ") and "unsafe" not in policy
     scripts = [data for tag, data in elements.raw if tag == "script"]
     assert len(scripts) == len(SCRIPTS) + 1, "and the data, which are not run"
-    for content in (*scripts[1:], *(data for tag, data in elements.raw if tag == "style")):
-        digest = base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()
+    for whole in (*scripts[1:], *(data for tag, data in elements.raw if tag == "style")):
+        digest = base64.b64encode(hashlib.sha256(whole.encode()).digest()).decode()
         assert f"'sha256-{digest}'" in policy
 
 

@@ -107,7 +107,7 @@ def test_a_wrong_choice_leaves_no_file(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     target = tmp_path / "out" / "x.png"
-    assert main(["picture", str(decks / "both.dat"), "-o", str(target), *options]) == 1
+    assert main(["picture", str(decks / "both.dat"), "-o", str(target), *options]) == 2
     assert told in capsys.readouterr().err
     assert not target.parent.exists()
 
@@ -116,26 +116,26 @@ def test_a_wrong_choice_leaves_no_file(
 def test_a_wrong_suffix_is_told_before_anything_is_read(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / name)]) == 1
+    assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / name)]) == 2
     assert "one of png, svg, pdf, gif, mp4, webm" in capsys.readouterr().err
 
 
 def test_a_broken_deck_exits_with_2(tmp_path: Path) -> None:
     deck = write(tmp_path / "x.dat", BROKEN)
-    assert main(["picture", str(deck), "-o", str(tmp_path / "x.png")]) == 2
+    assert main(["picture", str(deck), "-o", str(tmp_path / "x.png")]) == 1
     assert files_in(tmp_path) == ["x.dat"]
 
 
 def test_several_decks_are_too_many(
     decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["picture", str(decks), "-o", str(tmp_path / "x.png")]) == 1
+    assert main(["picture", str(decks), "-o", str(tmp_path / "x.png")]) == 2
     assert f"holds {len(DECKS)} decks" in capsys.readouterr().err
 
 
 def test_the_deck_is_not_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     deck = write(tmp_path / "x.png", DECKS["exact"])
-    assert main(["picture", str(deck), "-o", str(deck)]) == 1
+    assert main(["picture", str(deck), "-o", str(deck)]) == 2
     assert "would overwrite the deck" in capsys.readouterr().err
     assert deck.read_text() == DECKS["exact"]
 
@@ -144,10 +144,10 @@ def test_a_place_that_cannot_be_written_is_told(
     decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = write(tmp_path / "file", "")
-    assert main(["picture", str(decks / "exact.dat"), "-o", str(file / "x.png")]) == 1
+    assert main(["picture", str(decks / "exact.dat"), "-o", str(file / "x.png")]) == 2
     assert "is not a folder" in capsys.readouterr().err
     (tmp_path / "y.png").mkdir()
-    assert main(["picture", str(decks / "exact.dat"), "-o", str(tmp_path / "y.png")]) == 1
+    assert main(["picture", str(decks / "exact.dat"), "-o", str(tmp_path / "y.png")]) == 2
     assert "y.png: it is a folder" in capsys.readouterr().err
 
 
@@ -173,7 +173,7 @@ def test_a_missing_package_is_told_before_anything_is_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("flexact.picture.make.find_spec", lambda name: None)
-    assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / "x.png")]) == 1
+    assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / "x.png")]) == 2
     assert "pip install 'flexact[pictures]'" in capsys.readouterr().err
 
 

@@ -88,12 +88,12 @@ def test_the_command_in_the_summary_stores_what_differs_alone(folder: Path, caps
     words = shlex.split(out.splitlines()[-1])
     assert words[:2] == ["flexact", "regress"]
     # The broken deck is still one.
-    assert main(words[1:]) == 2
+    assert main(words[1:]) == 1
     after = answers()
     changed = {name for name in after if after[name] != before.get(name)}
     assert changed == {f"answers/{name}.json" for name in ("a/numbers", "c/verdict", "f/new")}
     capsys.readouterr()
-    out, _ = compared(code=2, out=capsys)
+    out, _ = compared(code=1, out=capsys)
     assert out.count("as stored") == 6 and "--store" not in out
 
 
@@ -124,11 +124,11 @@ def test_junit_of_odd_names_and_of_one_deck(
 
 def test_where_junit_cannot_be_written_nothing_is_begun(folder: Path, capsys: Any) -> None:
     Path("file").write_text("")
-    out, err = compared("--junit", "file/junit.xml", code=1, out=capsys)
+    out, err = compared("--junit", "file/junit.xml", code=2, out=capsys)
     assert out == "" and "file" in err
     before = answers()
     for taken in ("decks/d/same.dat", "answers/d/same.json"):
-        assert compared("--junit", taken, code=1, out=capsys)[0] == ""
+        assert compared("--junit", taken, code=2, out=capsys)[0] == ""
     assert Path("decks/d/same.dat").read_text() == RAISED and answers() == before
 
 
@@ -144,7 +144,7 @@ def test_a_deck_that_kills_its_worker_fails_alone(
         return whole(self, case, watch)
 
     monkeypatch.setattr(Question, "_found", deadly)
-    out, err = compared("-j", "2", code=1, out=capsys)
+    out, err = compared("-j", "2", code=2, out=capsys)
     assert heads(out) == ["a/numbers", "c/verdict"]
     assert err.count("signal 9") == 2
 
@@ -154,7 +154,7 @@ def test_a_scheduler_that_is_not_there_is_said_in_words(
 ) -> None:
     client = pytest.importorskip("flexact.engine.dask_client")
     monkeypatch.setattr(client, "_ANSWER", 0.5)
-    out, err = compared("--dask", "tcp://127.0.0.1:9", code=1, out=capsys)
+    out, err = compared("--dask", "tcp://127.0.0.1:9", code=2, out=capsys)
     assert out == "" and "dask scheduler" in err and "Traceback" not in err
 
 

@@ -26,7 +26,7 @@ def test_a_folder_of_pages_with_an_index(tmp_path: Path) -> None:
     write(tmp_path / "in" / "under.dat", DECKS["under"])
     write(tmp_path / "in" / "wrong.dat", BROKEN)
     out = tmp_path / "out"
-    assert main(["report", str(tmp_path / "in"), "-o", str(out)]) == 2
+    assert main(["report", str(tmp_path / "in"), "-o", str(out)]) == 1
     assert files_in(out) == ["index.html", "sub/exact.html", "under.html", "wrong.html"]
     index = (out / "index.html").read_text(encoding="utf-8")
     for reported in ('href="sub/exact.html"', 'href="under.html"', 'href="wrong.html"'):
@@ -64,14 +64,14 @@ def test_a_broken_deck_gives_a_page_and_code_2(
 ) -> None:
     path = write(tmp_path / "wrong.dat", BROKEN)
     target = tmp_path / "page.html"
-    assert main(["report", str(path), "-o", str(target)]) == 2
+    assert main(["report", str(path), "-o", str(target)]) == 1
     assert "error[unknown-keyword]" in capsys.readouterr().err
     assert ">Cannot be analysed:</b> 1 error" in target.read_text(encoding="utf-8")
 
 
 def test_a_deck_that_is_not_there_gives_no_page(tmp_path: Path) -> None:
     target = tmp_path / "page.html"
-    assert main(["report", str(tmp_path / "none.dat"), "-o", str(target)]) == 2
+    assert main(["report", str(tmp_path / "none.dat"), "-o", str(target)]) == 1
     assert not target.exists()
 
 
@@ -79,14 +79,14 @@ def test_one_page_for_several_decks_is_refused(
     decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     target = tmp_path / "page.html"
-    assert main(["report", str(decks), "-o", str(target)]) == 1
+    assert main(["report", str(decks), "-o", str(target)]) == 2
     assert f"of {len(DECKS)} decks name a folder" in capsys.readouterr().err
     assert not target.exists()
 
 
 def test_a_deck_is_never_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = write(tmp_path / "deck.html", DECKS["exact"])
-    assert main(["report", str(path), "-o", str(path)]) == 1
+    assert main(["report", str(path), "-o", str(path)]) == 2
     assert "would overwrite the deck" in capsys.readouterr().err
     assert path.read_text(encoding="utf-8") == DECKS["exact"]
 
@@ -95,7 +95,7 @@ def test_a_deck_called_index_is_refused_beforehand(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write(tmp_path / "in" / "index.dat", DECKS["exact"])
-    assert main(["report", str(tmp_path / "in"), "-o", str(tmp_path / "out")]) == 1
+    assert main(["report", str(tmp_path / "in"), "-o", str(tmp_path / "out")]) == 2
     assert "would both write" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
@@ -105,11 +105,11 @@ def test_a_place_that_cannot_be_written_is_a_clear_error(
 ) -> None:
     write(tmp_path / "file", "")
     target = tmp_path / "file" / "page.html"
-    assert main(["report", str(decks / "exact.dat"), "-o", str(target)]) == 1
+    assert main(["report", str(decks / "exact.dat"), "-o", str(target)]) == 2
     assert f"{tmp_path / 'file'} is not a folder" in capsys.readouterr().err
     page = write(tmp_path / "old.html", "old")
     page.chmod(stat.S_IREAD)
-    assert main(["report", str(decks / "exact.dat"), "-o", str(page)]) == 1
+    assert main(["report", str(decks / "exact.dat"), "-o", str(page)]) == 2
     assert "it is read-only" in capsys.readouterr().err
     assert page.read_text(encoding="utf-8") == "old"
 
@@ -125,7 +125,7 @@ def test_an_existing_page_is_replaced_only_by_a_whole_one(
         raise OSError(28, os.strerror(28))
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    assert main(["report", str(decks / f"{verdict}.dat"), "-o", str(page)]) == 1
+    assert main(["report", str(decks / f"{verdict}.dat"), "-o", str(page)]) == 2
     assert page.read_text(encoding="utf-8") == "old"
     assert files_in(tmp_path / "out") == ["page.html"]
 

@@ -292,5 +292,5 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert main(["analyse", str(deck), "--log", "spacar", "-o", str(out)]) == 0
     assert (out / "deck.log").read_text(encoding="utf-8").strip() == said.strip()
     assert "Condition number of Dcc" not in capsys.readouterr().out
-    assert main(["analyse", str(deck), "--log", "spacar", "--json"]) == 1
+    assert main(["analyse", str(deck), "--log", "spacar", "--json"]) == 2
     assert "-o DIR" in capsys.readouterr().err

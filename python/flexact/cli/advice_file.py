@@ -16,10 +16,11 @@ from flexact.advising.steps import together
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
+from flexact.cli.targets import plan_deck, write_text
 from flexact.deck.editing import edited_deck
 from flexact.diagnostics.errors import ModelError
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import plan_file, write_together
+from flexact.files.outputs import STDOUT, plan_file, write_together
 from flexact.picture import STILLS, SUFFIXES
 from flexact.result.verdict import Verdict
 from flexact.saving import PAGES
@@ -92,6 +93,11 @@ class AdviceFile:
         self.target, self.steps = target, steps
         self.kind = "" if target is None else target.suffix.lower()
 
+    @property
+    def to_stdout(self) -> bool:
+        """Whether the deck goes to stdout in place of words."""
+        return self.target == STDOUT
+
     def plan(self, decks: Sequence[DeckFile]) -> None:
         """Find out what is wrong with the choice before anything is analysed.
 
@@ -110,11 +116,15 @@ class AdviceFile:
                 "page (.html), or a deck"
             )
         if self.kind not in (*PAGES, *STILLS) and self.steps is None:
+            what = "standard output" if self.to_stdout else self.target
             raise BatchError(
-                f"what is {self.target} to be? A page ends with .html, a picture with "
-                ".png, .svg or .pdf; the deck that a step makes also needs --apply K"
+                f"what is {what} to be? A page ends with .html, a picture with .png, "
+                ".svg or .pdf; the deck that a step makes also needs --apply K"
             )
-        plan_file(decks[0], self.target)
+        if self.kind in (*PAGES, *STILLS):
+            plan_file(decks[0], self.target)
+        else:
+            plan_deck(decks[0], self.target)
 
     def write(self, advice: Advice) -> str:
         """Write what was asked for, and say so; empty where nothing was.
@@ -128,6 +138,7 @@ class AdviceFile:
         if self.target is None:
             return ""
         deck, name = harmless(advice.analysis.name), harmless(str(self.target))
+        name = "standard output" if self.to_stdout else name
         pages = "flexact.advising.pages"
         content: bytes
         if self.kind in STILLS:
@@ -144,7 +155,10 @@ class AdviceFile:
             else:
                 content = edited_deck(given, taken.change.apply(given).data)
                 said = f"{taken.words} written to {name}, {taken.outcome}"
-        write_together({self.target: content})
+        if self.kind in (*PAGES, *STILLS):
+            write_together({self.target: content})
+        else:
+            write_text(self.target, content)
         return f"{deck}: {said}"
 
     def _taken(self, advice: Advice) -> _Taken:

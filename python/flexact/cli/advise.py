@@ -9,12 +9,14 @@ from pathlib import Path
 from flexact.advising import Advice, advice_of
 from flexact.advising.describe import describe
 from flexact.advising.json_advice import line_of
+from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
 from flexact.base.loading import load
 from flexact.cli.advice_file import AdviceFile, chosen_steps, in_short
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import complain, say
 from flexact.diagnostics.errors import ModelError
@@ -52,11 +54,27 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE",
-        help="with --apply the changed deck; or a page (.html) of before and after; or a picture "
-        "(.png, .svg, .pdf) of the freedom and the constraint of the body",
+        help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; "
+        "or a picture (.png, .svg, .pdf) of the freedom and the constraint of the body",
     )
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "What is wrong, and steps that mend it",
+            "flexact advise input_decks/flexures/parallel_guide.dat",
+        ),
+        (
+            "The deck that step 1 makes",
+            "flexact advise input_decks/flexures/parallel_guide.dat --apply 1 "
+            "-o results/mended.dat",
+        ),
+        (
+            "A page of before and after",
+            "flexact advise input_decks/flexures/parallel_guide.dat -o results/mended.html",
+        ),
+    )
     parser.set_defaults(run=advise_decks)
 
 
@@ -74,6 +92,8 @@ class _Work:
         self.chosen = chosen
         self.file = AdviceFile(chosen.output, chosen.apply)
         self.file.plan(decks)
+        if self.file.to_stdout and chosen.json:
+            raise BatchError("--json and -o - both go to standard output: choose one")
 
     def step(self, deck: DeckFile) -> Outcome:
         """Advise on one deck, say and write it."""
@@ -90,7 +110,7 @@ class _Work:
         if words:
             say(words)
         if written:
-            complain(written) if self.chosen.json else say(written)
+            complain(written) if self.chosen.json or self.file.to_stdout else say(written)
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(result))
 
     def _words(self, advice: Advice) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from flexact.base.errors import BatchError
@@ -15,7 +14,9 @@ from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
+from flexact.cli.targets import folder
 from flexact.cli.terminal import complain, say
 from flexact.files.decks import DeckFile, find_decks
 from flexact.result.result import Result
@@ -44,7 +45,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=folder,
         metavar="DIR",
         help="write NAME.json, NAME.log and the mesh NAME.vtu there",
     )
@@ -62,6 +63,25 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--expect",
         choices=VERDICTS,
         help="exit with 3 for any other verdict, and for an exact one within the accuracy only",
+    )
+    add_examples(
+        parser,
+        (
+            "Verdict, motions and self-stresses of a deck",
+            "flexact analyse input_decks/paper/five_wires.dat",
+        ),
+        (
+            "JSON, log and mesh of each deck of a folder",
+            "flexact analyse input_decks/paper -o results",
+        ),
+        (
+            "A deck that another program writes",
+            "cat input_decks/paper/five_wires.dat | flexact analyse -",
+        ),
+        (
+            "In a design's own CI: exits with 3 unless it is so",
+            "flexact analyse input_decks/paper/five_wires.dat --expect exact",
+        ),
     )
     parser.set_defaults(run=analyse_decks)
 

@@ -11,7 +11,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli.bar import Bar
 from flexact.cli.terminal import complain
 from flexact.core.calls import METHODS
-from flexact.deck.reading import read_file
+from flexact.deck.reading import read_deck
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile
 from flexact.model.data import ModelData
@@ -28,15 +28,16 @@ DENSE = ("svd", "jacobi")
 
 def add_decision(parser: argparse.ArgumentParser) -> None:
     """Add to a verb's parser how the rank of D(c) is decided."""
-    add_method(parser)
-    parser.add_argument(
+    group = parser.add_argument_group("how the rank is decided")
+    add_method(group)
+    group.add_argument(
         "--tolerance",
         dest="zero_tolerance",
         type=tolerance,
         metavar="T",
         help="singular values of the scaled matrix up to T count as zero",
     )
-    parser.add_argument(
+    group.add_argument(
         "--prove",
         action=argparse.BooleanOptionalAction,
         default=None,
@@ -66,7 +67,7 @@ def accuracy(text: str) -> Accuracy:
         ) from None
 
 
-def add_method(parser: argparse.ArgumentParser) -> None:
+def add_method(parser: argparse._ActionsContainer) -> None:
     """Add the choice of the method to a verb's parser."""
     parser.add_argument(
         "--method", choices=METHODS, default=METHODS[0], help="how D(c) is decomposed"
@@ -84,7 +85,7 @@ def tolerance(text: str) -> float:
 def opened(deck: DeckFile, bar: Bar) -> ModelData:
     """Read a deck, while a bar says so."""
     bar.show("reading")
-    model = read_file(deck.path)
+    model = read_deck(deck)
     bar.clear()
     return model
 

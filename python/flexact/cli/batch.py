@@ -18,18 +18,23 @@ from flexact.cli.batch_outputs import Outputs
 from flexact.cli.batch_run import BatchRun
 from flexact.cli.batch_work import Work
 from flexact.cli.decks import add_decks
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
+from flexact.cli.renamed import add_renamed
+from flexact.cli.targets import folder
 from flexact.cli.terminal import complain, say
 from flexact.cli.workers import add_workers
 from flexact.engine.processors import processors
 from flexact.files.decks import DeckFile, find_decks
-from flexact.files.outputs import OutputError, plan_file, require_replaceable
+from flexact.files.outputs import STDOUT, OutputError, plan_file, require_replaceable
 from flexact.result.decompose import asked_for
 from flexact.variants.batches.journal import Journal, JournalError
 from flexact.variants.writing import require_table
 
+#: What the table may hold.
+_COLUMNS = ("verdict", "values")
 #: Number of the form of the journal.
-_FORM = 1
+_FORM = 2
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -52,11 +57,12 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--resume", action="store_true", help="go on where an interrupted run has stopped"
     )
     parser.add_argument(
-        "--want",
-        choices=("verdict", "values"),
+        "--columns",
+        choices=_COLUMNS,
         default="values",
-        help="columns: the verdict alone, or singular values and margins as well (default)",
+        help="the verdict alone, or singular values and margins as well (default)",
     )
+    add_renamed(parser, "--want", "--columns", dest="columns", choices=_COLUMNS)
     parser.add_argument(
         "--where",
         default="",
@@ -64,16 +70,34 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="rows, files and pages of some decks alone, such as 'over_constrained > 0'",
     )
     parser.add_argument(
-        "--files", type=Path, metavar="DIR", help="write what analyse -o writes of each deck there"
+        "--files",
+        type=folder,
+        metavar="DIR",
+        help="write what analyse -o writes of each deck there",
     )
     parser.add_argument(
         "--format", metavar="FORMAT", help="mesh format of --files: vtu (default), vtk, xdmf, ..."
     )
     parser.add_argument(
-        "--report", type=Path, metavar="DIR", help="write a page of each deck and index.html there"
+        "--report",
+        type=folder,
+        metavar="DIR",
+        help="write a page of each deck and index.html there",
     )
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "A table of many decks",
+            "flexact batch input_decks/paper -o results/decks.csv",
+        ),
+        (
+            "Of those that are over-constrained, with their files",
+            "flexact batch input_decks/paper -o results/over.csv --where 'over_constrained > 0' "
+            "--files results",
+        ),
+    )
     parser.set_defaults(run=make_table)
 
 
@@ -82,12 +106,17 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     if chosen.format and not chosen.files:
         raise BatchError("--format is for the meshes of --files DIR")
     table: Path = chosen.output
+    if table == STDOUT:
+        raise BatchError(
+            "a batch keeps a journal beside its table, which needs a name; for a line a deck on "
+            "standard output say flexact analyse --summary or --json"
+        )
     require_table(table)
     decks = find_decks(chosen.decks)
     _require_place(table, decks)
     outputs = Outputs(decks, chosen.files, chosen.format or "vtu", chosen.report)
     asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    work = Work(asked, chosen.want, chosen.where, outputs.mesh_format, outputs.has_pages)
+    work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, outputs.has_pages)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
     with _threads(chosen):
         words = run.make(table, chosen.dask, chosen.workers)
@@ -132,7 +161,7 @@ def _head(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> dict[str, An
         "journal": _FORM,
         "flexact": VERSION,
         "options": {
-            "--want": chosen.want,
+            "--columns": chosen.columns,
             "--where": chosen.where or None,
             "--method": chosen.method,
             "--tolerance": chosen.zero_tolerance,

@@ -18,7 +18,7 @@ from flexact.cli.batch_bar import BatchBar
 from flexact.cli.batch_outputs import Outputs
 from flexact.cli.batch_work import Answer, Item, Work
 from flexact.cli.terminal import complain
-from flexact.deck.reading import file_bytes
+from flexact.deck.reading import deck_bytes
 from flexact.diagnostics.errors import DeckError
 from flexact.engine.running import results_of
 from flexact.files.decks import DeckFile, FolderError
@@ -178,7 +178,7 @@ def _content(deck: DeckFile) -> _Content:
     try:
         if deck.error is not None:
             raise deck.error
-        raw = file_bytes(deck.path)
+        raw = deck_bytes(deck)
     except (DeckError, FolderError) as error:
         return _Content(b"", first_error(error, ""), error)
     return _Content(raw, hashlib.blake2b(raw, digest_size=16).hexdigest())

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
 import sys
 from collections.abc import Sequence
@@ -14,6 +13,7 @@ from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.base.version import VERSION
+from flexact.cli.help_texts import Formatter, set_usage
 from flexact.cli.outcome import ExitCode
 from flexact.cli.terminal import (
     ResultsError,
@@ -44,32 +44,25 @@ VERBS = {
     "watch": "the page of a deck or a script in the browser, renewed whenever it is saved",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
+    "completion": "a script by which a shell completes the words of this command",
+    "help": "what a verb does, with its options and examples",
 }
+#: 128 and the number of SIGPIPE, which not all systems have.
+_PIPE_CLOSED = 128 + 13
+_VERBOSE = re.compile(r"-v+|--verbose")
 EPILOG = """\
 exit codes:
   0  analysed (or advised, costed, traced, checked, compared, stored, drawn, written)
-  1  anything that is not below: wrong usage, output that cannot be written, ...
-  2  a deck has errors, or cannot be read
+  1  a deck has errors, cannot be read, or has not what was asked of it
+  2  wrong usage, output that cannot be written, too little memory, ...
   3  the verdict is not the expected one, or an answer differs from the stored one
-Of several decks one bad deck does not stop the rest; the code is 1 if any gave 1,
-else 2 if any gave 2, else 3 if any gave 3.
+Of several decks one bad deck does not stop the rest; the code is 2 if any gave 2, else 1 \
+if any gave 1, else 3 if any gave 3.
 """
 
 
-class Formatter(argparse.RawDescriptionHelpFormatter):
-    """As wide as the terminal, which argparse asks for by a package that is slow to load."""
-
-    def __init__(self, prog: str) -> None:
-        """Take the width where somebody looks."""
-        stated = os.environ.get("COLUMNS", "")
-        width = int(stated) if stated.isdigit() else 0
-        if not width and sys.stdout is not None and sys.stdout.isatty():
-            width = os.get_terminal_size(sys.stdout.fileno()).columns
-        super().__init__(prog, width=(width or 80) - 2)
-
-
 class Parser(argparse.ArgumentParser):
-    """A parser whose usage errors exit with 1, because 2 is a deck with errors."""
+    """A parser that says what was meant."""
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the usage, and what was meant or how to get help."""
@@ -102,7 +95,14 @@ def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.Argume
         formatter_class=Formatter,
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action="version", version=f"flexact {VERSION}")
+    parser.add_argument(
+        *("-V", "--version"),
+        action=_Version,
+        nargs=0,
+        const=words,
+        help="show the version; with -v also what it is built and runs with, with -vv where",
+    )
+    parser.usage = "%(prog)s [OPTIONS] COMMAND ..."
     verbs = parser.add_subparsers(
         title="commands", metavar="COMMAND", prog="flexact", required=True
     )
@@ -112,8 +112,37 @@ def make_parser(words: Sequence[str], for_good: bool = False) -> argparse.Argume
             verb, help=about, allow_abbrev=False, formatter_class=Formatter
         )
         if verb == called:
-            load(f"flexact.cli.{verb}", for_good=for_good).fill(parser_of_verb)
+            _fill(parser_of_verb, verb, for_good)
     return parser
+
+
+def parser_of(verb: str) -> argparse.ArgumentParser:
+    """The parser of a verb, with all its options; of the command itself where it is empty."""
+    if not verb:
+        return make_parser(())
+    parser = Parser(prog=f"flexact {verb}", allow_abbrev=False, formatter_class=Formatter)
+    _fill(parser, verb)
+    return parser
+
+
+def _fill(parser: argparse.ArgumentParser, verb: str, for_good: bool = False) -> None:
+    load(f"flexact.cli.{verb}", for_good=for_good).fill(parser)
+    parser._positionals.title = "arguments"
+    set_usage(parser)
+
+
+class _Version(argparse.Action):
+    """Says the version, and more where -v or -vv stands among the words."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        """Say it, and end."""
+        asked = [word for word in self.const or () if _VERBOSE.fullmatch(word)]
+        count = sum(1 if word == "--verbose" else len(word) - 1 for word in asked)
+        if count:
+            say(load("flexact.cli.about").about(paths=count > 1))
+        else:
+            say(f"flexact {VERSION}")
+        parser.exit()
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -125,8 +154,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         code = _obey(arguments)
         finish_results()
     except BrokenPipeError:
-        code = ExitCode.OTHER
+        # As what this signal ends, quietly: nobody reads on, and not all was done.
         discard(sys.stdout)
+        return _PIPE_CLOSED
     except (ResultsError, OSError) as error:
         code = ExitCode.OTHER
         discard(sys.stdout)
@@ -140,6 +170,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
 def _obey(arguments: Sequence[str] | None) -> int:
     try:
         words = sys.argv[1:] if arguments is None else arguments
+        if not words:
+            complain(make_parser(()).format_help().removesuffix("\n"))
+            return ExitCode.OTHER
         chosen = make_parser(words, for_good=arguments is None).parse_args(words)
         return int(chosen.run(chosen))
     except BatchError as error:

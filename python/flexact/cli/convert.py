@@ -8,29 +8,46 @@ from pathlib import Path
 from typing import Any
 
 from flexact.base.errors import BatchError, FlexactError
-from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
+from flexact.cli.targets import plan_text, write_text
 from flexact.cli.terminal import complain, say
-from flexact.convert.files import Format, bytes_of, format_of, read_any
+from flexact.convert.files import (
+    Format,
+    bytes_of,
+    form_of_content,
+    format_of,
+    read_any,
+    read_content,
+)
 from flexact.convert.mesh_data import KINDS
 from flexact.convert.tables import FLEXIBLE
 from flexact.diagnostics.errors import ProblemsError
 from flexact.diagnostics.rendering import render
-from flexact.files.decks import DeckFile
-from flexact.files.outputs import plan_file, write_together
+from flexact.files.decks import STDIN, DeckFile, find_decks
+from flexact.files.outputs import STDOUT
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
     """Give the verb its description and arguments."""
     parser.description = (
         "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
-        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which."
+        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which. What comes by - from "
+        "stdin is tables if it begins with a brace, else a deck; to stdout goes a deck, or of a "
+        "deck its tables as JSON."
     )
-    parser.add_argument("file", metavar="FILE", type=Path, help="what is to be converted")
     parser.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", required=True, help="what is to be written"
+        "file", metavar="FILE", type=Path, help="what is to be converted; - for stdin"
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        required=True,
+        help="what is to be written; - for stdout",
     )
     parser.add_argument(
         "--as",
@@ -50,6 +67,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
         choices=FLEXIBLE,
         help="what deformations in flex of tables are that are not released: degrees of freedom, "
         "as in SPACAR Light (default), or released, too",
+    )
+    add_examples(
+        parser,
+        (
+            "Tables in the style of SPACAR Light",
+            "flexact convert input_decks/paper/five_wires.dat -o results/wires.json",
+        ),
+        (
+            "And back",
+            "flexact convert results/wires.json -o results/wires.dat",
+        ),
     )
     parser.set_defaults(run=convert_file)
 
@@ -92,29 +120,58 @@ def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
     return made
 
 
-def convert_file(chosen: argparse.Namespace) -> ExitCode:
-    """Convert the file that was asked for, and say what the other format cannot."""
-    source, target = chosen.file, chosen.output
-    format_of(target)
-    options = _options(chosen, format_of(source))
-    plan_file(DeckFile(str(source), Path(source.stem)), target)
-    try:
-        model = read_any(source, **options)
-        content, notes = bytes_of(model, target)
-    except ProblemsError as error:
+def _source(file: Path) -> DeckFile:
+    """What is to be converted.
+
+    Raises:
+        BatchError: it cannot be read.
+    """
+    if str(file) != STDIN:
+        return DeckFile(str(file), Path(file.stem))
+    (source,) = find_decks([STDIN])
+    if source.error is not None:
+        raise BatchError(str(source.error))
+    return source
+
+
+def _failed(error: FlexactError, code: ExitCode) -> ExitCode:
+    """Say what is wrong; with the file as a deck or a table, that is the file's fault."""
+    if isinstance(error, ProblemsError):
         complain(str(error))
         return ExitCode.DECK_ERROR
+    complain(f"flexact: error: {harmless(str(error))}")
+    return code
+
+
+def convert_file(chosen: argparse.Namespace) -> ExitCode:
+    """Convert the file that was asked for, and say what the other format cannot."""
+    source, target = _source(chosen.file), chosen.output
+    given = format_of(chosen.file) if source.content is None else form_of_content(source.content)
+    named = target
+    if target == STDOUT:
+        named = Path("tables.json" if given is Format.DECK else "deck.dat")
+    format_of(named)
+    options = _options(chosen, given)
+    plan_text(source, target)
+    try:
+        if source.content is None:
+            model = read_any(chosen.file, **options)
+        else:
+            model = read_content(source.content, source.name, **options)
     except FlexactError as error:
-        complain(f"flexact: error: {harmless(str(error))}")
-        return ExitCode.OTHER
+        return _failed(error, ExitCode.DECK_ERROR)
+    try:
+        content, notes = bytes_of(model, named)
+    except FlexactError as error:
+        return _failed(error, ExitCode.OTHER)
     report_problems(model.data)
-    name = harmless(str(target))
+    name = "<stdout>" if target == STDOUT else harmless(str(target))
     for note in notes:
         complain(render(note, name))
-    with unwinding():
-        write_together({target: content})
+    write_text(target, content)
     a = model.data.arrays
     elements, nodes = a.element_number.size, a.node_number.size
     size = f"{elements} element{'s' * (elements != 1)}, {nodes} node{'s' * (nodes != 1)}"
-    say(f"{harmless(str(source))}: written to {name}, {size}")
+    text = f"{harmless(source.path)}: written to {name}, {size}"
+    complain(text) if target == STDOUT else say(text)
     return ExitCode.ANALYSED

@@ -13,17 +13,18 @@ from flexact.base.plain_text import harmless
 from flexact.cli.analysed import opened, report_problems
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import number, one_deck
-from flexact.cli.terminal import complain, say
+from flexact.cli.terminal import complain, put, say
 from flexact.costing.asked import DRIVE, HELD, POINTS, Asked
 from flexact.costing.asking import AskedError
 from flexact.costing.cost import Cost
 from flexact.costing.making import cost_of
-from flexact.costing.saving import require_suffix, save
+from flexact.costing.saving import content_of, require_suffix, save
 from flexact.diagnostics.errors import ModelError, ProblemsError
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import plan_file
+from flexact.files.outputs import STDOUT, plan_file
 
 #: What argparse takes for a value although it begins with a minus, such as -5% or -50um.
 _NEGATIVE = re.compile(r"-\.?\d.*")
@@ -38,7 +39,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     # There is no public way to say so before Python 3.14.
     parser._negative_number_matcher = _NEGATIVE
-    parser.add_argument("deck", metavar="DECK", help="a deck with stiffness")
+    parser.add_argument("deck", metavar="DECK", help="a deck with stiffness, or - for stdin")
     parser.add_argument(
         "--at", metavar="POINT", help="where stiffness is measured: a node or a name (the drive)"
     )
@@ -82,8 +83,24 @@ def fill(parser: argparse.ArgumentParser) -> None:
         default=[],
         type=Path,
         metavar="FILE",
-        help="a picture (.png, .svg, .pdf), a page (.html), a table (.csv) or .json; may be "
-        "repeated",
+        help="a picture (.png, .svg, .pdf), a page (.html), a table (.csv) or .json; - for the "
+        "table on stdout; may be repeated",
+    )
+    add_examples(
+        parser,
+        (
+            "What over-constraint costs",
+            "flexact cost input_decks/flexures/notch_guide.dat",
+        ),
+        (
+            "Which errors lower the first frequency by 1 %",
+            "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
+        ),
+        (
+            "Two kinds of files at once",
+            "flexact cost input_decks/flexures/notch_guide.dat -o results/cost.csv "
+            "-o results/cost.json",
+        ),
     )
     parser.set_defaults(run=cost_deck)
 
@@ -114,7 +131,11 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
         for each in others:
             complain(f"flexact: error: {harmless(each)}")
         raise BatchError(last) from None
-    for target in chosen.output:
+    to_stdout = STDOUT in chosen.output
+    if to_stdout and chosen.json:
+        raise BatchError("--json and -o - both go to standard output: choose one")
+    files = [target for target in chosen.output if target != STDOUT]
+    for target in files:
         plan_file(deck, target)
         with unwinding():
             require_suffix(target)
@@ -126,7 +147,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             try:
                 with unwinding():
                     made = cost_of(model, asked, deck.name, bar.show_work, Cost)
-                    for target in chosen.output:
+                    for target in files:
                         bar.show_work("writing", 1.0)
                         save(made, target)
             except BatchError:
@@ -135,13 +156,16 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                 raise _in_short(error) from None
             except FlexactError as error:
                 raise BatchError(str(error)) from error
-        say(made.to_json() if chosen.json else f"{made.describe()}\n")
-        for target in chosen.output:
+        if to_stdout:
+            put(content_of(made, ".csv"))
+        else:
+            say(made.to_json() if chosen.json else f"{made.describe()}\n")
+        for target in files:
             text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
-            complain(text) if chosen.json else say(text)
+            complain(text) if chosen.json or to_stdout else say(text)
         if made.stroke is not None and made.stroke.why:
             complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
-            return Outcome(deck.name, ExitCode.OTHER, "costed in part", "stroke beyond reach")
+            return Outcome(deck.name, ExitCode.DECK_ERROR, "costed in part", "stroke beyond reach")
         return Outcome(deck.name, ExitCode.ANALYSED, "costed")
 
     return take([deck], step, as_json=chosen.json)

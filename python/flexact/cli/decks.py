@@ -26,7 +26,7 @@ REMARKS = {
 def add_decks(parser: argparse.ArgumentParser) -> None:
     """Add the decks to a verb's parser."""
     parser.add_argument(
-        "decks", nargs="+", metavar="DECK", help=f"a deck, or a folder of *{SUFFIX}"
+        "decks", nargs="+", metavar="DECK", help=f"a deck, a folder of *{SUFFIX}, or - for stdin"
     )
 
 

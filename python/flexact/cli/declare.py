@@ -6,16 +6,18 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import report_problems
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_deck, one_deck
-from flexact.cli.terminal import say
-from flexact.deck.models import read
+from flexact.cli.targets import plan_deck, write_text
+from flexact.cli.terminal import complain, say
+from flexact.deck.reading import read_deck
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import plan_file, write_together
+from flexact.files.outputs import STDOUT
+from flexact.model.model import Model
 from flexact.model.parts.declaring import surplus_of
 
 
@@ -25,7 +27,15 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "Write a deck in which what is inside divided sheets and wires is independent (DYNE), "
         "so that each of them counts as one beam."
     )
-    add_deck(parser, "the deck to be written")
+    add_deck(parser, "the deck to be written; - for stdout", Path)
+    add_examples(
+        parser,
+        (
+            "A deck whose sheets of four beams count as one beam each",
+            "flexact declare input_decks/flexures/parallel_guide_four_beams_undeclared.dat "
+            "-o results/declared.dat",
+        ),
+    )
     parser.set_defaults(run=declare_deck)
 
 
@@ -33,17 +43,19 @@ def declare_deck(chosen: argparse.Namespace) -> ExitCode:
     """Declare what is internal to the sheets and wires of the deck that was asked for."""
     deck = one_deck(chosen)
     target: Path = chosen.output
-    plan_file(deck, target)
+    plan_deck(deck, target)
 
     def step(deck: DeckFile) -> Outcome:
-        model = read(deck.path)
+        model = Model.from_data(read_deck(deck))
         report_problems(model.data)
         count = len(surplus_of(model.data))
         model.declare_internal_motions()
-        with unwinding():
-            write_together({target: model.to_deck().encode()})
+        write_text(target, model.to_deck().encode())
         what = f"{count} element{'s' * (count != 1)} declared" if count else "nothing to declare"
-        say(f"{harmless(deck.name)}: written to {harmless(str(target))}, {what}")
+        if target == STDOUT:
+            complain(f"{harmless(deck.name)}: {what}")
+        else:
+            say(f"{harmless(deck.name)}: written to {harmless(str(target))}, {what}")
         return Outcome(deck.name, ExitCode.ANALYSED, "written")
 
     return take([deck], step)

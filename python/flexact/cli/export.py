@@ -12,6 +12,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_deck, add_shown, one_deck
 from flexact.cli.terminal import complain, say
@@ -32,6 +33,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_shown(parser)
     add_decision(parser)
+    add_examples(
+        parser,
+        (
+            "A mesh with all modes",
+            "flexact export input_decks/paper/twelve_trusses.dat -o results/trusses.vtu",
+        ),
+        (
+            "A motion that plays in ParaView",
+            "flexact export input_decks/paper/twelve_trusses.dat --motion 1 -o results/trusses.pvd",
+        ),
+    )
     parser.set_defaults(run=export_deck, accuracy=None)
 
 

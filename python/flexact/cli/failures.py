@@ -13,6 +13,7 @@ from flexact.diagnostics.diagnostic import Diagnostic, Severity
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, FolderError
 
+#: Failures that are none of the deck's.
 CODES = {
     "AnalysisError": "not-analysed",
     "OutputError": "not-written",
@@ -40,8 +41,7 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
         # Loaded where it is wanted: a command that starts does not wait for it.
         head = load("flexact.text.json_result").header(deck.name)
         say(load("json").dumps({**head, "error": failure}))
-    of_deck = isinstance(error, DeckError | FolderError)
-    code = ExitCode.DECK_ERROR if of_deck else ExitCode.OTHER
+    code = ExitCode.OTHER if type(error).__name__ in CODES else ExitCode.DECK_ERROR
     return Outcome(deck.name, code, "failed", _remark(error))
 
 
@@ -58,7 +58,9 @@ def report_failure(deck: DeckFile, error: Exception) -> None:
 def _remark(error: Exception) -> str:
     if isinstance(error, FolderError):
         return error.remark
-    codes = {d.code for d in error.diagnostics} if isinstance(error, DeckError) else set()
+    if not isinstance(error, DeckError):
+        return "failed"
+    codes = {each.code for each in error.diagnostics}
     return "cannot be read" if codes & NOT_READ else ""
 
 

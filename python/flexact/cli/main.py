@@ -44,4 +44,4 @@ def _not_started(error: MemoryError | ImportError) -> int:
     more = f": {lines[-1]}" if lines else ""
     with contextlib.suppress(OSError, ValueError, AttributeError):
         sys.stderr.write(f"flexact: {why}{more}\n")
-    return 1
+    return 2

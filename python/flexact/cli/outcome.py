@@ -9,11 +9,18 @@ from enum import IntEnum
 
 
 class ExitCode(IntEnum):
-    """What a command returns to the shell."""
+    """What a command returns to the shell: as ruff has it, 1 is about decks, 2 about the run.
+
+    Attributes:
+        ANALYSED: All is well.
+        DECK_ERROR: A deck has errors, cannot be read, or has not what was asked of it.
+        OTHER: Wrong usage, output that cannot be written, too little memory, and the like.
+        DIFFERENT: The verdict is not the expected one, or an answer differs.
+    """
 
     ANALYSED = 0
-    OTHER = 1
-    DECK_ERROR = 2
+    DECK_ERROR = 1
+    OTHER = 2
     DIFFERENT = 3
 
 
@@ -35,7 +42,7 @@ class Outcome:
 
 
 def exit_code(outcomes: Iterable[Outcome]) -> ExitCode:
-    """The exit code of a batch: the gravest of its decks, in the order 1, 2, 3, 0."""
+    """The exit code of a batch: the gravest of its decks, in the order 2, 1, 3, 0."""
     codes = {outcome.code for outcome in outcomes}
     for code in (ExitCode.OTHER, ExitCode.DECK_ERROR, ExitCode.DIFFERENT):
         if code in codes:

@@ -10,6 +10,7 @@ from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_deck, add_shown, number, one_deck
 from flexact.cli.terminal import say
@@ -25,18 +26,18 @@ def fill(parser: argparse.ArgumentParser) -> None:
     """Give the verb its description and arguments."""
     parser.description = "Draw a mechanism: by default its first motion and its first self-stress."
     add_deck(parser, "the picture: .png, .svg or .pdf; .gif, .mp4 or .webm, which move")
-    add_shown(parser)
-    parser.add_argument(
+    group = add_shown(parser)
+    group.add_argument(
         "--stress", type=number, metavar="K", help="show self-stress K, coloured by its resultant"
     )
-    parser.add_argument(
+    group.add_argument(
         "--quantity",
         type=_quantity,
         metavar="QUANTITY",
         help=f"of the self-stress: {', '.join(_QUANTITIES)} (default: the dominant one); N, T, My "
         "and Mz are older names of the four",
     )
-    parser.add_argument(
+    group.add_argument(
         "--view",
         default="iso",
         metavar="VIEW",
@@ -45,15 +46,27 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "The first motion and the first self-stress",
+            "flexact picture input_decks/paper/twelve_trusses.dat -o results/trusses.png",
+        ),
+        (
+            "One quantity of a self-stress, from the front",
+            "flexact picture input_decks/flexures/parallel_guide.dat --quantity in-plane-moment "
+            "--view front -o results/moment.svg",
+        ),
+    )
     parser.set_defaults(run=draw_deck)
 
 
 def _quantity(text: str) -> str:
     """A quantity by any of its names, as an option's type."""
-    if (found := quantity_named(text)) is None:
+    if quantity_named(text) is None:
         choices = ", ".join(_QUANTITIES)
         raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
-    return found
+    return text
 
 
 def draw_deck(chosen: argparse.Namespace) -> ExitCode:

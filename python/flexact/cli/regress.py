@@ -18,8 +18,11 @@ from flexact.cli import failures
 from flexact.cli.analysed import add_method, announce_wait, tolerance
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.regress_summary import summary
+from flexact.cli.renamed import add_renamed
+from flexact.cli.targets import file, folder
 from flexact.cli.terminal import end_progress, say, show_progress
 from flexact.cli.workers import add_workers, in_order
 from flexact.core.progress import Progress
@@ -35,30 +38,42 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = "Compare what does not depend on sign, order or basis with stored answers."
     add_decks(parser)
     parser.add_argument(
-        "--against", type=Path, metavar="DIR", required=True, help="folder of the stored answers"
+        "--against", type=folder, metavar="DIR", required=True, help="folder of the stored answers"
     )
     parser.add_argument(
         "--store", action="store_true", help="store the answers that are new or differ instead"
     )
     parser.add_argument(
-        "--tolerance",
+        "--within",
         type=tolerance,
-        metavar="T",
+        metavar="D",
         help="largest difference of singular values, as a fraction of the largest "
         "(default 1e-9), and of entries of projectors (default 1e-8)",
     )
+    add_renamed(parser, "--tolerance", "--within", dest="within", kind=tolerance)
     parser.add_argument(
-        "--junit", type=Path, metavar="FILE", help="write what came of each deck as JUnit XML"
+        "--junit", type=file, metavar="FILE", help="write what came of each deck as JUnit XML"
     )
     add_workers(parser)
     add_method(parser)
+    add_examples(
+        parser,
+        (
+            "Store the answers, once they are right",
+            "flexact regress input_decks/paper --against results/answers --store",
+        ),
+        (
+            "Compare with them: exits with 3 if one differs",
+            "flexact regress input_decks/paper --against results/answers",
+        ),
+    )
     parser.set_defaults(run=regress_decks)
 
 
 def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     """Compare the decks that were asked for with their stored answers, or store them."""
-    if chosen.store and chosen.tolerance is not None:
-        raise BatchError("--tolerance is for comparing; it has no meaning with --store")
+    if chosen.store and chosen.within is not None:
+        raise BatchError("--within is for comparing; it has no meaning with --store")
     start = time.time()
     decks = find_decks(chosen.decks)
     if chosen.store:
@@ -99,7 +114,7 @@ def _findings(
     decks: Sequence[DeckFile], chosen: argparse.Namespace
 ) -> Iterator[tuple[DeckFile, Finding]]:
     """What comes of each deck, in their order; a folder that gives none fails."""
-    question = Question(chosen.method, chosen.tolerance, chosen.store)
+    question = Question(chosen.method, chosen.within, chosen.store)
     good = [deck for deck in decks if deck.error is None]
     results: Iterator[tuple[Finding, str]]
     if chosen.dask is None and (len(good) == 1 or chosen.workers == 1):

@@ -13,8 +13,10 @@ from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
+from flexact.cli.targets import folder_or
 from flexact.cli.terminal import complain, say
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
@@ -32,19 +34,31 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Write the result of a deck as one HTML page that opens without a network: "
         "verdict, drawing in motion, self-stresses in colour, tables, deck. A deck with errors "
-        "gives a page with its diagnostics, and exit code 2."
+        "gives a page with its diagnostics, and exit code 1."
     )
     add_decks(parser)
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=folder_or(*PAGES),
         metavar="PAGE",
         required=True,
         help="the page, NAME.html; or a folder for a page of each deck and index.html",
     )
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "A page of a deck",
+            "flexact report input_decks/paper/five_wires.dat -o results/wires.html",
+        ),
+        (
+            "Pages of several decks, and an index",
+            "flexact report input_decks/paper/five_wires.dat input_decks/linkages/rssr.dat "
+            "-o results/pages",
+        ),
+    )
     parser.set_defaults(run=report_decks)
 
 

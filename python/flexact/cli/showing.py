@@ -4,27 +4,38 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from flexact.base.errors import BatchError
+from flexact.cli.targets import file
 from flexact.files.decks import DeckFile, find_decks
 
 
-def add_deck(parser: argparse.ArgumentParser, file: str) -> None:
-    """Add the one deck to a verb's parser, and the file made of it, described by `file`."""
-    parser.add_argument("deck", metavar="DECK", help="a deck")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", required=True, help=file)
+def add_deck(
+    parser: argparse.ArgumentParser, words: str, kind: Callable[[str], Path] = file
+) -> None:
+    """Add the one deck to a verb's parser, and the file made of it, which `words` describe."""
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
+    parser.add_argument("-o", "--output", type=kind, metavar="FILE", required=True, help=words)
 
 
-def add_shown(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of the motion to a verb's parser; numbers count from 1."""
-    which = parser.add_mutually_exclusive_group()
+def add_shown(parser: argparse.ArgumentParser, title: str = "what is shown") -> Any:
+    """Add the choice of the motion to a verb's parser; numbers count from 1.
+
+    Returns:
+        The group of options, for more of them.
+    """
+    group = parser.add_argument_group(title)
+    which = group.add_mutually_exclusive_group()
     which.add_argument(
         "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
     )
     which.add_argument(
         "--freedom", type=number, metavar="K", help="show declared degree of freedom K"
     )
+    return group
 
 
 def add_no_browser(parser: argparse.ArgumentParser) -> None:

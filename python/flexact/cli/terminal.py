@@ -28,6 +28,17 @@ def say(text: str) -> None:
         print(text, flush=True)
 
 
+def put(content: bytes) -> None:
+    """Write a file's content to stdout in place of words; errors as for `say`."""
+    with _results():
+        sys.stdout.flush()
+        if (raw := getattr(sys.stdout, "buffer", None)) is not None:
+            raw.write(content)
+            raw.flush()
+        else:
+            sys.stdout.write(content.decode("utf-8", "replace"))
+
+
 def finish_results() -> None:
     """Write what is still buffered; errors as for `say`."""
     with _results():

@@ -14,13 +14,16 @@ from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.showing import add_shown, number, one_deck
-from flexact.cli.terminal import say
+from flexact.cli.targets import write_text
+from flexact.cli.terminal import complain, say
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import plan_file, plan_files
+from flexact.files.outputs import STDOUT, plan_file, plan_files
 from flexact.mesh.collection import SUFFIX, folder_of
 from flexact.tracing.playing import ENDINGS, STEM
+from flexact.tracing.rows import csv_bytes
 from flexact.tracing.saving import require_suffix, save
 from flexact.tracing.tracer import STEPS, trace
 from flexact.tracing.words import lines
@@ -32,19 +35,19 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "Follow a motion, or a declared degree of freedom, both ways from the reference with every "
         "held deformation zero; say how far it goes, what stops it, and where its dead points are."
     )
-    parser.add_argument("deck", metavar="DECK", help="a deck")
-    add_shown(parser)
-    parser.add_argument(
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
+    group = add_shown(parser, "what is followed")
+    group.add_argument(
         "--length",
         type=_length,
         metavar="L",
         help="how far each way, in m, of the node that moves farthest; a rotation of 1 rad "
         "counts as the model's size (default: that size)",
     )
-    parser.add_argument(
+    group.add_argument(
         "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
     )
-    parser.add_argument(
+    group.add_argument(
         "--through",
         action=argparse.BooleanOptionalAction,
         default=True,
@@ -57,9 +60,20 @@ def fill(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values and "
-        "places along the path; .pvd, a cycle that plays in ParaView",
+        "places along the path; .pvd, a cycle that plays in ParaView; - for the table on stdout",
     )
     add_decision(parser)
+    add_examples(
+        parser,
+        (
+            "How far a declared freedom goes",
+            "flexact trace input_decks/linkages/slider_crank_planar.dat --freedom 1",
+        ),
+        (
+            "The path as a table",
+            "flexact trace input_decks/linkages/four_bar_planar.dat --motion 1 -o results/path.csv",
+        ),
+    )
     parser.set_defaults(run=trace_deck, accuracy=None)
 
 
@@ -76,7 +90,7 @@ def _length(text: str) -> float:
 def trace_deck(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the deck and trace the motion."""
     deck, target = one_deck(chosen), chosen.output
-    if target is not None:
+    if target is not None and target != STDOUT:
         _plan(deck, target)
         with unwinding():
             require_suffix(target)
@@ -99,12 +113,16 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                 raise
             except FlexactError as error:
                 raise BatchError(str(error)) from error
-            if target is not None:
+            if target is not None and target != STDOUT:
                 with unwinding():
                     save(made, target)
+        tell = say
+        if target == STDOUT:
+            write_text(target, csv_bytes(made))
+            tell = complain
         for line in lines(made):
-            say(harmless(line))
-        if target is not None:
+            tell(harmless(line))
+        if target is not None and target != STDOUT:
             say(f"{harmless(deck.name)}: written to {harmless(str(target))}")
         return Outcome(deck.name, ExitCode.ANALYSED, "traced")
 

@@ -4,16 +4,17 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import broken_page_of
 from flexact.cli.showing import add_no_browser, one_deck
+from flexact.cli.targets import file
 from flexact.cli.terminal import say
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile
@@ -33,13 +34,20 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "colour, tables, deck. Where no browser can be opened it says where the page is. A deck "
         "with errors gives a page with its diagnostics."
     )
-    parser.add_argument("deck", metavar="DECK", help="a deck")
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
     parser.add_argument(
-        "-o", "--output", type=Path, metavar="PAGE", help="keep the page, NAME.html"
+        "-o", "--output", type=file, metavar="PAGE", help="keep the page, NAME.html"
     )
     add_no_browser(parser)
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "Keep the page, and open no browser",
+            "flexact view input_decks/paper/five_wires.dat --no-browser -o results/wires.html",
+        ),
+    )
     parser.set_defaults(run=view_deck)
 
 

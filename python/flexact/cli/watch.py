@@ -8,16 +8,18 @@ import sys
 import time
 from pathlib import Path
 
+from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli import failures
 from flexact.cli.analysed import add_accuracy, add_decision
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
 from flexact.cli.showing import add_no_browser, one_deck
 from flexact.cli.terminal import complain, say
 from flexact.deck.reading import file_bytes
 from flexact.diagnostics.errors import DeckError
-from flexact.files.decks import DeckFile, FolderError
+from flexact.files.decks import STDIN, DeckFile, FolderError
 from flexact.watching.browser import opens
 from flexact.watching.messages import Answer, Broken
 from flexact.watching.watch import SCRIPT, Heard, Watch
@@ -42,6 +44,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
     add_no_browser(parser)
     add_decision(parser)
     add_accuracy(parser)
+    add_examples(
+        parser,
+        ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
+        ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
+    )
     parser.set_defaults(run=watch)
 
 
@@ -58,6 +65,8 @@ def port(text: str) -> int:
 def watch(chosen: argparse.Namespace) -> ExitCode:
     """Serve, until a signal ends it."""
     path = chosen.deck
+    if path == STDIN:
+        raise BatchError("what comes from stdin is not saved anew; name a file to watch")
     is_script = path.lower().endswith(SCRIPT)
     deck = DeckFile(path, Path(path)) if is_script else one_deck(chosen)
     path = deck.path

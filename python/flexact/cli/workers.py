@@ -14,7 +14,7 @@ from flexact.cli.showing import number
 
 def add_workers(parser: argparse.ArgumentParser) -> None:
     """Add to a verb's parser who does the work."""
-    who = parser.add_mutually_exclusive_group()
+    who = parser.add_argument_group("who does the work").add_mutually_exclusive_group()
     who.add_argument(
         "-j", "--workers", type=number, metavar="N", help="processes (default: one a processor)"
     )

@@ -8,7 +8,7 @@ from enum import Enum
 from pathlib import Path
 
 from ..base.errors import BatchError, reason_of
-from ..deck.models import read
+from ..deck.models import read, read_text
 from ..diagnostics.diagnostic import Diagnostic
 from ..model.model import Model
 from .mesh_files import MeshError, mesh_bytes, read_mesh, suffixes
@@ -81,6 +81,31 @@ def read_any(
         raw = path.read_bytes()
     except OSError as error:
         raise FormatError(f"{path}: the file cannot be read: {reason_of(error)}") from error
+    return _of_tables(raw, path, flexible)
+
+
+def read_content(raw: bytes, name: str, *, flexible: str = "independent") -> Model:
+    """The model in a text without a suffix: JSON tables if it begins with a brace, else a deck.
+
+    Args:
+        raw: The text.
+        name: What it is called.
+        flexible: As of `read_any`.
+
+    Raises:
+        FlexactError: anything is wrong with it.
+    """
+    if form_of_content(raw) is Format.TABLES:
+        return _of_tables(raw, Path(f"{name}{JSON[0]}"), flexible)
+    return read_text(raw, name)
+
+
+def form_of_content(raw: bytes) -> Format:
+    """What a text without a suffix is."""
+    return Format.TABLES if raw.lstrip()[:1] == b"{" else Format.DECK
+
+
+def _of_tables(raw: bytes, path: Path, flexible: str) -> Model:
     tables, text = read_tables(raw, str(path), path.suffix.lower())
     return model_of(tables, flexible=flexible, name=path.stem, text=text)
 

@@ -11,6 +11,7 @@ from ..core import calls
 from ..diagnostics.diagnostic import Diagnostic, Place, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError
 from ..diagnostics.source import Source
+from ..files.decks import DeckFile
 from ..model.appearance import Appearance
 from ..model.data import DeckNames, ModelData
 from ..model.loads import Loads
@@ -28,6 +29,20 @@ def read_file(path: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> Mode
     """Read a deck from a file; see `flexact.read`."""
     name = os.fsdecode(path)
     return read_bytes(file_bytes(name), name)
+
+
+def read_deck(deck: DeckFile) -> ModelData:
+    """Read a deck that a command was given; as `read_file`."""
+    return read_bytes(deck_bytes(deck), os.fsdecode(deck.path))
+
+
+def deck_bytes(deck: DeckFile) -> bytes:
+    """The text of a deck that a command was given.
+
+    Raises:
+        DeckError: its file cannot be read.
+    """
+    return file_bytes(deck.path) if deck.content is None else deck.content
 
 
 def file_bytes(path: str) -> bytes:

@@ -4,14 +4,19 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
 from ..base.errors import FlexactError, reason_of
 
 SUFFIX = ".dat"
+#: What stands for a deck on standard input, and what that deck is called.
+STDIN, STDIN_NAME = "-", "<stdin>"
+#: A deck is smaller; whether it is is said where it is read.
+_MOST_BYTES = 2**31
 
 
 class FolderError(FlexactError):
@@ -38,11 +43,13 @@ class DeckFile:
         relative: Where its results go below the output folder, without a suffix: the deck's name,
             behind the subfolders that lie between it and the folder that was asked for.
         error: Why the path, a folder, gives no decks.
+        content: The text of a deck that came by standard input; None of one in a file.
     """
 
     path: str
     relative: Path
     error: FolderError | None = None
+    content: bytes | None = field(default=None, repr=False)
 
     @property
     def name(self) -> str:
@@ -56,11 +63,11 @@ def find_decks(arguments: Iterable[str]) -> tuple[DeckFile, ...]:
     A folder stands for every ``*.dat`` in it and below it, sorted by path; symbolic links to
     folders are not followed. A folder that cannot be searched, or holds no deck, is among them
     with its error. A file is taken whatever its suffix, whether or not it exists, so that reading
-    it gives the error with its reason.
+    it gives the error with its reason. ``-`` stands for the deck on standard input.
     """
     decks: dict[str, DeckFile] = {}
     place_of = cache(_place)
-    for argument in arguments:
+    for argument in dict.fromkeys(arguments):
         for deck in _expand(argument):
             folder, name = os.path.split(deck.path)
             decks.setdefault(os.path.join(place_of(folder), name), deck)
@@ -76,6 +83,9 @@ def _place(folder: str) -> str:
 
 
 def _expand(argument: str) -> Iterator[DeckFile]:
+    if argument == STDIN:
+        yield _from_stdin()
+        return
     whole = Path(Path(argument).stem or "deck")
     if not os.path.isdir(argument):
         yield DeckFile(argument, whole)
@@ -90,6 +100,18 @@ def _expand(argument: str) -> Iterator[DeckFile]:
     if not decks:
         message = f"{argument}: no deck (*{SUFFIX}) in this folder or below it"
         yield DeckFile(argument, whole, FolderError(message, "no-decks", "no decks"))
+
+
+def _from_stdin() -> DeckFile:
+    name, whole = STDIN_NAME, Path("stdin")
+    try:
+        if sys.stdin is None:
+            raise OSError("standard input is closed")
+        return DeckFile(name, whole, content=sys.stdin.buffer.read(_MOST_BYTES))
+    except (OSError, ValueError) as error:
+        why = reason_of(error) if isinstance(error, OSError) else "standard input is closed"
+        message = f"{name}: this deck cannot be read: {why}"
+        return DeckFile(name, whole, FolderError(message, "cannot-read", "cannot be read"))
 
 
 def _walk(folder: str, errors: list[OSError]) -> Iterator[tuple[tuple[str, ...], DeckFile]]:

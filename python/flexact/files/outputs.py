@@ -16,6 +16,9 @@ from ..base.interruption import undisturbed
 from .decks import DeckFile
 from .temporary import remove_left, temporary_name
 
+#: What stands for standard output.
+STDOUT = Path("-")
+
 
 class OutputError(BatchError):
     """A file of results cannot be written."""
@@ -38,6 +41,8 @@ def plan_files(
         OutputError: Two decks would write one file, a deck would be overwritten, or the folder
             cannot take files.
     """
+    if folder == STDOUT:
+        raise OutputError("a folder is wanted, and - is standard output")
     _check_folder(folder)
     owner: dict[str, str] = {}
     plan = {}
@@ -64,6 +69,8 @@ def plan_file(deck: DeckFile, target: Path) -> dict[str, tuple[Path, ...]]:
         OutputError: The deck would be overwritten, the target has no name of a file, or the folder
             cannot take files.
     """
+    if target == STDOUT:
+        raise OutputError("this cannot go to standard output: name a file in place of -")
     if target.name in ("", ".."):
         raise OutputError(f"cannot write {target}: it is a folder; name a file")
     named = replace(deck, relative=Path(target.stem))

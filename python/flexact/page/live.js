@@ -5,6 +5,7 @@
 
 const Live = (() => {
   const PATIENCE = 300; // ms before it is said that something is going on
+  const LATER = 1000; // ms until an old scene is freed, for which the drawing has to wait
   const AGAIN = 1000; // ms between two attempts to reach the server
   const KEPT = `flexact ${location.pathname}`;
   const GONE = "The server has ended: the page stays as it is, and goes on when flexact watch "
@@ -88,12 +89,18 @@ const Live = (() => {
       this.bar.classList.add("fresh");
     }
 
+    /** Put a new scene in the place of the old one, which is freed when nobody waits for it. */
     renew(body) {
-      const view = this.mounted.view();
-      this.mounted.dispose();
-      this.scene.innerHTML = body;
+      const old = this.mounted, view = old.view();
+      for (const { player } of old.viewers) player.playing = false;
+      const scene = document.createElement("div");
+      scene.className = "live-scene";
+      scene.innerHTML = body;
+      this.scene.replaceWith(scene);
+      this.scene = scene;
       this.mount();
       this.mounted.restore(view);
+      setTimeout(() => old.dispose(), LATER);
     }
 
     tell({ changed_words: changed, which, saved, broken }) {

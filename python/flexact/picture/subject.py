@@ -10,10 +10,20 @@ from typing import SupportsIndex
 from ..advice.spaces.spaces import Spaces
 from ..base.errors import BatchError, require_kind
 from ..base.plain_text import harmless
-from ..drawing import QUANTITIES, Drawing, Movement, move, quantity_named, resultants
+from ..drawing import (
+    QUANTITIES,
+    Drawing,
+    Movement,
+    Resultants,
+    move,
+    names_in,
+    quantity_named,
+    resultants,
+)
 from ..drawing.selection import Selection, require_there, select_motion
 from ..result.result import Result
 from ..text.naming import motion_in_words
+from ..text.places import listed
 from .spaces import SpaceShown, spaces_shown
 from .stress import Stress, stress_of
 
@@ -158,8 +168,22 @@ def _stressed(analysis: Result, drawing: Drawing, number: int, quantity: str | N
     require_there(number, len(stresses), "self-stress", "self-stresses")
     values = resultants(drawing, stresses[number - 1])
     known = None if quantity is None else quantity_named(quantity)
+    if known is not None and not values.largest(known) > 0.0:
+        raise SubjectError(_zero(drawing, values, str(quantity), number))
     words = f"self-stress {number} of {analysis.over_constrained}"
     return Subject(_heading(words), stress=stress_of(values, known))
+
+
+def _zero(drawing: Drawing, values: Resultants, asked: str, number: int) -> str:
+    """What to say of a quantity that is zero everywhere, and which are not."""
+    short = {"n", "t", "my", "mz"}
+    name = asked if asked.lower() in short else names_in(drawing)[str(quantity_named(asked))]
+    others = [name for each, name in names_in(drawing).items() if values.largest(each) > 0.0]
+    start = f"{harmless(name)} is zero everywhere in self-stress {number}"
+    if not others:
+        return start
+    are = "is" if len(others) == 1 else "are"
+    return f"{start}; {listed(others)} {are} not"
 
 
 def _heading(words: str) -> str:

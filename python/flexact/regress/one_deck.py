@@ -12,7 +12,7 @@ from pathlib import Path
 from ..base.errors import FlexactError
 from ..base.plain_text import harmless
 from ..core.progress import Progress
-from ..deck.reading import file_bytes, read_bytes
+from ..deck.reading import deck_bytes, read_bytes
 from ..diagnostics.errors import DeckError
 from ..files.decks import DeckFile
 from ..model.data import ModelData
@@ -100,7 +100,7 @@ def case_of(deck: DeckFile, answers: Path) -> Case:
     text: bytes | FlexactError
     stored: bytes | StoredAnswerError
     try:
-        text = file_bytes(deck.path)
+        text = deck_bytes(deck)
     except DeckError as error:
         text = error
     try:

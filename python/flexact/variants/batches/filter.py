@@ -154,7 +154,7 @@ class _Reader:
     def _hint(self, name: str) -> str:
         later = next((each for each in COLUMNS if each.name == name), None)
         if later is not None:
-            return f" without --want {later.least}"
+            return f" without --columns {later.least}"
         near = load("difflib").get_close_matches(name, self._columns, 1)
         there = ", ".join(self._columns)
         return f"; did you mean {near[0]}?" if near else f"; there are {there}"
