@@ -107,7 +107,7 @@ fi
 
 [ -x .venv/bin/python ] || "$python" -m venv .venv
 requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm threadpoolctl matplotlib pillow"
-[ "$purpose" = run ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis jsonschema mpmath selenium vtk pyarrow PyYAML pygls>=2 ruff mypy fprettify"
+[ "$purpose" = run ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis imageio-ffmpeg jsonschema mpmath selenium vtk pyarrow pypdfium2 PyYAML pygls>=2 ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086
 .venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||

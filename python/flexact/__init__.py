@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from .model.jacobian import Jacobian, deformations, jacobian
     from .model.material import Material
     from .model.model import Model
+    from .notebook.output import viewer
+    from .notebook.results import Results
     from .result.decompose import AnalysisError
     from .result.exact import ExactBases
     from .result.modes import Motion, SelfStress
@@ -89,6 +91,8 @@ _HOMES = {
     ),
     "model.material": ("Material",),
     "model.model": ("Model",),
+    "notebook.output": ("viewer",),
+    "notebook.results": ("Results",),
     "result.decompose": ("AnalysisError",),
     "result.exact": ("ExactBases",),
     "result.modes": ("Motion", "SelfStress"),
@@ -145,6 +149,7 @@ __all__ = [
     "Notch",
     "Place",
     "Proof",
+    "Results",
     "SelfStress",
     "Severity",
     "Shape",
@@ -171,11 +176,15 @@ __all__ = [
     "sweep",
     "tolerances",
     "trace",
+    "viewer",
 ]
 
 
 # A model may know nothing of what stands on top of it.
-shown_by(lambda model, path: load("flexact.analysis").show_model(model, path))
+shown_by(
+    lambda model, path: load("flexact.analysis").show_model(model, path),
+    lambda model: load("flexact.notebook.models").html_of(model.data),
+)
 
 
 def __getattr__(name: str) -> object:

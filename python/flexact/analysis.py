@@ -20,7 +20,6 @@ from .mesh import to_meshio
 from .model.jacobian import jacobian
 from .model.model import Model
 from .page import broken_page, page
-from .page.notebook import html_of
 from .result.accuracy import AccuracyGiven
 from .result.decompose import AnalysisError, asked_for
 from .result.result import Result, result_of
@@ -101,9 +100,9 @@ class Analysis(Result):
         """Write the result to a file, whole or not at all.
 
         Args:
-            path: Its suffix says what it is to be: a picture (.png, .svg, or .gif, which moves;
-                `flexact.picture`), a page (.html; `flexact.page`), a cycle for ParaView (.pvd),
-                or a mesh (.vtu, .vtp, .vtk, .xdmf, ...; `flexact.mesh`).
+            path: Its suffix says what it is to be: a picture (.png, .svg, .pdf, or .gif, .mp4 and
+                .webm, which move; `flexact.picture`), a page (.html; `flexact.page`), a cycle for
+                ParaView (.pvd), or a mesh (.vtu, .vtp, .vtk, .xdmf, ...; `flexact.mesh`).
             motion: Number of the motion that is shown, from 1; of pictures and meshes.
             freedom: Number of the declared degree of freedom that is shown, likewise.
             stress: Number of the self-stress that is shown, of pictures.
@@ -185,7 +184,14 @@ class Analysis(Result):
         )
 
     def _repr_html_(self) -> str:
-        return html_of(self)
+        # Notebooks alone ask for it.
+        made: str = load("flexact.notebook.output").html_of(self)
+        return made
+
+    def in_notebook(self, what: object) -> str | None:
+        """HTML of a motion, a self-stress or a row of them, with pictures."""
+        made: str | None = load("flexact.notebook.modes").html_of(self, what)
+        return made
 
 
 def analyse(

@@ -16,8 +16,8 @@ from test_margin import two_wires
 
 from flexact import Analysis, Verdict, analyse
 from flexact.cli.main import main
+from flexact.notebook.output import html_of
 from flexact.page import page
-from flexact.page.notebook import html_of
 from flexact.text.describe import verdict_in_words
 from flexact.text.units import angle_in_words, length_in_words
 

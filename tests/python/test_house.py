@@ -26,7 +26,7 @@ FLOORS = (
     ("advice", "convert", "drawing", "regress", "stiffness"),
     ("text",),
     ("editor", "mesh", "page", "picture", "switches"),
-    ("advising", "costing", "saving", "tracing", "variants", "watching"),
+    ("advising", "costing", "notebook", "saving", "tracing", "variants", "watching"),
     ("analysis", "cli"),
     ("", "__main__"),
 )
@@ -41,7 +41,7 @@ MOST_LINES_OF_BINDINGS = 250
 #: Packages that may be missing, and so are imported where they are needed.
 OPTIONAL = (
     *("matplotlib", "PIL", "meshio", "vtk", "vtkmodules"),
-    *("pyarrow", "distributed", "pandas", "yaml", "pygls", "lsprotocol"),
+    *("pyarrow", "distributed", "pandas", "yaml", "pygls", "lsprotocol", "imageio_ffmpeg"),
 )
 
 

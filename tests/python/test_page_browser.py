@@ -485,19 +485,3 @@ def test_printed_page_holds_a_still_and_all_tables(browser: Browser, tmp_path: P
     assert browser.run("return document.documentElement.dataset.theme === undefined")
     printed = browser.driver.print_page()
     assert len(printed) > 20_000
-
-
-def test_a_notebook_shows_the_page_in_a_frame(browser: Browser, tmp_path: Path) -> None:
-    analysis = flexact.analyse(twelve_trusses())
-    html = f"<!DOCTYPE html><title>cell</title>{analysis._repr_html_()}"
-    path = write(tmp_path / "cell.html", html)
-    browser.open(path)
-    assert browser.console() == []
-    browser.enter(0)
-    browser.run("flexact.play(false)")
-    browser.drawn()
-    assert browser.run("return flexact.data.movements.length") == 1
-    assert browser.console() == []
-    browser.driver.switch_to.default_content()
-    pixels = browser.pixels("iframe")
-    assert changed(pixels, np.broadcast_to(pixels[2, 2], pixels.shape)) > 20_000

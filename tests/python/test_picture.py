@@ -480,7 +480,7 @@ def test_what_is_not_there_is_told() -> None:
         draw(analysis, motion=1, quantity="N")
     with pytest.raises(SubjectError, match="one of them"):
         picture_bytes(analysis, ".gif", motion=1, stress=1)
-    with pytest.raises(PictureError, match="png, gif, svg"):
+    with pytest.raises(PictureError, match="png, svg, pdf, gif, mp4, webm"):
         picture_bytes(analysis, ".jpg")
 
 

@@ -15,7 +15,7 @@ from flexact.cli.main import main
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 
-STARTS = {"png": b"\x89PNG", "gif": b"GIF89a", "svg": b"<?xml"}
+STARTS = {"png": b"\x89PNG", "gif": b"GIF89a", "svg": b"<?xml", "pdf": b"%PDF"}
 
 
 @pytest.mark.parametrize("suffix", STARTS)
@@ -120,12 +120,12 @@ def test_a_wrong_choice_leaves_no_file(
     assert not target.parent.exists()
 
 
-@pytest.mark.parametrize("name", ["x.jpg", "x", "x.pdf", ".png"])
+@pytest.mark.parametrize("name", ["x.jpg", "x", "x.avi", ".png"])
 def test_a_wrong_suffix_is_told_before_anything_is_read(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / name)]) == 2
-    assert "one of png, gif, svg" in capsys.readouterr().err
+    assert "one of png, svg, pdf, gif, mp4, webm" in capsys.readouterr().err
 
 
 def test_a_broken_deck_exits_with_2(tmp_path: Path) -> None:
@@ -168,7 +168,7 @@ def test_an_existing_picture_stays_until_the_new_one_is_complete(
         raise BatchError("in the middle")
 
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.picture.make.png_bytes", fail)
+        patch.setattr("flexact.picture.make.still_bytes", fail)
         assert main(["picture", str(decks / "both.dat"), "-o", str(target)]) == 1
     assert target.read_text() == "old"
     assert files_in(target.parent) == ["x.png"]

@@ -295,8 +295,8 @@ def test_what_cannot_be_drawn_is_told_in_words(table: Table, tmp_path: Path) -> 
         table.plot("length")
     with pytest.raises(ValueError, match="no numbers"):
         table.plot("verdict")
-    with pytest.raises(flexact.FlexactError, match=r"\.png or \.svg"):
-        table.plot(path=tmp_path / "map.pdf")
+    with pytest.raises(flexact.FlexactError, match=r"\.png, \.svg or \.pdf"):
+        table.plot(path=tmp_path / "map.jpg")
     twice = sweep(platform, grid(yaw=[0.0, 1.0], height=[1.0, 2.0], name=["a", "b"]), workers=1)
     with pytest.raises(ValueError, match="name"):
         twice.plot("yaw", "height")

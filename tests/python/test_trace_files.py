@@ -112,8 +112,8 @@ def test_without_a_file_the_words_are_all(capsys: pytest.CaptureFixture[str]) ->
     [
         (["--motion", "2"], "there is no motion 2: the analysis gives 1 motion"),
         (["--freedom", "1"], "there is no degree of freedom 1"),
-        (["-o", "path.txt"], "is to be .pvd, .csv or .png"),
-        (["-o", "path"], "is to be .pvd, .csv or .png"),
+        (["-o", "path.txt"], "is to be .pvd, .csv, .png, .svg or .pdf"),
+        (["-o", "path"], "is to be .pvd, .csv, .png, .svg or .pdf"),
         (["-o", f"{TRUSSES}/path.csv"], "twelve_trusses.dat"),
     ],
 )

@@ -46,7 +46,7 @@ def picture_of(advice: Advice, suffix: str) -> bytes:
 
     Args:
         advice: The advice on the mechanism.
-        suffix: `.png` or `.svg`.
+        suffix: `.png`, `.svg` or `.pdf`.
 
     Raises:
         ModelError: there is no body that could move.

@@ -21,6 +21,7 @@ from flexact.deck.editing import edited_deck
 from flexact.diagnostics.errors import ModelError
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import STDOUT, plan_file, write_together
+from flexact.picture import STILLS, SUFFIXES
 from flexact.result.verdict import Verdict
 from flexact.saving import PAGES
 from flexact.text.naming import counts_in_words
@@ -28,7 +29,6 @@ from flexact.text.places import listed
 from flexact.text.sentences import Pieces
 
 _STEP = re.compile(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?")
-_PICTURES = (".png", ".svg")
 
 
 class AskedError(BatchError):
@@ -110,18 +110,18 @@ class AdviceFile:
             return
         if len(decks) > 1:
             raise BatchError(f"-o is for one deck, and there are {len(decks)}")
-        if self.kind in _PICTURES and self.steps is not None:
+        if self.kind in SUFFIXES and self.steps is not None:
             raise BatchError(
                 "a picture shows the mechanism as it is; for what --apply makes of it name a "
                 "page (.html), or a deck"
             )
-        if self.kind not in (*PAGES, *_PICTURES) and self.steps is None:
+        if self.kind not in (*PAGES, *STILLS) and self.steps is None:
             what = "standard output" if self.to_stdout else self.target
             raise BatchError(
-                f"what is {what} to be? A page ends with .html, a picture with .png or "
-                ".svg; the deck that a step makes also needs --apply K"
+                f"what is {what} to be? A page ends with .html, a picture with .png, "
+                ".svg or .pdf; the deck that a step makes also needs --apply K"
             )
-        if self.kind in (*PAGES, *_PICTURES):
+        if self.kind in (*PAGES, *STILLS):
             plan_file(decks[0], self.target)
         else:
             plan_deck(decks[0], self.target)
@@ -141,7 +141,7 @@ class AdviceFile:
         name = "standard output" if self.to_stdout else name
         pages = "flexact.advising.pages"
         content: bytes
-        if self.kind in _PICTURES:
+        if self.kind in STILLS:
             content = load(pages).picture_of(advice, self.kind)
             said = f"freedom and constraint drawn in {name}"
         elif self.kind in PAGES and not self.steps and not len(advice):
@@ -155,7 +155,7 @@ class AdviceFile:
             else:
                 content = edited_deck(given, taken.change.apply(given).data)
                 said = f"{taken.words} written to {name}, {taken.outcome}"
-        if self.kind in (*PAGES, *_PICTURES):
+        if self.kind in (*PAGES, *STILLS):
             write_together({self.target: content})
         else:
             write_text(self.target, content)

@@ -55,7 +55,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; "
-        "or a picture (.png, .svg) of the freedom and the constraint of the body",
+        "or a picture (.png, .svg, .pdf) of the freedom and the constraint of the body",
     )
     add_decision(parser)
     add_accuracy(parser)

@@ -26,7 +26,7 @@ _QUANTITIES = ("normal-force", "twist-moment", "in-plane-moment", "out-of-plane-
 def fill(parser: argparse.ArgumentParser) -> None:
     """Give the verb its description and arguments."""
     parser.description = "Draw a mechanism: by default its first motion and its first self-stress."
-    add_deck(parser, "the picture: .png, .svg, or .gif, which moves")
+    add_deck(parser, "the picture: .png, .svg or .pdf; .gif, .mp4 or .webm, which move")
     group = add_shown(parser)
     group.add_argument(
         "--stress", type=number, metavar="K", help="show self-stress K, coloured by its resultant"
@@ -109,5 +109,5 @@ def draw_deck(chosen: argparse.Namespace) -> ExitCode:
 def _check(chosen: argparse.Namespace) -> None:
     """Find out what is wrong with the choice before anything is analysed."""
     check_suffix(chosen.output.suffix)
-    check_packages()
+    check_packages(chosen.output.suffix)
     check_view(chosen.view)

@@ -60,8 +60,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE",
-        help="the path: .csv, a row a step; .png, singular values and places along the path; "
-        ".pvd, a cycle that plays in ParaView; - for the table on stdout",
+        help="the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values and "
+        "places along the path; .pvd, a cycle that plays in ParaView; - for the table on stdout",
     )
     add_decision(parser)
     add_examples(

@@ -79,6 +79,11 @@ class Cost(CostValues):
         name = f" {self.name!r}" if self.name else ""
         return f"<Cost{name}: {first_line(self)} {len(self.designs)} designs>"
 
+    def _repr_html_(self) -> str:
+        # Notebooks alone ask for it.
+        made: str = load("flexact.costing.notebook").html_of(self)
+        return made
+
 
 def cost(
     model: Model | str | bytes | os.PathLike[str] | os.PathLike[bytes],

@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import io
 from typing import Any
 
 from ..base.plain_text import file_name
 from ..drawing.charts.values import BarChart, Chart
 from ..picture.bar_charts import bars_height, draw_bars
 from ..picture.charts import draw_chart
-from ..picture.files import png_bytes, svg_bytes
+from ..picture.files import png_bytes, still_bytes
 from ..picture.loading import load_matplotlib
 from ..picture.make import check_packages
 from .bars import bars_of
@@ -21,8 +20,6 @@ from .plot_head import draw_head, draw_notes, head_height, notes_of
 from .plot_table import HEAD, table_of
 from .words import first_line
 
-#: Suffixes of pictures.
-SUFFIXES = (".png", ".svg", ".pdf")
 #: Width [inch] and pixels an inch: 1200 pixels wide.
 _WIDTH, _DPI = 12.0, 100
 #: Heights of what stands below each other [inch].
@@ -74,16 +71,8 @@ def plot_bytes(cost: CostValues, suffix: str = ".png") -> bytes:
     Raises:
         FlexactError: matplotlib is missing.
     """
-    figure = plot_of(cost)
-    if suffix == ".svg":
-        return svg_bytes(figure, file_name(cost.name) or "cost", typeset(first_line(cost)))
-    if suffix == ".pdf":
-        buffer = io.BytesIO()
-        figure.savefig(
-            buffer, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None}
-        )
-        return buffer.getvalue()
-    return png_bytes(figure)
+    words = file_name(cost.name) or "cost", typeset(first_line(cost))
+    return still_bytes(plot_of(cost), suffix, *words)
 
 
 def _axes(figure: Any, left: float, top: float, width: float, height: float) -> Any:

@@ -45,7 +45,7 @@ class Shape(Frozen):
         """A picture as the content of a file.
 
         Args:
-            suffix: .png, .svg, or .gif, which moves.
+            suffix: .png, .svg or .pdf; .gif, .mp4 or .webm, which move.
             view: iso, front, back, left, right, top, bottom, or azimuth and elevation in degrees.
             size: Width and height [px].
 

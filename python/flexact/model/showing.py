@@ -11,12 +11,16 @@ from typing import Any
 #: Shows a model, in a file that may be named.
 Shows = Callable[[Any, "str | os.PathLike[str] | None"], "Path | None"]
 
+#: Makes HTML of a model, for notebooks.
+Tells = Callable[[Any], str]
+
 _shows: list[Shows] = []
+_tells: list[Tells] = []
 
 
-def shown_by(shows: Shows) -> None:
-    """Set how models are shown."""
-    _shows[:] = [shows]
+def shown_by(shows: Shows, tells: Tells) -> None:
+    """Set how models are shown, and what notebooks show of them."""
+    _shows[:], _tells[:] = [shows], [tells]
 
 
 class ShowMethods:
@@ -38,3 +42,6 @@ class ShowMethods:
             FlexactError: the page cannot be written, or the path is not that of a page.
         """
         return _shows[0](self, path)
+
+    def _repr_html_(self) -> str:
+        return _tells[0](self)

@@ -18,11 +18,14 @@ from .controls_part import choices_part, keys, layers, toolbar
 from .deck_part import deck_of_model, deck_part
 from .drawing_data import frames_of
 from .drawing_part import drawing_part
-from .markup import section, text
+from .limits import FEW_SHAPES, MOST_SHAPES
+from .markup import folded, section, text
 from .modes_part import motions_part, stresses_part
 from .origin_part import origin_part
 from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
 from .viewer_data import left_out, stuck_in, viewer_data
+
+_SCROLLS = "Until you click on the drawing, the wheel scrolls past it."
 
 
 class Content(NamedTuple):
@@ -45,6 +48,7 @@ def content_of(
     spaces: Spaces | None = None,
     *,
     has_origin: bool = True,
+    is_short: bool = False,
 ) -> Content:
     """What the page of a result holds.
 
@@ -53,10 +57,11 @@ def content_of(
         still: A picture of it, as PNG, for browsers without scripts or WebGL.
         spaces: The freedom space and the constraint space of a body, to be switched on.
         has_origin: Whether it is told of what it was made, and how it is made again.
+        is_short: Whether tables and deck are folded away, as among other things.
     """
     require_kind(analysis, Result, "a page is that of a result")
     (frame,) = frames_of(drawing_of(analysis.given))
-    data = viewer_data(analysis, frame, spaces)
+    data = viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
     every = warnings_of(analysis)
     name = file_name(analysis.name)
     raw, is_written = deck_of_model(analysis.given)
@@ -67,21 +72,31 @@ def content_of(
     advice = advised(analysis)
     stuck = stuck_in(analysis)
     below = toolbar(data) + keys(data)
+    tables: tuple[str, ...] = (
+        advice_part(advice),
+        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
+        motions_part(analysis, drawn),
+        stresses_part(analysis),
+        decision_part(analysis),
+    )
+    origin: tuple[str, ...] = (
+        deck_part(raw, in_deck, is_written),
+        origin_part(raw, name, analysis, is_written) if has_origin else "",
+    )
+    if is_short:
+        below += f'<p class="keys">{_SCROLLS}</p>'
+        tables = (folded("What can be done, tables, decision", *tables),)
+        origin = (folded("Deck and versions", *origin),)
     body = (
         verdict(analysis, name, advice),
         '<main class="viewer">',
         drawing_part(data, still, words, below, left_out(analysis, data)),
         '<div class="side">',
         choices_part(data, stuck, layers(data)),
-        advice_part(advice),
-        section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
-        motions_part(analysis, drawn),
-        stresses_part(analysis),
-        decision_part(analysis),
+        *tables,
         "</div>",
         '<div class="below">',
-        deck_part(raw, in_deck, is_written),
-        origin_part(raw, name, analysis, is_written) if has_origin else "",
+        *origin,
         "</div></main>",
     )
     title = f"{name or 'model'}: {verdict_word(analysis)}"

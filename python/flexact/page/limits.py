@@ -7,9 +7,11 @@ from __future__ import annotations
 MOST_MODES = 12
 #: Members that are drawn.
 MOST_MEMBERS = 20_000
-#: Bytes of all movements together, and of one at all its phases, before they are written as text.
+#: Bytes of all movements together, and of one at all its phases, before they are written as text;
+#: of one among other things, as in a notebook.
 MOST_POSES = 10_000_000
 MOST_SHAPES = 2_000_000
+FEW_SHAPES = 30_000
 #: Elements up to which the declared degrees of freedom are looked at one by one, each of which
 #: takes an analysis of its own.
 MOST_ELEMENTS = 10_000

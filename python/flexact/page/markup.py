@@ -73,6 +73,14 @@ def section(name: str, title: str, *parts: str) -> str:
     )
 
 
+def folded(title: str, *parts: str) -> str:
+    """Parts that are seen when somebody opens them; empty without any content."""
+    body = "".join(parts)
+    if not body:
+        return ""
+    return f'<details class="folded"><summary>{text(title)}</summary>{body}</details>'
+
+
 def paragraphs(sentences: Iterable[Line]) -> str:
     """Lines of text, one a paragraph, linked with the drawing."""
     return "".join(f"<p>{flowing(each)}</p>" for each in sentences)

@@ -8,10 +8,10 @@ const Printing = (() => {
 
   /** Until the signal, where there is one. */
   function listen(root, viewers, signal) {
+    const { dataset } = Theme.ownerOf(root);
     let closed = [];
     let theme = null;
     window.addEventListener("beforeprint", () => {
-      const { dataset } = document.documentElement;
       theme = dataset.theme;
       dataset.theme = "light";
       closed = Array.from(root.querySelectorAll("details:not([open])"));
@@ -20,12 +20,13 @@ const Printing = (() => {
     }, { signal });
     window.addEventListener("afterprint", () => {
       for (const each of closed) each.open = false;
-      if (theme) document.documentElement.dataset.theme = theme;
-      else delete document.documentElement.dataset.theme;
+      if (theme) dataset.theme = theme;
+      else delete dataset.theme;
       for (const each of viewers) each.dress();
     }, { signal });
   }
 
+  /** Leave a still of what is seen. */
   function draw(viewer) {
     const still = viewer.part("on-paper");
     const { stage } = viewer;
@@ -43,5 +44,5 @@ const Printing = (() => {
     stage.draw();
   }
 
-  return { listen };
+  return { listen, draw };
 })();

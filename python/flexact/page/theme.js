@@ -5,8 +5,11 @@
 const Theme = (() => {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
 
-  function isDark() {
-    const chosen = document.documentElement.dataset.theme;
+  /** Where light or dark stands: on the page, or on the host of a tree of its own. */
+  const ownerOf = (part) => part.getRootNode().host || document.documentElement;
+
+  function isDark(part) {
+    const chosen = ownerOf(part).dataset.theme;
     return chosen ? chosen === "dark" : dark.matches;
   }
 
@@ -17,13 +20,13 @@ const Theme = (() => {
   function listen(root, changed, signal) {
     const button = root.querySelector("#theme");
     const show = () => {
-      if (button) button.setAttribute("aria-pressed", String(isDark()));
+      if (button) button.setAttribute("aria-pressed", String(isDark(root)));
       changed();
     };
-    if (button) {
+    if (button && !root.host) {
       button.hidden = false;
       button.addEventListener("click", () => {
-        document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+        document.documentElement.dataset.theme = isDark(root) ? "light" : "dark";
         show();
       });
     }
@@ -31,5 +34,5 @@ const Theme = (() => {
     show();
   }
 
-  return { isDark, listen };
+  return { isDark, listen, ownerOf };
 })();

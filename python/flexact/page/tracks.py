@@ -33,9 +33,12 @@ State = dict[str, FloatArray]
 class Tracks:
     """The shapes of a drawing in its poses."""
 
-    def __init__(self, frame: Frame, most: int = 16) -> None:
-        """The shapes in the reference; bent members in at most so many pieces."""
-        self.frame = frame
+    def __init__(self, frame: Frame, most: int = 16, room: int = MOST_SHAPES) -> None:
+        """The shapes in the reference.
+
+        Bent members are in at most so many pieces; a movement takes so many bytes, if it can.
+        """
+        self.frame, self.room = frame, room
         self.members = frame.drawing.members
         self.chosen = np.arange(len(self.members)) < MOST_MEMBERS
         bends = self.members.bends[:MOST_MEMBERS]
@@ -67,7 +70,7 @@ class Tracks:
             for name, still in self.reference.items()
         }
         numbers = sum(rows[name].size * still.shape[1] for name, still in self.reference.items())
-        steps = [2**k for k in range(4) if 2 * numbers * (len(poses) // 2**k) <= MOST_SHAPES]
+        steps = [2**k for k in range(4) if 2 * numbers * (len(poses) // 2**k) <= self.room]
         moving = np.zeros_like(self.chosen)
         for owner, name in zip(self.owner, ("centre", "section"), strict=True):
             moving[owner[rows[name]]] = True

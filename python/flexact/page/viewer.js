@@ -270,7 +270,8 @@ const Viewer = (() => {
 
     /** The page has become light or dark. */
     dress() {
-      const chrome = { ...CHROME[Theme.isDark() ? "dark" : "light"], mark: this.data.colours.mark };
+      const look = CHROME[Theme.isDark(this.root) ? "dark" : "light"];
+      const chrome = { ...look, mark: this.data.colours.mark };
       this.members.dress(chrome);
       this.bodies.dress(chrome);
       this.spaces.dress(chrome);

@@ -10,15 +10,20 @@ from ..advice.spaces.spaces import Spaces
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from .drawing_data import Frame, static_data
-from .limits import MOST_MEMBERS
+from .limits import MOST_MEMBERS, MOST_SHAPES
 from .modes_data import looked_at, movements, stresses
 from .spaces_data import holds_data, spaces_data
 from .tracks import Tracks
 
 
-def viewer_data(analysis: Result, frame: Frame, spaces: Spaces | None = None) -> dict[str, Any]:
-    """All that is drawn of a result, with spaces of a body, and the first choices."""
-    tracks = Tracks(frame)
+def viewer_data(
+    analysis: Result, frame: Frame, spaces: Spaces | None = None, room: int = MOST_SHAPES
+) -> dict[str, Any]:
+    """All that is drawn of a result, with spaces of a body, and the first choices.
+
+    A movement has so many phases that it takes so many bytes, if it can.
+    """
+    tracks = Tracks(frame, room=room)
     data = {
         **static_data(analysis.parts, frame),
         "reference": tracks.data(),

@@ -5,6 +5,8 @@ matplotlib and pillow are imported only when one is drawn.
 """
 
 from ..drawing.view import ViewError, check_view
+from .animation import SUFFIXES as MOVING
+from .files import STILLS
 from .make import (
     SUFFIXES,
     PictureError,
@@ -14,19 +16,25 @@ from .make import (
     has_packages,
     picture_bytes,
 )
+from .model import model_bytes
 from .shape import shape_bytes
 from .subject import SubjectError
+from .video import VideoError
 
 __all__ = [
+    "MOVING",
+    "STILLS",
     "SUFFIXES",
     "PictureError",
     "SubjectError",
+    "VideoError",
     "ViewError",
     "check_packages",
     "check_suffix",
     "check_view",
     "draw",
     "has_packages",
+    "model_bytes",
     "picture_bytes",
     "shape_bytes",
 ]

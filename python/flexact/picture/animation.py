@@ -13,10 +13,11 @@ from ..drawing.view import View
 from ..result.result import Result
 from .canvas import Box
 from .figure import compose
-from .files import gif_bytes as bytes_of
-from .files import pixels
+from .files import gif_bytes, pixels
 from .panel import paint
 from .subject import Subject
+from .video import SUFFIXES as VIDEOS
+from .video import video_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,19 +33,26 @@ _LOOKED_AT = (-1.0, -0.5, 0.0, 0.5, 1.0)
 Told = Callable[[float], None]
 
 
-def gif_bytes(
+#: Suffixes of pictures that move.
+SUFFIXES = (".gif", *VIDEOS)
+
+
+def moving_bytes(
     analysis: Result | None,
     drawing: Drawing,
     subject: Subject,
     view: View,
+    suffix: str,
+    title: str,
     *,
     size: tuple[int, int] | None = None,
     plain: bool = False,
     progress: Told | None = None,
 ) -> bytes:
-    """The animation as a GIF that runs without end.
+    """The animation as a GIF that runs without end, or as a video of one cycle that loops.
 
-    All frames share one palette and one scale, so that nothing but what moves changes.
+    All frames share one scale, and those of a GIF one palette, so that nothing but what moves
+    changes.
     """
     made: list[np.ndarray] = []
     order, phases, views = _schedule(drawing, subject, view)
@@ -62,8 +70,13 @@ def gif_bytes(
         )
         made.append(_after(made[0], figure) if made and drawing.planar else pixels(figure))
         if progress is not None:
-            progress((number + 1) / len(phases))
-    return bytes_of(made, order, _DURATION)
+            progress((number + 1) / (len(phases) + (suffix in VIDEOS)))
+    if suffix not in VIDEOS:
+        return gif_bytes(made, order, _DURATION)
+    content = video_bytes(made, order, _DURATION, suffix, title)
+    if progress is not None:
+        progress(1.0)
+    return content
 
 
 def _after(first: np.ndarray, figure: Figure) -> np.ndarray:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures as files, the same whenever they are made: PNG, SVG, and frames as a GIF."""
+"""Figures as files, the same whenever they are made: PNG, SVG, PDF, and frames as a GIF."""
 
 from __future__ import annotations
 
@@ -16,8 +16,13 @@ if TYPE_CHECKING:
 #: What would differ from run to run is left out; identifiers follow from what is drawn.
 _SVG: Any = {"svg.fonttype": "none", "svg.hashsalt": "flexact"}
 _NOTHING = {"Date": None, "Creator": None, "Format": None, "Type": None}
+#: Whole letters that can be searched and copied, in one compressed file.
+_PDF: Any = {"pdf.fonttype": 42, "pdf.compression": 6}
+_UNDATED = {"CreationDate": None, "Creator": None, "Producer": None}
 #: A path's data, and what is left out of its numbers: less than a hundredth of a point.
 _PATH, _DIGITS = re.compile(r'<path [^>]*?\bd="[^"]*"'), re.compile(r"(\.\d\d)\d+")
+#: Suffixes of pictures that stand still.
+STILLS = (".png", ".svg", ".pdf")
 #: Colours of a GIF.
 _COLOURS = 160
 
@@ -51,6 +56,25 @@ def svg_bytes(figure: Figure, title: str, description: str) -> bytes:
     attributes, end, content = rest.partition(">")
     told = f"\n <title>{escape(title)}</title>\n <desc>{escape(description)}</desc>"
     return f'{head}{root}role="img" {attributes}{end}{told}{content}'.encode()
+
+
+def pdf_bytes(figure: Figure, title: str, description: str) -> bytes:
+    """The figure as PDF: vectors, with its letters in it, and no date."""
+    import matplotlib
+
+    buffer = io.BytesIO()
+    told = {"Title": title, "Subject": description, **_UNDATED}
+    with matplotlib.rc_context(_PDF):
+        figure.savefig(buffer, format="pdf", metadata=told)
+    return buffer.getvalue()
+
+
+def still_bytes(figure: Figure, suffix: str, title: str, description: str) -> bytes:
+    """The figure as a file of a suffix: .png, .svg or .pdf."""
+    if suffix == ".png":
+        return png_bytes(figure)
+    write = svg_bytes if suffix == ".svg" else pdf_bytes
+    return write(figure, title, description)
 
 
 def gif_bytes(drawings: list[np.ndarray], order: list[int], duration: int) -> bytes:

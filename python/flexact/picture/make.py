@@ -20,17 +20,20 @@ from ..drawing import drawing_of
 from ..drawing.view import view_of
 from ..result.result import Result
 from ..text.describe import verdict_in_words
-from .animation import gif_bytes
+from .animation import SUFFIXES as MOVING
+from .animation import moving_bytes
 from .figure import compose
-from .files import png_bytes, svg_bytes
+from .files import STILLS, still_bytes
 from .loading import load_matplotlib
 from .subject import Chosen, moving_subject, subjects_of
+from .video import SUFFIXES as VIDEOS
+from .video import check_encoder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Suffixes of the files that a picture can be.
-SUFFIXES = (".png", ".gif", ".svg")
+SUFFIXES = (*STILLS, *MOVING)
 #: Pixels along a picture, of which matplotlib draws no more.
 _WIDEST = 2**15
 
@@ -52,16 +55,19 @@ def check_suffix(suffix: str) -> str:
     return suffix.lower()
 
 
-def check_packages() -> None:
-    """Find out whether what is needed for pictures is installed.
+def check_packages(suffix: str = "") -> None:
+    """Find out whether what is needed for pictures, or for one of a suffix, is installed.
 
     Raises:
         PictureError: It is not.
+        VideoError: A video is wanted, and nothing is there that makes one.
     """
     if missing := _missing():
         raise PictureError(
             f"pictures need the package {missing[0]}: pip install 'flexact[pictures]'"
         )
+    if suffix.lower() in VIDEOS:
+        check_encoder(suffix.lower())
 
 
 def has_packages() -> bool:
@@ -176,31 +182,29 @@ def picture_bytes(
 
     Args:
         analysis: The result.
-        suffix: `.png`, `.svg`, or `.gif`, which moves.
+        suffix: `.png`, `.svg` or `.pdf`; `.gif`, `.mp4` or `.webm`, which move.
         view: As of `draw`.
         size: See there.
         plain: See there.
-        progress: Called with the part of a GIF's frames that is drawn, from 0 to 1.
+        progress: Called with the part of the frames of what moves that is drawn, from 0 to 1.
         chosen: `motion`, `freedom`, `stress`, `quantity`, `spaces` and `held`, as of `draw`.
 
     Raises:
         PictureError: There is no such kind of picture, or a package is missing; else as `draw`.
     """
     kind = check_suffix(suffix)
-    check_packages()
+    check_packages(kind)
     asked = Chosen(**chosen)
     with quiet():
         load_matplotlib()
-        if kind == ".gif":
+        words = _words(analysis)
+        if kind in MOVING:
+            size = None if size is None else checked_size(size)
             drawing = drawing_of(analysis.given)
             subject, seen = moving_subject(analysis, drawing, asked), view_of(view, drawing)
-            return gif_bytes(
-                analysis, drawing, subject, seen, size=size, plain=plain, progress=progress
-            )
-        figure = _figure(analysis, asked, view, 1.0, size, plain)
-        if kind == ".svg":
-            return svg_bytes(figure, *_words(analysis))
-        return png_bytes(figure)
+            shown = analysis, drawing, subject, seen, kind, words[0]
+            return moving_bytes(*shown, size=size, plain=plain, progress=progress)
+        return still_bytes(_figure(analysis, asked, view, 1.0, size, plain), kind, *words)
 
 
 def _words(analysis: Result) -> tuple[str, str]:

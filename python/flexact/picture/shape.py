@@ -9,9 +9,10 @@ from ..drawing import drawing_of, swing
 from ..drawing.view import view_of
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from .animation import gif_bytes
+from .animation import SUFFIXES as MOVING
+from .animation import moving_bytes
 from .figure import compose
-from .files import png_bytes, svg_bytes
+from .files import still_bytes
 from .loading import load_matplotlib
 from .make import check_packages, check_suffix, checked_size, quiet
 from .subject import Subject
@@ -36,7 +37,7 @@ def shape_bytes(
         displacement: (nodes, 3) of positions, and rotations (spins) of orientations; only their
             ratios matter.
         title: Above it, such as "vibrates at 184 Hz".
-        suffix: `.png`, `.svg`, or `.gif`, which moves.
+        suffix: `.png`, `.svg` or `.pdf`; `.gif`, `.mp4` or `.webm`, which move.
         view: As of `draw`.
         size: Width and height [px].
         plain: Whether title and caption are left out.
@@ -46,7 +47,7 @@ def shape_bytes(
         ViewError: There is no such view.
     """
     kind = check_suffix(suffix)
-    check_packages()
+    check_packages(kind)
     with quiet():
         load_matplotlib()
         drawing = drawing_of(data)
@@ -54,9 +55,9 @@ def shape_bytes(
         subject = Subject(words, movement=swing(drawing, state, displacement, "To first order."))
         seen = view_of(view, drawing)
         size = None if size is None else checked_size(size)
-        if kind == ".gif":
-            return gif_bytes(None, drawing, subject, seen, size=size, plain=plain)
+        name = harmless(data.name) or "Mechanism"
+        if kind in MOVING:
+            shown = drawing, subject, seen, kind, f"{name}: {words}"
+            return moving_bytes(None, *shown, size=size, plain=plain)
         figure = compose(None, drawing, [subject], seen, size=size, plain=plain)
-        if kind == ".svg":
-            return svg_bytes(figure, harmless(data.name) or "Mechanism", words)
-        return png_bytes(figure)
+        return still_bytes(figure, kind, name, words)

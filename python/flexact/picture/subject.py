@@ -142,7 +142,9 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
     if chosen.held:
         raise SubjectError("what flexures hold does not move: it is a PNG or an SVG")
     if chosen.spaces is not None:
-        raise SubjectError("freedom and constraint spaces do not move: they are a PNG or an SVG")
+        raise SubjectError(
+            "freedom and constraint spaces do not move: they are a PNG, an SVG or a PDF"
+        )
     if chosen.moves or chosen.is_stressed:
         made = _asked_for(analysis, drawing, chosen)
         if len(made) > 1:

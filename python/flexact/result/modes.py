@@ -78,6 +78,9 @@ class Motion(Moves, Frozen):
             parts = [str(each) for each in self.bodies[:4]]
         return f"<Motion {self.index + 1}: {'; '.join(parts)}>"
 
+    def _repr_html_(self) -> str | None:
+        return self.analysis.in_notebook(self)
+
 
 @dataclass(frozen=True, repr=False)
 class SelfStress(Frozen):
@@ -183,6 +186,9 @@ class SelfStress(Frozen):
             parts = [str(each) for each in self.parts[:4]]
         return f"<SelfStress {self.index + 1}: {'; '.join(parts)}>"
 
+    def _repr_html_(self) -> str | None:
+        return self.analysis.in_notebook(self)
+
 
 Mode = TypeVar("Mode", Motion, SelfStress)
 
@@ -229,3 +235,6 @@ class Modes(Frozen, Sequence[Mode], Generic[Mode]):
         """The first ones."""
         told = [repr(mode) for mode in self[:_TOLD]]
         return f"({', '.join(told)}{', ...' if len(self) > _TOLD else ''})"
+
+    def _repr_html_(self) -> str | None:
+        return self.analysis.in_notebook(self)

@@ -25,6 +25,10 @@ from .weights import column_weights, row_weights
 class Spaces(Outcome):
     """An outcome with bases of its null spaces; each is made when it is asked for."""
 
+    def in_notebook(self, what: object) -> str | None:
+        """HTML of a motion, a self-stress or a row of them; None: a result makes no pictures."""
+        return None
+
     @cached_property
     def motion_space(self) -> Basis:
         """Orthonormal basis of the motions, rotations in lengths."""

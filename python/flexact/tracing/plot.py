@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..base.plain_text import harmless
+from ..base.plain_text import file_name, harmless
 from ..core.arrays import FloatArray
-from ..picture.files import png_bytes
+from ..picture.files import still_bytes
 from ..picture.loading import load_matplotlib
 from ..picture.make import check_packages
 from ..result.verdict import Verdict
@@ -29,8 +29,8 @@ _CURVES = ("#1f5fa8", "#b25406", "#15774a", "#93205e", "#8a6a00", "#4b5563")
 _SIZE, _PANEL, _DPI = (8.0, 1.4), 2.6, 120
 
 
-def plot_bytes(trace: Traced) -> bytes:
-    """The picture as PNG.
+def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
+    """The picture as a file: .png, .svg or .pdf.
 
     Raises:
         FlexactError: matplotlib is missing.
@@ -70,7 +70,8 @@ def plot_bytes(trace: Traced) -> bytes:
         )
     axes[-1].set_xlabel("along the path [m]", fontsize=11)
     _legend(figure, trace)
-    return png_bytes(figure)
+    name = file_name(trace.result.given.name) or "path"
+    return still_bytes(figure, suffix, name, harmless(what))
 
 
 def _draw_values(axes: Any, trace: Traced) -> None:

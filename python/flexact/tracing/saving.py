@@ -9,6 +9,7 @@ from pathlib import Path
 from ..files.outputs import OutputError, write_together
 from ..mesh.collection import SUFFIX, write_collection
 from ..mesh.file import find_format
+from ..picture.files import STILLS
 from ..picture.make import check_packages
 from .playing import Played
 from .plot import plot_bytes
@@ -16,7 +17,7 @@ from .rows import csv_bytes
 from .values import Traced
 
 #: Suffixes of the files.
-SUFFIXES = (".pvd", ".csv", ".png")
+SUFFIXES = (SUFFIX, ".csv", *STILLS)
 
 
 def require_suffix(path: Path) -> None:
@@ -27,10 +28,10 @@ def require_suffix(path: Path) -> None:
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise OutputError(f"the suffix of {path} is to be .pvd, .csv or .png")
+        raise OutputError(f"the suffix of {path} is to be .pvd, .csv, .png, .svg or .pdf")
     if suffix == SUFFIX:
         find_format("vtu")
-    if suffix == ".png":
+    if suffix in STILLS:
         check_packages()
 
 
@@ -43,8 +44,8 @@ def save(trace: Traced, path: Path) -> None:
     suffix = path.suffix.lower()
     if suffix == ".csv":
         write_together({path: csv_bytes(trace)})
-    elif suffix == ".png":
-        write_together({path: plot_bytes(trace)})
+    elif suffix in STILLS:
+        write_together({path: plot_bytes(trace, suffix)})
     else:
         write_collection(Played(trace, path))
 

@@ -24,8 +24,9 @@ class Trace(Traced):
         """Write it to a file, whole or not at all.
 
         Args:
-            path: Its suffix says what it is to be: .csv, a row a step; .png, singular values and
-                coordinates along the path; .pvd, a cycle that plays in ParaView.
+            path: Its suffix says what it is to be: .csv, a row a step; a picture (.png, .svg, .pdf)
+                of singular values and coordinates along the path; .pvd, a cycle that plays in
+                ParaView.
 
         Raises:
             FlexactError: There is no such kind of file, a package is missing, or the file cannot

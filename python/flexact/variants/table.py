@@ -152,7 +152,7 @@ class Table(Frozen):
                 value and the margin.
             crossings: Whether singular places are sought, or those that were found. They are not
                 sought unasked between more than 20,000 rows, or where no parameter varies.
-            path: A file to write, too: .png or .svg.
+            path: A file to write, too: .png, .svg or .pdf.
 
         Raises:
             FlexactError: matplotlib is missing, or the file cannot be written.

@@ -151,7 +151,7 @@ class Tolerances(Frozen):
         """Histograms of the smallest singular value and of the margin, verdicts in colour.
 
         Args:
-            path: A file to write, too: .png or .svg.
+            path: A file to write, too: .png, .svg or .pdf.
 
         Raises:
             FlexactError: matplotlib is missing, or the file cannot be written.

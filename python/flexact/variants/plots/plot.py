@@ -12,7 +12,7 @@ from ...base.errors import FlexactError
 from ...base.plain_text import harmless
 from ...core.arrays import FloatArray
 from ...files.outputs import write_together
-from ...picture.files import png_bytes, svg_bytes
+from ...picture.files import STILLS, png_bytes, still_bytes
 from ...picture.loading import load_matplotlib
 from ...picture.make import PictureError, check_packages
 from ...result.verdict import Verdict
@@ -160,9 +160,8 @@ def finished(figure: Figure, table: Table, path: Path | None) -> Figure:
     """
     if path is not None:
         suffix = path.suffix.lower()
-        if suffix not in (".png", ".svg"):
-            raise PictureError(f"{path} is no such picture: its suffix must be .png or .svg")
+        if suffix not in STILLS:
+            raise PictureError(f"{path} is no such picture: its suffix must be .png, .svg or .pdf")
         words = in_short(table), described(table)
-        data = png_bytes(figure) if suffix == ".png" else svg_bytes(figure, *words)
-        write_together({path: data})
+        write_together({path: still_bytes(figure, suffix, *words)})
     return figure
