@@ -324,7 +324,8 @@ def _add_label(frame: _Frame, room: Room, place: FloatArray, away: FloatArray, w
     far = float(np.linalg.norm(found - place))
     if far > _FAR * frame.scale:
         towards = (place - found) / far
-        ends = np.stack((place, found + 0.9 * float(half.min()) * towards))
+        edge = float(np.min(half / np.maximum(np.abs(towards), 1.0e-9)))
+        ends = np.stack((place, found + edge * towards))
         x, y = (ends / (frame.width, frame.height)).T
         figure = frame.figure
         figure.add_artist(Line2D(x, y, color=_FAINT, lw=0.6 * frame.scale))
