@@ -123,6 +123,6 @@ def test_a_picture_and_the_page_show_it() -> None:
         assert f"{hold.sine:.2f}" in words
     assert io.BytesIO(picture_bytes(analysis, ".svg", held=True)).read(5) == b"<?xml"
     (frame,) = frames_of(drawing_of(analysis.given))
-    every, *each = holds_data(analysis, frame)
+    _, *each = holds_data(analysis, frame)
     assert len(each) == 6
     assert "How well" in each[0]["title"]
