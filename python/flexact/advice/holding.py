@@ -204,8 +204,10 @@ class _Net:
                 classes = self.data.arrays.coordinate_class[:3, node]
                 inner.append(block[:, np.isin(classes, (Class.DEPENDENT, Class.INDEPENDENT))])
         moved = np.concatenate([np.zeros((len(body), 0)), *inner], axis=1)
-        left, sizes, _ = np.linalg.svd(moved) if moved.shape[1] else (np.eye(len(body)), [], None)
-        rank = int(np.sum(np.array(sizes) > _ROUNDING * max([1e-300, *sizes])))
+        left, rank = np.eye(len(body)), 0
+        if moved.shape[1]:
+            left, sizes, _ = np.linalg.svd(moved)
+            rank = int(np.sum(sizes > _ROUNDING * sizes.max(initial=0.0)))
         # Where two bodies share a point, that holds them together as well.
         pinned = np.eye(3, 6)[: 2 if self.result.given.planar else 3] if pins else np.zeros((0, 6))
         rows = np.concatenate((left[:, rank:].T @ body, pinned)) * np.repeat(
@@ -229,12 +231,13 @@ class _Net:
         held = {
             6 * e + d: None for e in elements for d in np.flatnonzero(classes[:, e] == Class.FIXED)
         }
-        row = {key: k for k, key in enumerate(held)}
+        row = {int(key): k for k, key in enumerate(held)}
         column = {3 * n + i: 3 * k + i for k, n in enumerate(nodes) for i in range(3)}
         made = np.zeros((len(row), len(column)))
         mine = np.flatnonzero(np.isin(raw.row_of, list(row)))
         for i in mine.tolist():
-            made[row[int(raw.row_of[i])], column[int(raw.column_of[i])]] += raw.value[i]
+            place = row[int(raw.row_of[i])], column[int(raw.column_of[i])]
+            made[place] += raw.value[i]
         return made
 
     def _moved(self, node: int, middle: FloatArray) -> FloatArray:

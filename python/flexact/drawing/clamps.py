@@ -192,12 +192,12 @@ def _lying(
     upright = bool(away @ direction > _UPRIGHT)
     if upright:
         side = 1.0 if own[:, 0] @ away > 0.0 else -1.0
-        return own * np.array((side, 1.0, side))
+        return np.asarray(own * np.array((side, 1.0, side)))
     flat = points - points.mean(axis=0)
     flat = flat - (flat @ direction)[:, None] * direction
     far = flat[int(np.argmax(np.round(np.linalg.norm(flat, axis=1) / size, 9)))]
     axis = far if np.linalg.norm(far) > _SPREAD * size else own[:, 1]
     axis = unit(axis - (axis @ direction) * direction)
     if not axis.any():
-        return frames_along(direction[None])[0]
+        return np.asarray(frames_along(direction[None])[0])
     return np.stack((direction, axis, np.cross(direction, axis)), axis=1)

@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
-from ..advice.holding import Hold
+from ..core.arrays import FloatArray
+from .space_families import FamilyLike
 from .spaces import SpaceShape, shape_of_space
 
 #: How large a line or a plane is drawn, in sizes of the flexure, and at least, and at most, in
@@ -15,7 +18,31 @@ from .spaces import SpaceShape, shape_of_space
 _OF_PART, _LEAST, _MOST = 1.7, 0.35, 1.0
 
 
-def shape_of_hold(hold: Hold, size: float, *, planar: bool) -> SpaceShape:
+class SpaceLike(Protocol):
+    """A space of wrenches; see `flexact.advice.spaces.screw_space`."""
+
+    @property
+    def families(self) -> Sequence[FamilyLike]:
+        """What it is made of."""
+
+    @property
+    def about(self) -> FloatArray:
+        """(3,) the middle of the flexure [m]."""
+
+
+class HoldLike(Protocol):
+    """What a flexure holds; see `flexact.advice.holding`."""
+
+    @property
+    def space(self) -> SpaceLike:
+        """The wrenches that it carries."""
+
+    @property
+    def extent(self) -> float:
+        """Its size [m]."""
+
+
+def shape_of_hold(hold: HoldLike, size: float, *, planar: bool) -> SpaceShape:
     """What is drawn of what a flexure holds.
 
     Args:

@@ -117,13 +117,12 @@ class Canvas:
             self._low = np.minimum(self._low, flat.min(axis=0))
             self._high = np.maximum(self._high, flat.max(axis=0))
 
-    def is_free(self, low: FloatArray, high: FloatArray) -> bool:
-        """Whether nothing is drawn between two corners (2,) [m], as far as boxes round it tell."""
-        for flat, *_ in self._batches:
-            first, last = flat[..., :2].min(axis=1), flat[..., :2].max(axis=1)
-            if np.any(np.all((first < high) & (last > low), axis=1)):
-                return False
-        return True
+    def boxes(self) -> tuple[FloatArray, FloatArray]:
+        """(n, 2) each: lower left and upper right corners of boxes round all that is drawn [m]."""
+        each = [batch.flat[..., :2] for batch in self._batches]
+        none = np.zeros((0, 2))
+        first = np.concatenate([none, *(flat.min(axis=1) for flat in each)])
+        return first, np.concatenate([none, *(flat.max(axis=1) for flat in each)])
 
     @property
     def box(self) -> Box:

@@ -20,6 +20,7 @@ from ..text.describe import verdict_in_words
 from ..text.margin import margin_in_short, margin_line
 from ..text.sentences import plain as without_links
 from .canvas import Box
+from .labels import Room
 from .panel import Panel, is_simplified, paint
 from .stress import Stress
 from .subject import Subject
@@ -42,6 +43,8 @@ _MARGIN = 0.05
 _TURNED = 0.9
 #: Displacements below this part of the size, and rotations [rad], would be told as 0.
 _UNMOVED, _UNTURNED = 0.005, 0.05
+#: Words farther from their place than this have a line to it [px].
+_FAR = 30.0
 #: Half the room of the axes [px].
 _TRIAD = 56.0
 #: Pieces of the bar of colours.
@@ -213,18 +216,21 @@ def _add_panel(
     axes = frame.axes(left, top, right, bottom)
     _fill(axes, panel, box, (right - left, bottom - top))
     if not plain:
+        room = Room(axes, panel.canvas)
         if not drawing.planar:
-            middle = _place_for_triad(frame, axes, panel, (left, top, right, bottom))
+            middle = _place_for_triad(frame, room, (left, top, right, bottom))
             if middle is None:
                 # Nowhere beside the drawing: below it.
                 strip = 2 * _TRIAD * frame.scale
                 axes.set_position(_part(frame, left, top, right, bottom - strip))
                 _fill(axes, panel, box, (right - left, bottom - strip - top))
                 middle = left + _TRIAD * frame.scale, bottom - 0.9 * _TRIAD * frame.scale
+                room = Room(axes, panel.canvas)
             _add_triad(frame, panel.canvas.view, *middle)
-        _add_values(frame, axes, panel)
+        _add_values(frame, axes, panel, room)
         for place, words in subject.space.labels if subject.space is not None else ():
-            _add_label(frame, axes, panel, place, words)
+            there = axes.transData.transform(panel.canvas.view.project(place)[:2])
+            _add_label(frame, room, np.asarray(there), np.array((0.3, 1.0)), words)
         if subject.stress is not None:
             told = meanings_in(drawing)[subject.stress.quantity]
             _add_legend(frame, subject.stress, told, (left + pad, right - pad), bottom)
@@ -293,34 +299,39 @@ def _add_legend(
         frame.text(sides[0] + place * width, top + 2.15 * line, words, "legend", ha=side)
 
 
-def _add_values(frame: _Frame, axes: Axes, panel: Panel) -> None:
+def _add_values(frame: _Frame, axes: Axes, panel: Panel, room: Room) -> None:
     """The values at the peaks of diagrams; of those that coincide one."""
-    from matplotlib.patheffects import withStroke
-
-    halo = [withStroke(linewidth=2.4 * frame.scale, foreground="white")]
     told: list[FloatArray] = []
     for peak in panel.peaks:
         ends = panel.canvas.view.project(np.array((peak.foot, peak.place)))[:, :2]
         foot, top = np.asarray(axes.transData.transform(ends))
-        away = top - foot
-        place = top + 14 * frame.scale * away / max(float(np.hypot(*away)), 1.0e-9)
-        if any(np.all(np.abs(place - each) < _APART * frame.scale) for each in told):
+        if any(np.all(np.abs(top - each) < _APART * frame.scale) for each in told):
             continue
-        told.append(place)
-        x, y = float(place[0]), frame.height - float(place[1])
-        words = f"{peak.value:+.3g}"
-        frame.text(x, y, words, "legend", va="center", ha="center", path_effects=halo)
+        told.append(top)
+        _add_label(frame, room, top, top - foot, f"{peak.value:+.3g}")
 
 
-def _add_label(frame: _Frame, axes: Axes, panel: Panel, place: FloatArray, words: str) -> None:
-    """Words at a place, with what is behind them pale."""
+def _add_label(frame: _Frame, room: Room, place: FloatArray, away: FloatArray, words: str) -> None:
+    """Words near a place [px], where nothing else is; with a line to it where they are far."""
+    from matplotlib.lines import Line2D
     from matplotlib.patheffects import withStroke
 
-    x, y = axes.transData.transform(panel.canvas.view.project(place)[:2])
-    halo = [withStroke(linewidth=3.0 * frame.scale, foreground="white")]
-    up = frame.height - float(y) - 11 * frame.scale
-    style = {"va": "center", "ha": "center", "weight": "bold", "path_effects": halo}
-    frame.text(float(x), up, words, "legend", **style)
+    half = np.array((frame.wide(words, "legend") / 2 + 3, frame.line("legend") / 2))
+    found = room.near(place, away, half * np.array((1.0, 0.8)))
+    if found is None:
+        found = place + 14 * frame.scale * away / max(float(np.hypot(*away)), 1.0e-9)
+    room.take(found, half)
+    far = float(np.linalg.norm(found - place))
+    if far > _FAR * frame.scale:
+        towards = (place - found) / far
+        edge = float(np.min(half / np.maximum(np.abs(towards), 1.0e-9)))
+        ends = np.stack((place, found + edge * towards))
+        x, y = (ends / (frame.width, frame.height)).T
+        figure = frame.figure
+        figure.add_artist(Line2D(x, y, color=_FAINT, lw=0.6 * frame.scale))
+    halo = [withStroke(linewidth=2.4 * frame.scale, foreground="white")]
+    x, y = float(found[0]), frame.height - float(found[1])
+    frame.text(x, y, words, "legend", va="center", ha="center", path_effects=halo)
 
 
 def _part(
@@ -332,7 +343,7 @@ def _part(
 
 
 def _place_for_triad(
-    frame: _Frame, axes: Axes, panel: Panel, sides: tuple[float, float, float, float]
+    frame: _Frame, room: Room, sides: tuple[float, float, float, float]
 ) -> tuple[float, float] | None:
     """A corner of a panel where nothing is drawn: the middle of the axes there [px]."""
     half = _TRIAD * frame.scale
@@ -343,9 +354,9 @@ def _place_for_triad(
         (right - half, top + half),
         (left + half, top + half),
     ):
-        ends = np.array(((x - half, frame.height - y - half), (x + half, frame.height - y + half)))
-        low, high = axes.transData.inverted().transform(ends)
-        if panel.canvas.is_free(low, high):
+        middle, size = np.array((x, frame.height - y)), np.full(2, 0.85 * half)
+        if room.is_free(middle, size):
+            room.take(middle, size)
             return x, y
     return None
 
