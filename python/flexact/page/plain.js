@@ -4,3 +4,4 @@
 
 Theme.listen(document.body, () => {});
 Printing.listen(document.body, []);
+Terms.explain(document.body);
