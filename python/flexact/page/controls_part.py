@@ -27,12 +27,12 @@ _MOVEMENTS = (
     *(("vibrating", "Vibrates"), ("buckled", "Buckles")),
 )
 _MORE_KEYS = (
-    "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses. A click keeps its mark, "
-    "a double click or C brings it into the middle, Escape lets go."
+    "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses. "
+    "A click keeps its mark, a double click or C brings it into the middle, Escape lets go."
 )
 KEYS = f"Drag or arrow keys turn the drawing, with Shift they move it; the wheel or {_MORE_KEYS}"
 PLANAR_KEYS = f"Drag or arrow keys move the drawing; the wheel or {_MORE_KEYS}"
-_TOUCH = "Drag to turn, two fingers to move, pinch to zoom. Tap for what is there, twice to centre it."
+_TOUCH = "Drag to turn, two fingers move, pinch to zoom. Tap for what is there, twice to centre it."
 _PLANAR_TOUCH = "Drag to move, pinch to zoom. Tap for what is there, twice to centre it."
 
 

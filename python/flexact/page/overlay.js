@@ -180,10 +180,10 @@ const Overlay = (() => {
 
   const cut = (name) => (name.length > LONG ? `${name.slice(0, LONG - 1)}\u2026` : name);
 
-  /** A number with a name, which may hold the number already. */
+  /** A number with a name, but "sheet 1" as it is. */
   function named(number, name) {
     if (!name) return String(number);
-    return new RegExp(`(^|\\D)${number}(\\D|$)`).test(name) ? cut(name) : `${number} ${cut(name)}`;
+    return new RegExp(`^\\S+ ${number}$`).test(name) ? name : `${number} ${cut(name)}`;
   }
 
   return { Overlay, SHORT };

@@ -7,7 +7,7 @@ from __future__ import annotations
 TERMS: dict[str, str] = {
     "exactly constrained": "Every motion is either declared or stopped, and each only once.",
     "under-constrained": "Some motion is neither declared nor stopped.",
-    "over-constrained": "Some motion is stopped more than once, so that misalignment causes stress.",
+    "over-constrained": "Some motion is stopped more than once: misalignment causes stress.",
     "self-stress": "A stress in balance with itself: it can exist without any load.",
     "motion": "A movement that nothing stops and nobody declared, at its very beginning.",
     "degree of freedom": "A motion that the designer declared as wanted.",
