@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-#: In small letters, singular; docs/glossary.md has the same sentences.
+#: In small letters, singular; the table "In pages" of docs/glossary.md is made of them.
 TERMS: dict[str, str] = {
     "exactly constrained": "Every motion is either declared or stopped, and each only once.",
     "under-constrained": "Some motion is neither declared nor stopped.",
@@ -11,13 +11,13 @@ TERMS: dict[str, str] = {
     "self-stress": "A stress in balance with itself: it can exist without any load.",
     "motion": "A movement that nothing stops and nobody declared, at its very beginning.",
     "degree of freedom": "A motion that the designer declared as wanted.",
-    "margin": "The smallest misalignment that would change the verdict, to first order.",
+    "margin": "Smallest misalignment of one node or element that changes the verdict, to first order.",
     "d(c)": "The matrix that says how fast fixed and independent deformations (its rows) change "
     "with dependent coordinates (its columns); its rank decides the verdict.",
-    "rank": "How many rows of D(c) are independent of each other.",
-    "rank doubtful": "Rounding could hide another rank; the page says which.",
-    "numerically certain": "No rounding of this computation could change the rank.",
-    "proven": "Shown in exact arithmetic for the decimals of the deck as they are typed.",
+    "rank": "How many singular values of D(c) count as non-zero: so many rows are independent.",
+    "rank doubtful": "A rule finds a reason to doubt the rank; the alternative is named.",
+    "numerically certain": "Not proven, but no rule finds a reason to doubt the rank.",
+    "proven": "Computed in exact arithmetic, for the decimals as typed or the numbers as stored.",
     "certainty": "How sure the rank is: proven, numerically certain, or doubtful.",
     "condition number": "Largest over smallest singular value: how much small errors may grow.",
     "singular value": "A measure of how far D(c) is from losing rank; zero means that it has.",
@@ -40,8 +40,8 @@ TERMS: dict[str, str] = {
     "on its path": "Followed as far as drawn, without straining anything that is held.",
     "clamp": "A support that holds all translations and rotations of a point.",
     "fold": "The line in which two sheets meet at an angle.",
-    "freedom space": "All small motions that a body can make when nothing is declared.",
-    "constraint space": "All forces and moments by which a body can be held here.",
+    "freedom space": "All motions (twists) that a body has at one moment when nothing is declared.",
+    "constraint space": "All forces and moments (wrenches) that hold a body: they do no work on its freedom.",
     "misalignment": "How far a point is moved or turned from where it was designed.",
     "tolerance": "Of a clamp: how far it may be off; of the decision: what counts as zero.",
     "stroke": "How far a drive is moved.",
