@@ -156,7 +156,13 @@ def test_amplitude_and_reduced_motion(browser: Browser, tmp_path: Path) -> None:
     path = write(tmp_path / "page.html", page(flexact.analyse(folded_sheet(clamped=True))))
     browser.prefer(prefers_reduced_motion="reduce")
     browser.open(path)
-    assert browser.run("return [flexact.player.playing, flexact.player.phase]") == [False, 1]
+    playing, phase = browser.run("return [flexact.player.playing, flexact.player.phase]")
+    assert playing is False and abs(phase) < 1e-9, "at rest at first"
+    browser.run(
+        "const a = document.querySelector('.amplitude'); a.value = 100;"
+        "a.dispatchEvent(new Event('input', {bubbles: true}))"
+    )
+    assert browser.run("return flexact.player.phase") == 1
     full = browser.run("return Array.from(flexact.members.shape.corner)")
     browser.run(
         "const a = document.querySelector('.amplitude'); a.value = 0;"

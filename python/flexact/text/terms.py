@@ -11,7 +11,8 @@ TERMS: dict[str, str] = {
     "self-stress": "A stress in balance with itself: it can exist without any load.",
     "motion": "A movement that nothing stops and nobody declared, at its very beginning.",
     "degree of freedom": "A motion that the designer declared as wanted.",
-    "margin": "Smallest misalignment of one node or element that changes the verdict, to first order.",
+    "margin": "Smallest misalignment of one node or element that changes the verdict, "
+    "to first order.",
     "d(c)": "The matrix that says how fast fixed and independent deformations (its rows) change "
     "with dependent coordinates (its columns); its rank decides the verdict.",
     "rank": "How many singular values of D(c) count as non-zero: so many rows are independent.",
@@ -41,7 +42,8 @@ TERMS: dict[str, str] = {
     "clamp": "A support that holds all translations and rotations of a point.",
     "fold": "The line in which two sheets meet at an angle.",
     "freedom space": "All motions (twists) that a body has at one moment when nothing is declared.",
-    "constraint space": "All forces and moments (wrenches) that hold a body: they do no work on its freedom.",
+    "constraint space": "All forces and moments (wrenches) that hold a body: they do no work "
+    "on its freedom.",
     "misalignment": "How far a point is moved or turned from where it was designed.",
     "tolerance": "Of a clamp: how far it may be off; of the decision: what counts as zero.",
     "stroke": "How far a drive is moved.",
