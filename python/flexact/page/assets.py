@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import json
 import re
 from functools import cache
 from html import escape
@@ -13,6 +14,7 @@ from string import Template
 
 from ..base.plain_text import harmless
 from ..base.version import VERSION
+from ..text.terms import TERMS
 
 #: In the order in which they build on each other.
 SCRIPTS = (
@@ -28,27 +30,33 @@ SCRIPTS = (
     "diagram.js",
     "symbols.js",
     "spaces.js",
+    "gauges.js",
+    "labels.js",
     "overlay.js",
     "pointing.js",
     "links.js",
     "controls.js",
     "theme.js",
     "printing.js",
+    "terms.js",
     "viewer.js",
     "views.js",
     "main.js",
     "start.js",
 )
 #: Of pages without a drawing.
-PLAIN_SCRIPTS = ("theme.js", "printing.js", "plain.js")
+PLAIN_SCRIPTS = ("theme.js", "printing.js", "terms.js", "plain.js")
 
+#: Where the sentences on words of the field go.
+_TERMS = "{/* terms */}"
 _ENDING = re.compile("</(?=script|style)", re.IGNORECASE)
 
 
 @cache
 def asset(name: str) -> str:
     """The text of a file of this package."""
-    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+    text = resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+    return text.replace(_TERMS, json.dumps(TERMS)) if name == "terms.js" else text
 
 
 @cache

@@ -70,8 +70,9 @@ const Controls = (() => {
   class Toolbar {
     constructor(viewers, root) {
       Object.assign(this, { viewers, root });
-      [this.play, this.amplitude, this.speed, this.fit] = ["play", "amplitude", "speed", "fit"].map(
-        (name) => root.querySelector(`.toolbar .${name}`));
+      for (const name of ["play", "amplitude", "speed", "fit", "centre"]) {
+        this[name] = root.querySelector(`.toolbar .${name}`);
+      }
       this.layers = Array.from(root.querySelectorAll("input[data-layer]"));
       for (const { dataset, checked } of this.layers) {
         for (const viewer of viewers) viewer.layers[dataset.layer] = checked;
@@ -136,11 +137,18 @@ const Controls = (() => {
         button.addEventListener("click", () => stage.look(button.dataset.view));
       }
       this.fit.addEventListener("click", () => stage.fit());
+      this.centre.addEventListener("click", () => this.bringHeld());
       for (const input of this.layers) {
         input.addEventListener("change", () => {
           for (const viewer of viewers) viewer.layer(input.dataset.layer, input.checked);
         });
       }
+    }
+
+    /** Bring what was clicked into the middle. */
+    bringHeld() {
+      const holding = this.viewers.find(({ held }) => held);
+      if (holding) holding.visit();
     }
 
     listenToKeys({ stage }) {
@@ -158,6 +166,8 @@ const Controls = (() => {
         "-": () => stage.zoom(1 / 1.2),
         "0": () => stage.look("iso"),
         " ": () => this.playOrPause(),
+        c: () => this.bringHeld(),
+        C: () => this.bringHeld(),
       };
       stage.canvas.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -172,6 +182,7 @@ const Controls = (() => {
     /** Fit what can be pressed to what is shown. */
     refresh() {
       const moves = this.viewers.some(({ movement }) => movement);
+      this.centre.disabled = !this.viewers.some(({ held }) => held);
       this.play.textContent = this.playing ? "Pause" : "Play";
       for (const each of [this.play, this.amplitude, this.speed]) each.disabled = !moves;
       const diagram = this.layers.find(({ dataset }) => dataset.layer === "diagram");

@@ -18,18 +18,22 @@ _LAYERS = (
     ("arrows", "arrows of displacements", True),
     ("symbols", "supports and freedoms", True),
     ("diagram", "bending diagram", False),
-    ("elements", "element numbers", False),
-    ("nodes", "node numbers", False),
+    ("axes", "local axes, p and q", False),
+    ("elements", "names of elements", False),
+    ("nodes", "names of nodes", False),
 )
 _MOVEMENTS = (
     *(("motion", "Motions"), ("freedom", "Declared degrees of freedom")),
     *(("vibrating", "Vibrates"), ("buckled", "Buckles")),
 )
-_MORE_KEYS = "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses."
+_MORE_KEYS = (
+    "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses. "
+    "A click keeps its mark, a double click or C brings it into the middle, Escape lets go."
+)
 KEYS = f"Drag or arrow keys turn the drawing, with Shift they move it; the wheel or {_MORE_KEYS}"
 PLANAR_KEYS = f"Drag or arrow keys move the drawing; the wheel or {_MORE_KEYS}"
-_TOUCH = "One finger turns the drawing, two move and zoom it; a tap tells what is there."
-_PLANAR_TOUCH = "One finger moves the drawing, two zoom it; a tap tells what is there."
+_TOUCH = "Drag to turn, two fingers move, pinch to zoom. Tap for what is there, twice to centre it."
+_PLANAR_TOUCH = "Drag to move, pinch to zoom. Tap for what is there, twice to centre it."
 
 
 def toolbar(*drawings: dict[str, Any]) -> str:
@@ -47,7 +51,8 @@ def toolbar(*drawings: dict[str, Any]) -> str:
         '<label>size <input type="range" class="amplitude" min="0" max="100" value="100"></label>'
         '<label>speed <input type="range" class="speed" min="0.1" max="1.5" step="0.1" value="0.5">'
         '</label></div><div class="group" role="group" aria-label="View">'
-        f'{views}<button type="button" class="fit">Fit</button></div></div>'
+        f'{views}<button type="button" class="fit">Fit</button>'
+        '<button type="button" class="centre" disabled>Centre</button></div></div>'
     )
 
 

@@ -43,5 +43,5 @@ const PageData = (() => {
   /** The scale as a CSS background from left to right. */
   const gradient = (stops) => `linear-gradient(to right, ${stops.map(inCss).join(", ")})`;
 
-  return { array, read, own, diverging, gradient };
+  return { array, read, own, diverging, gradient, inCss };
 })();

@@ -119,8 +119,8 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
         "meaning": meanings_in(drawing),
         "sides": sides_in(drawing),
         "forms": {int(form): form.name.lower() for form in Form},
-        "nodes": _nodes(frame),
-        "members": _members(frame),
+        "nodes": _nodes(parts, frame),
+        "members": _members(parts, frame),
         "bodies": _bodies(parts, frame),
         "hinges": _hinges(frame),
         "supports": _supports(parts, frame),
@@ -129,7 +129,7 @@ def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
     }
 
 
-def _nodes(frame: Frame) -> dict[str, Any]:
+def _nodes(parts: Parts, frame: Frame) -> dict[str, Any]:
     arrays, kept = frame.drawing.data.arrays, frame.kept
     placed = arrays.node_kind <= NodeKind.POSITION
     place = np.where(placed, np.arange(placed.size), -1)
@@ -140,6 +140,11 @@ def _nodes(frame: Frame) -> dict[str, Any]:
         "placed": integers(np.flatnonzero(placed[kept])),
         "place": integers(frame.nodes(place[kept])),
         "held": _held(frame, pairs),
+        "names": {
+            row: name
+            for row, node in enumerate(kept.tolist())
+            if placed[node] and (name := parts.name_of_point(node))
+        },
     }
 
 
@@ -159,13 +164,19 @@ def _held(frame: Frame, pairs: np.ndarray) -> dict[int, str]:
     }
 
 
-def _members(frame: Frame) -> dict[str, Any]:
+def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
     every = frame.drawing.members
     some = slice(MOST_MEMBERS)
     own = np.clip(every.colour[some], 0.0, 1.0)
     edge = np.where(np.isnan(every.edge_colour[some]), _EDGE * own, every.edge_colour[some])
+    owner = [parts.of_element(index) for index in every.index[some].tolist()]
+    rows: dict[int, int] = {}
+    which = [rows.setdefault(part.number, len(rows)) for part in owner]
+    called = {part.number: harmless(part.name) for part in owner}
     return {
         "number": integers(every.number[some]),
+        "part": integers(which),
+        "parts": [called[number] for number in rows],
         "names": [harmless(name) for name in every.names[some]],
         "keyword": list(every.keyword[some]),
         "form": flags(every.form[some]),

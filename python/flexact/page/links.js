@@ -7,10 +7,11 @@ const Links = (() => {
 
   class Links {
     /**
-     * `marked({element, node})` is called when something is named, `chosen` when it is pressed;
+     * `marked({element, node})` is called when something is named, `chosen` when it is pressed, `centred`
+     * when it is pressed twice;
      * `owns(element)` tells what within the root is meant.
      */
-    constructor(root, owns, marked, chosen) {
+    constructor(root, owns, marked, chosen, centred) {
       Object.assign(this, { marked, chosen });
       this.rows = new Map();
       const named = Array.from(root.querySelectorAll(NAMED)).filter(owns);
@@ -18,6 +19,7 @@ const Links = (() => {
         this.take(each);
         if (!each.matches("button.link")) continue;
         each.addEventListener("click", () => chosen(this.target(each)));
+        each.addEventListener("dblclick", () => centred(this.target(each)));
       }
     }
 
@@ -39,6 +41,13 @@ const Links = (() => {
 
     key({ element, node }) {
       return element === undefined ? `node ${node}` : `element ${element}`;
+    }
+
+    /** Show what is held. */
+    hold(target) {
+      for (const each of this.heldRows || []) each.classList.remove("held");
+      this.heldRows = target ? this.rows.get(this.key(target)) || [] : [];
+      for (const each of this.heldRows) each.classList.add("held");
     }
 
     /** Light the rows that name something. */

@@ -18,9 +18,10 @@ const Main = (() => {
       .map((each) => ({ root: each, data: PageData.read(each) }))
       .map(({ root: each, data }) => ({ root: each, data, context: contextOf(each, data) }));
     const viewers = found.every(({ context }) => context) ? found.map(make) : [];
-    const toolbar = viewers.length ? show(root, viewers) : null;
+    const toolbar = viewers.length ? show(root, viewers, ending.signal) : null;
     Theme.listen(root, () => viewers.forEach((viewer) => viewer.dress()), ending.signal);
     Printing.listen(root, viewers, ending.signal);
+    Terms.explain(root, ending.signal);
     const dispose = () => {
       ending.abort();
       for (const { stage } of viewers) stage.dispose();
@@ -41,7 +42,7 @@ const Main = (() => {
     return new Viewer.Viewer(root, data, context);
   }
 
-  function show(root, viewers) {
+  function show(root, viewers, signal) {
     for (const each of root.querySelectorAll(".shared")) each.hidden = false;
     viewers.slice(1).forEach((each) => viewers[0].join(each));
     const toolbar = new Controls.Toolbar(viewers, root);
@@ -52,7 +53,7 @@ const Main = (() => {
       viewer.player.playing = !calm;
       viewer.choices = new Controls.Choices(viewer);
       viewer.changed = () => [viewer.choices, toolbar].forEach((each) => each.refresh());
-      link(root, viewer, (part) => nearest(part) === viewer.root);
+      link(root, viewer, (part) => nearest(part) === viewer.root, signal);
     }
     for (const viewer of viewers) {
       viewer.showStress(-1);
@@ -64,9 +65,18 @@ const Main = (() => {
   }
 
   /** Let the drawing and the tables light each other. */
-  function link(root, viewer, owns) {
+  function link(root, viewer, owns, signal) {
     const links = new Links.Links(root, owns,
-      (target) => viewer.mark(target), (target) => viewer.visit(target));
+      (target) => viewer.mark(target), (target) => hold(target), (target) => viewer.visit(target));
+    const hold = (target) => {
+      viewer.hold(target);
+      links.hold(target);
+    };
+    root.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape") return;
+      hold(null);
+      viewer.pointing.clear();
+    }, { signal });
     viewer.pointing = new Pointing.Pointing(viewer.stage, viewer, (found) => {
       const target = found ? viewer.targetOf(found) : null;
       viewer.mark(target || {});
@@ -76,8 +86,10 @@ const Main = (() => {
     viewer.pointing.clicked = (found) => {
       const target = found ? { ...viewer.targetOf(found), kind: found.kind } : {};
       const told = { detail: target, bubbles: true, composed: true };
+      hold(found ? viewer.targetOf(found) : null);
       viewer.root.dispatchEvent(new CustomEvent("flexact-click", told));
     };
+    viewer.pointing.doubled = (found) => found && viewer.visit(viewer.targetOf(found));
   }
 
   /** Words beside the pointer. */

@@ -5,3 +5,4 @@
 Theme.listen(document.body, () => {});
 Printing.listen(document.body, []);
 if (typeof Finder === "object") Finder.listen(document.body);
+Terms.explain(document.body);

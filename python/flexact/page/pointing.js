@@ -17,17 +17,24 @@ const Pointing = (() => {
         else this.later(event);
       });
       this.clicked = () => {}; // called with what is clicked; null for nothing
+      this.doubled = () => {}; // and with what is clicked twice
+      canvas.addEventListener("dblclick", ({ offsetX, offsetY }) =>
+        this.doubled(this.look(offsetX, offsetY)));
       canvas.addEventListener("pointerdown", ({ offsetX, offsetY }) => {
         this.pressed = [offsetX, offsetY];
       });
       canvas.addEventListener("pointerup", (event) => {
-        this.later(event);
         const [x, y] = this.pressed || [Infinity, Infinity];
         this.pressed = null;
-        if (Math.hypot(event.offsetX - x, event.offsetY - y) > STILL) return;
-        this.clicked(this.look(event.offsetX, event.offsetY));
+        if (Math.hypot(event.offsetX - x, event.offsetY - y) > STILL) return this.later(event);
+        const found = this.look(event.offsetX, event.offsetY);
+        this.clicked(found);
+        this.tell(found);
       });
-      canvas.addEventListener("pointerleave", () => this.clear());
+      // A finger leaves as it lifts; what it tapped stays told.
+      canvas.addEventListener("pointerleave", ({ pointerType }) => {
+        if (pointerType !== "touch") this.clear();
+      });
     }
 
     /** Look once a frame at most. */

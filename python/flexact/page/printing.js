@@ -36,9 +36,9 @@ const Printing = (() => {
     renderer.setPixelRatio(RATIO);
     stage.draw();
     still.width = stage.width * RATIO;
-    still.height = stage.height * RATIO;
+    still.height = (stage.height + stage.foot) * RATIO;
     const context = still.getContext("2d");
-    context.drawImage(stage.canvas, 0, 0, still.width, still.height);
+    context.drawImage(stage.canvas, 0, 0, still.width, stage.height * RATIO);
     context.drawImage(viewer.overlay.canvas, 0, 0, still.width, still.height);
     renderer.setPixelRatio(ratio);
     stage.draw();

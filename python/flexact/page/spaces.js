@@ -21,10 +21,17 @@ const Spaces = (() => {
 
     made(space, colours) {
       const group = new THREE.Group();
+      group.ways = [];
       const colour = colours[space.freedom ? "freedom space" : "constraint space"];
       this.addFaces(group, space, colour);
       const thick = space.bold ? BOLD : LINE;
       this.addSticks(group, PageData.array(space.lines), thick, colour, 0);
+      const seen = PageData.inCss(colour);
+      eachPair(PageData.array(space.lines), (_, length) => group.ways.push({
+        at: start.clone().addScaledVector(way, length / 2).toArray(), way: way.toArray(),
+        turn: space.freedom, colour: seen }));
+      eachPair(PageData.array(space.arrows), (_, length) => group.ways.push({
+        at: start.toArray(), way: way.toArray(), turn: !space.freedom, colour: seen }));
       this.addArrows(group, PageData.array(space.arrows), space.freedom ? [1] : [1, SECOND], colour);
       this.addSticks(group, PageData.array(space.wires), WIRE, colours["new wire"], OVER);
       return group;
@@ -67,6 +74,11 @@ const Spaces = (() => {
         group.add(mesh);
         this.painted.push([mesh.material, colour]);
       }
+    }
+
+    /** Axes and arrows of what is shown. */
+    endOn() {
+      return this.groups.filter(({ visible }) => visible).flatMap(({ ways }) => ways);
     }
 
     show(which) {

@@ -5,8 +5,7 @@
 const Stage = (() => {
   const { OrthographicCamera, OrbitControls, Vector3 } = THREE;
   const DISTANCE = 8; // of the camera, in sizes of the drawing
-  // Pixels left free round the drawing when it is fitted; below stand the axes and the scale.
-  const EDGE = 14, FOOT = 34;
+  const EDGE = 16; // pixels left free round the drawing when it is fitted
   const CORNERS = Array.from({ length: 8 }, (_, i) => [i & 1, (i >> 1) & 1, (i >> 2) & 1]);
   // Milliseconds: frames that follow so soon are one run, and are slow if so long apart on average.
   const RUNNING = 60, LONG = 45, GAPS = 4, REST = 250;
@@ -69,8 +68,9 @@ const Stage = (() => {
 
     /** Fit the drawing to the room that the page gives. */
     fill() {
-      const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+      const { clientWidth: width, clientHeight: height } = this.canvas;
       if (!width || !height) return;
+      this.foot = this.canvas.parentElement.clientHeight - height; // for the axes and the scale
       this.width = width;
       this.height = height;
       this.setRatio();
@@ -145,7 +145,7 @@ const Stage = (() => {
       const axes = [0, 1, 2].map((k) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, k));
       const [low, high] = this.reach(axes);
       const [wide, tall] = [0, 1].map((k) => Math.max(1e-3, high[k] - low[k]));
-      const free = [this.width - 2 * EDGE, this.height - EDGE - FOOT];
+      const free = [this.width - 2 * EDGE, this.height - 2 * EDGE];
       const room = free.map((each) => Math.max(each, 1));
       const { minZoom, maxZoom } = this.controls;
       const zoom = Math.min(room[0] / wide, room[1] / tall) / this.height;
@@ -153,7 +153,6 @@ const Stage = (() => {
       this.camera.updateProjectionMatrix();
       const middle = axes.reduce((sum, axis, k) =>
         sum.addScaledVector(axis, (low[k] + high[k]) / 2), new Vector3());
-      middle.addScaledVector(axes[1], (-(FOOT - EDGE) / 2) * this.pixel);
       this.centre(...middle);
       this.fitted = true;
       this.lead();

@@ -173,7 +173,7 @@ const Symbols = (() => {
   /** Straight arrows: shafts and heads of a few thicknesses. */
   class Arrows {
     constructor(most, colour, thick) {
-      this.thick = thick;
+      Object.assign(this, { thick, ways: [], colour: PageData.inCss(colour) });
       this.shafts = new Copies(new CylinderGeometry(0.5, 0.5, 1, 10).translate(0, 0.5, 0), most, colour);
       this.heads = new Copies(new ConeGeometry(0.5, 1, 14).translate(0, 0.5, 0), most, colour);
       this.group = new THREE.Group();
@@ -182,6 +182,7 @@ const Symbols = (() => {
 
     /** Place arrow i from a point along a unit direction. */
     set(i, from, way, length) {
+      this.ways[i] = { at: from.toArray(), way: way.toArray(), colour: this.colour };
       const head = Math.min(4.5 * this.thick, 0.6 * length);
       this.shafts.set(i, from, way, this.thick, length - head);
       place.copy(from).addScaledVector(way, length - head);
@@ -189,8 +190,14 @@ const Symbols = (() => {
     }
 
     done(count) {
+      this.count = count;
       this.shafts.done(count);
       this.heads.done(count);
+    }
+
+    /** Where arrows stand, which way they point and in which colour. */
+    endOn() {
+      return this.ways.slice(0, this.count);
     }
   }
 
@@ -235,6 +242,10 @@ const Symbols = (() => {
       this.arcs = [arc, head].map((each) => new Copies(each, this.turning.length, colour));
       this.group = new THREE.Group();
       this.group.add(this.arrows.group, ...this.arcs.map((each) => each.mesh));
+    }
+
+    endOn() {
+      return this.arrows.endOn();
     }
 
     move(pose) {

@@ -40,16 +40,16 @@ const Tracks = (() => {
       this.amplitude = 1;
       this.speed = 0.5; // cycles a second
       this.playing = false;
-      this.cycle = 0;
+      this.cycle = START;
     }
 
     get phase() {
       return this.amplitude * Math.cos(2 * Math.PI * this.cycle);
     }
 
-    /** Begin in the reference; stand at the largest displacement where nothing is to move. */
+    /** Begin in the reference; where nothing plays, stand as far out as before. */
     begin() {
-      this.cycle = this.playing ? START : 0;
+      if (this.playing) this.cycle = START;
       this.last = null;
       this.show(this.phase);
     }

@@ -15,6 +15,7 @@ const Viewer = (() => {
       Object.assign(this, { root, data });
       this.peers = []; // viewers that look from the same side, and play in step
       this.changed = () => {}; // called when something else is shown
+      this.held = null; // what was clicked: its mark stays
       this.pose = Tracks.reference(data);
       this.movement = this.stress = this.space = null;
       this.quantity = "";
@@ -202,6 +203,8 @@ const Viewer = (() => {
 
     amplify(amplitude) {
       this.player.amplitude = amplitude;
+      // At rest it is the size itself that is looked at.
+      if (!this.player.playing) this.player.cycle = 0;
       this.movePhase(this.player.phase);
     }
 
@@ -223,8 +226,17 @@ const Viewer = (() => {
       for (const part of [this.supports, this.freedoms]) part.group.visible = this.layers.symbols;
     }
 
-    /** Mark an element or a node by its number. */
-    mark({ element, node }) {
+    /** Keep the mark of an element or a node, until another is clicked; null lets go. */
+    hold(target) {
+      this.held = target;
+      this.mark(target || {});
+      this.refresh();
+    }
+
+    /** Mark an element or a node by its number; without either what is held. */
+    mark(target) {
+      const named = target.element !== undefined || target.node !== undefined;
+      const { element, node } = named ? target : this.held || {};
       const row = this.memberOf.get(element), body = this.bodies.bodyOf.get(row);
       this.members.mark(row === undefined || body !== undefined ? [] : [row]);
       this.bodies.mark(body === undefined ? -1 : body);
@@ -245,13 +257,12 @@ const Viewer = (() => {
       return this.pose.position.subarray(3 * node, 3 * node + 3);
     }
 
-    /** Bring an element or a node into the middle. */
-    visit({ element, node }) {
+    /** Bring what is held, or another element or node, into the middle. */
+    visit({ element, node } = this.held || {}) {
       const row = this.memberOf.get(element);
       const place = this.placeOf(element, node);
       if (row !== undefined) this.stage.centre(...this.members.middle(row));
       else if (place >= 0) this.stage.centre(...this.place(place));
-      this.part("drawing").scrollIntoView({ block: "nearest" });
     }
 
     /** Lines about what is pointed at. */
@@ -280,7 +291,11 @@ const Viewer = (() => {
     }
 
     refresh() {
-      this.part("shown").textContent = this.caption();
+      const shown = this.part("shown"), caption = this.caption();
+      if (shown.textContent !== caption) {
+        shown.textContent = caption;
+        Terms.mark(shown);
+      }
       this.changed();
     }
 
