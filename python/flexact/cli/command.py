@@ -25,31 +25,12 @@ from flexact.cli.terminal import (
     give,
     speak,
 )
+from flexact.cli.verbs import VERBS
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 DESCRIPTION = "Exact-constraint analysis of compliant mechanisms."
-#: The verbs, each in a module of its name.
-VERBS = {
-    "analyse": "verdict, counts, motions and self-stresses of decks",
-    "advise": "what is wrong with decks and why, and steps that mend it",
-    "cost": "what over-constraint costs: tolerances of clamps, and what each release keeps",
-    "check": "the diagnostics of decks, without analysing them",
-    "batch": "a table of many decks, by all processors",
-    "declare": "a deck in which every divided sheet or wire counts as one beam",
-    "regress": "compare decks with stored answers, or store them",
-    "picture": "a deck's mechanism as a picture: its motion, its self-stress",
-    "export": "a deck's mechanism with its modes as a mesh, for ParaView",
-    "trace": "the path of a motion, both ways, with its dead points",
-    "view": "a deck's page in the browser",
-    "watch": "the page of a deck or a script in the browser, renewed whenever it is saved",
-    "report": "a page of each deck, to open in a browser and to mail",
-    "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
-    "completion": "a script by which a shell completes the words of this command",
-    "help": "what a verb does, with its options and examples",
-    "lsp": "a language server for editors, which start it",
-}
 #: 128 and the number of SIGPIPE, which not all systems have.
 _PIPE_CLOSED = 128 + 13
 _VERBOSE = re.compile(r"-v+|--verbose")
@@ -148,6 +129,7 @@ def parser_of(verb: str) -> argparse.ArgumentParser:
 
 def _fill(parser: argparse.ArgumentParser, verb: str, for_good: bool = False) -> None:
     load(f"flexact.cli.{verb}", for_good=for_good).fill(parser)
+    parser.set_defaults(parser_of=parser_of)
     _add_manner(parser)
     parser._positionals.title = "arguments"
     set_usage(parser)

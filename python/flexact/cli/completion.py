@@ -6,11 +6,11 @@ from __future__ import annotations
 import argparse
 
 from flexact.base.loading import load
-from flexact.cli.command import VERBS, parser_of
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
 from flexact.cli.shell_words import OptionWords, VerbWords
 from flexact.cli.terminal import give
+from flexact.cli.verbs import VERBS
 
 SHELLS = ("bash", "zsh", "fish")
 #: What the values of options and arguments are, by what help calls them.
@@ -36,16 +36,15 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def complete(chosen: argparse.Namespace) -> ExitCode:
     """Print the script of a shell."""
-    verbs = [words_of(verb) for verb in VERBS]
+    verbs = [words_of(verb, chosen.parser_of(verb)) for verb in VERBS]
     # Those of the command itself.
     module = load("flexact.cli.shell_scripts")
-    give(module.SCRIPTS[chosen.shell](words_of(""), verbs).removesuffix("\n"))
+    give(module.SCRIPTS[chosen.shell](words_of("", chosen.parser_of("")), verbs).removesuffix("\n"))
     return ExitCode.ANALYSED
 
 
-def words_of(verb: str) -> VerbWords:
+def words_of(verb: str, parser: argparse.ArgumentParser) -> VerbWords:
     """The words of a verb; of the command itself where it is empty."""
-    parser = parser_of(verb)
     options: list[OptionWords] = []
     choices: tuple[str, ...] = ()
     takes = ""

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import argparse
 
-from flexact.cli.command import VERBS, make_parser
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
+from flexact.cli.verbs import VERBS
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -20,6 +20,5 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def explain(chosen: argparse.Namespace) -> ExitCode:
     """Print the help that was asked for."""
-    words = [chosen.verb, "--help"] if chosen.verb else ["--help"]
-    make_parser(words).parse_args(words)
+    chosen.parser_of(chosen.verb or "").print_help()
     return ExitCode.ANALYSED
