@@ -32,7 +32,7 @@ VERBS: tuple[tuple[list[str], list[str]], ...] = (
 #: One deck in so many goes through a verb in this process, and one through a process of its own.
 EVERY, EVERY_PROCESS = 25, 250
 #: Exit codes by what became of the deck; a verdict that is not reached is an error of its own.
-_CODES = {Outcome.REFUSED: (2,), Outcome.ANALYSED: (0, 1), Outcome.READ: (0, 1)}
+_CODES = {Outcome.REFUSED: (1,), Outcome.ANALYSED: (0, 1, 2), Outcome.READ: (0, 1, 2)}
 _LIMIT = 300.0
 
 

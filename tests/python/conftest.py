@@ -19,6 +19,8 @@ os.environ.pop("COLUMNS", None)
 
 # Shells start what runs in the background deaf to Control-C, and its children with it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+if hasattr(signal, "SIGHUP"):
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

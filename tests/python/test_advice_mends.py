@@ -136,3 +136,17 @@ def test_a_vector_of_an_element_that_is_not_there() -> None:
     model = flexact.read_text(text_of(SYMMETRIC), SYMMETRIC)
     with pytest.raises(KeyError):
         Change(vectors=((99, (0.0, 0.0, 1.0)),)).apply(model.data)
+
+
+def test_a_step_on_divided_sheets_says_what_its_deck_gives() -> None:
+    """Without declarations, as it stands: the cross hinge with one sheet that is held."""
+    name = "flexures/cross_hinge_four_beams_undeclared"
+    text = text_of(name).replace("RLSE 2 2 5 6\n", "")
+    model = flexact.read_text(text, name)
+    analysis = flexact.analyse(model)
+    steps = [one for one in analysis.advice().steps if one.purpose is Purpose.MEND]
+    assert steps and analysis.with_internal_declared is not None
+    for step in steps:
+        after = flexact.analyse(step.apply())
+        assert step.after.under_constrained == after.under_constrained
+        assert step.after.over_constrained == after.over_constrained

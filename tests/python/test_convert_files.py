@@ -300,7 +300,7 @@ def test_the_command_says_what_is_wrong(
         ([str(deck), "-o", str(deck)], 2, "overwrite"),
         ([str(deck), "-o", str(tmp_path / "t.stl")], 2, "no lines"),
         ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "0"], 2, "points from 1"),
-        ([str(deck), "-o", str(tmp_path / "t.json"), "--as", "wheel"], 2, "invalid choice"),
+        ([str(deck), "-o", str(tmp_path / "t.json"), "--as", "wheel"], 2, "invalid value 'wheel'"),
         ([str(deck), "-o", str(tmp_path / "t.json"), "--fix", "1"], 2, "is for a mesh"),
         ([str(deck), "-o", str(tmp_path / "t.json"), "--flexible", "released"], 2, "for tables"),
     ):

@@ -392,7 +392,7 @@ def test_an_index_of_entries() -> None:
 
 
 def test_every_script_is_embedded() -> None:
-    further = {"finder.js", "plain.js", "live.js"}
+    further = {"finder.js", "plain.js", "live.js", "switches.js"}
     assert {path.name for path in PAGE.glob("*.js")} == {*SCRIPTS, *further}
 
 

@@ -8,7 +8,8 @@ import pytest
 from reference_decks import ROOT
 from small_decks import BROKEN, write
 
-from flexact.cli.fitting import columns_of, shortened, shortened_middle
+from flexact.base.columns import columns
+from flexact.cli.fitting import shortened, shortened_middle
 from flexact.cli.main import main
 from flexact.cli.outcome import ExitCode
 
@@ -62,7 +63,7 @@ def test_no_line_is_wider_than_the_terminal(
     main([verb, INPUT, "--summary"])
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) > 112
-    assert max(map(columns_of, lines)) <= width
+    assert max(map(columns, lines)) <= width
     assert any(line.startswith("112 decks") for line in lines)
 
 
@@ -143,5 +144,5 @@ def test_check_counts_problems(decks: Path, capsys: pytest.CaptureFixture[str]) 
 def test_names_are_shortened_in_the_middle() -> None:
     assert shortened_middle("abcdefghij", 10) == "abcdefghij"
     assert shortened_middle("abcdefghij", 7).replace("..", "…") in ("ab…ghij", "a…ghij")
-    assert columns_of(shortened_middle("数学数学数学", 7)) <= 7
+    assert columns(shortened_middle("数学数学数学", 7)) <= 7
     assert shortened("abcdefghij", 5).startswith("abc")

@@ -239,7 +239,8 @@ def test_a_release_is_clicked_on_and_off(browser: Browser, watch: Watching) -> N
     page.settled(0)
     assert page.hides("made")
     assert browser.console() == []
-    own = (page.watched.address, "data:")
+    # Pages of tests before may still ask for their servers.
+    own = ("http://127.0.0.1:", "data:")
     assert all(each.startswith(own) for each in browser.requests())
 
 

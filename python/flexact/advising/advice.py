@@ -101,7 +101,7 @@ class Advice(Frozen, Sequence[Step]):
         return tuple(Step(self.analysis, k, one) for k, one in enumerate(ordered, start=1))
 
     def _proposals(self) -> Iterator[Proposal]:
-        yield from self.causes.mends
+        yield from map(self._as_it_stands, self.causes.mends)
         yield from undeclarations_of(self.analysis)
         yield from (*self.releases.sets, *self.releases.supports)
         yield from (*self.declarations.sets, *self.declarations.holds)

@@ -81,7 +81,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         ),
         (
             "A line of each deck of a folder, and the same as a table",
-            "flexact analyse input_decks --summary -o results/decks.csv",
+            "flexact analyse input_decks/paper --summary -o results/decks.csv",
         ),
         (
             "A deck that another program writes",

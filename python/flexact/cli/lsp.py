@@ -11,6 +11,7 @@ import threading
 from flexact.advising import advice_of
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
+from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode
 
 
@@ -24,6 +25,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--stdio", action="store_true", help="by stdin and stdout, as it is without this option"
     )
+    add_examples(parser, ("What Emacs, Neovim or VS Code start", "flexact lsp"))
     parser.set_defaults(run=talk)
 
 

@@ -13,10 +13,10 @@ from ..result.verdict import Verdict
 from ..text.comparing import Change, Gravity, Side
 from .assets import filled
 from .finder_part import finder
+from .index_page import SCRIPTS
 from .markup import breakable, image, text
 from .verdict_part import BROKEN, KINDS, MARGINAL
 
-_SCRIPTS = ("theme.js", "printing.js", "finder.js", "plain.js")
 STYLES = ("style.css", "index.css", "compare.css")
 _ORDERS = (
     ("place", "what changed, the gravest first"),
@@ -85,7 +85,7 @@ def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
         f'<main class="plain">{finder(kinds, _ORDERS)}'
         f'<ul class="cards pairs">{cards}</ul></main>'
     )
-    return filled(title, body, _SCRIPTS, STYLES)
+    return filled(title, body, SCRIPTS, STYLES)
 
 
 def changes_part(change: Change, *, below_verdicts: bool = False) -> str:

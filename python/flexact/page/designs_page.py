@@ -95,7 +95,8 @@ def _head(compared: Compared) -> str:
         for k, each in enumerate(compared.about)
     )
     return (
-        f'<header class="verdict top"><h1 class="headline">{text(compared.headline)}</h1>'
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(compared.headline)}</span></h1>"
         f'<p class="about">{about}</p>{SWITCH}</header>'
     )
 

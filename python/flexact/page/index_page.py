@@ -8,14 +8,14 @@ from collections.abc import Collection, Iterator
 from html import escape
 from urllib.parse import quote
 
-from .assets import filled
+from .assets import PLAIN_SCRIPTS, filled
 from .entry import Entry
 from .finder_part import finder
 from .markup import breakable, image, text
 
 #: Where the cards go; no text of a page holds a NUL.
 _CARDS = "\0"
-SCRIPTS = ("theme.js", "printing.js", "finder.js", "plain.js")
+SCRIPTS = ("finder.js", *PLAIN_SCRIPTS)
 STYLES = ("style.css", "index.css")
 
 #: What the cards are sorted by: the name of the datum, and what it is called.

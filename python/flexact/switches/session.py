@@ -105,8 +105,8 @@ class Session:
 
     @property
     def known(self) -> Result | None:
-        """As `now`; None where there is nothing."""
-        return None if self._board is None else self.now
+        """As `now`; None where there is nothing, or the file has errors now."""
+        return None if self._board is None or self._is_broken else self.now
 
     def put_aside(self, why: str) -> None:
         """Take all edits back, as they cannot be analysed with the file as it is now."""

@@ -118,7 +118,11 @@ class Handler(BaseHTTPRequestHandler):
         if not 0 <= length <= _LARGEST:
             self._refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "that is too much")
             return
-        status, answer = post(self.rfile.read(length))
+        try:
+            status, answer = post(self.rfile.read(length))
+        except Exception as error:
+            status = HTTPStatus.INTERNAL_SERVER_ERROR
+            answer = {"error": f"this went wrong, and nothing was changed: {error!r}"}
         self._answer(json.dumps(answer).encode(), "application/json", status)
 
     def _admitted(self, *, writes: bool) -> str | None:
