@@ -23,8 +23,8 @@ _UNDATED = {"CreationDate": None, "Creator": None, "Producer": None}
 _PATH, _DIGITS = re.compile(r'<path [^>]*?\bd="[^"]*"'), re.compile(r"(\.\d\d)\d+")
 #: Suffixes of pictures that stand still.
 STILLS = (".png", ".svg", ".pdf")
-#: Colours of a GIF.
-_COLOURS = 160
+#: Colours of a GIF, and pixels of one colour from which on there might as well be more.
+_COLOURS, _ALIKE = 160, 30
 
 
 def pixels(figure: Figure) -> np.ndarray:
@@ -77,6 +77,17 @@ def still_bytes(figure: Figure, suffix: str, title: str, description: str) -> by
     return write(figure, title, description)
 
 
+def _palette(drawings: list[np.ndarray]) -> Any:
+    """A palette of what is drawn: arrows have few pixels, and count like large faces."""
+    from PIL import Image
+
+    packed = np.concatenate(drawings).reshape(-1, 3).astype(np.uint32) @ (1 << 16, 1 << 8, 1)
+    found, counts = np.unique(packed, return_counts=True)
+    shown = np.repeat(found, np.minimum(counts, _ALIKE))
+    colours = np.stack((shown >> 16, shown >> 8 & 255, shown & 255), axis=-1).astype(np.uint8)
+    return Image.fromarray(colours[None]).quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)
+
+
 def gif_bytes(drawings: list[np.ndarray], order: list[int], duration: int) -> bytes:
     """Drawings (height, width, 3) as frames that run without end, each shown so long [ms].
 
@@ -85,7 +96,8 @@ def gif_bytes(drawings: list[np.ndarray], order: list[int], duration: int) -> by
     """
     from PIL import Image
 
-    every = Image.fromarray(np.concatenate(drawings)).quantize(_COLOURS, dither=Image.Dither.NONE)
+    every = Image.fromarray(np.concatenate(drawings))
+    every = every.quantize(palette=_palette(drawings), dither=Image.Dither.NONE)
     index = np.asarray(every)
     palette = np.reshape(every.getpalette() or [], (-1, 3))
     # White, in the corner, stays white.
