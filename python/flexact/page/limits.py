@@ -5,6 +5,9 @@ from __future__ import annotations
 
 #: Motions, declared degrees of freedom, and self-stresses, of each.
 MOST_MODES = 12
+#: Motions that move in the drawing where there are more elements than these: each takes a while
+#: to be drawn, and people wait for the page.
+FEW_MODES, MANY_ELEMENTS = 3, 2000
 #: Members that are drawn.
 MOST_MEMBERS = 20_000
 #: Bytes of all movements together, and of one at all its phases, before they are written as text;

@@ -14,7 +14,14 @@ from ..result.result import Result
 from ..text.naming import freedom_in_words
 from ..text.sentences import plain
 from .drawing_data import Frame, hinges_in
-from .limits import MOST_ELEMENTS, MOST_MEMBERS, MOST_MODES, MOST_POSES
+from .limits import (
+    FEW_MODES,
+    MANY_ELEMENTS,
+    MOST_ELEMENTS,
+    MOST_MEMBERS,
+    MOST_MODES,
+    MOST_POSES,
+)
 from .packing import floats
 from .tracks import Tracks
 
@@ -40,7 +47,9 @@ def movements(analysis: Result, tracks: Tracks) -> list[dict[str, Any]]:
 
 
 def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
-    for number, motion in enumerate(analysis.motions[:MOST_MODES], start=1):
+    is_large = analysis.given.arrays.element_number.size > MANY_ELEMENTS
+    most = FEW_MODES if is_large else MOST_MODES
+    for number, motion in enumerate(analysis.motions[:most], start=1):
         yield "motion", f"Motion {number}", f"Motion {number}", motion
 
 
