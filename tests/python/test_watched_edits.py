@@ -202,6 +202,13 @@ class Page:
 
         until(same)
 
+    def renewed(self, text: str) -> None:
+        """Save the file, and wait for its scene."""
+        self.browser.run("window.scene = document.querySelector('.live-scene')")
+        save(self.watched, self.watched.file, text)
+        until(lambda: self.browser.run("return !scene.isConnected"))
+        self.browser.drawn()
+
     def settled(self, changes: int) -> None:
         """Wait for the scene with so many changes."""
         one = f"with {changes} change{'s' * (changes > 1)} that the file does not have"
@@ -365,11 +372,15 @@ def test_a_new_deck_is_written_and_never_over_another_without_asking(
     page.click("save")
     page.sees("over", "Write over it?")
     page.click("write over")
-    page.sees("said", "Written to guide_edited.dat")
-    assert "RLSE 1 2 3 5 6" in made.read_text()
+    # The words are still there from the first time.
+    until(lambda: "RLSE 1 2 3 5 6" in made.read_text())
     page.type("name", "guide.dat")
-    page.click("save")
-    page.sees("said", "is the file that is watched")
+
+    def is_refused() -> bool:
+        page.click("save")
+        return "is the file that is watched" in page.text("said")
+
+    until(is_refused)
     page.type("name", "../guide.dat")
     page.click("save")
     page.sees("said", "without a folder")
@@ -391,7 +402,8 @@ def test_a_script_is_edited_by_calls_in_its_own_words(browser: Browser, watch: W
 
 
 def test_what_is_copied_are_the_lines(browser: Browser, watch: Watching) -> None:
-    page = Page(browser, watch("guide.dat", DECK))
+    watched = watch("guide.dat", DECK)
+    page = Page(browser, watched)
     page.find("sheet 1")
     page.click(RELEASED)
     page.sees("lines", "RLSE 1 2 3 5 6")
@@ -404,9 +416,20 @@ def test_what_is_copied_are_the_lines(browser: Browser, watch: Watching) -> None
         "RLSE 1 2 3 5 6 % as designed   % instead of line 12: RLSE 1 2 5 6 % as designed"
     ]
     browser.run("navigator.clipboard.writeText = async () => { throw new Error('not allowed'); }")
+    page.settled(1)
     page.click("copy")
     page.sees("said", "press Ctrl+C")
-    assert browser.run("return document.activeElement.value").startswith("RLSE 1 2 3 5 6")
+    marked = (
+        "const box = document.activeElement;"
+        "return (box.value || '').slice(box.selectionStart, box.selectionEnd)"
+    )
+    assert browser.run(marked).startswith("RLSE 1 2 3 5 6")
+    # It stays marked when the next result comes, and who writes a name can go on.
+    page.renewed(DECK + "% again\n")
+    assert browser.run(marked).startswith("RLSE 1 2 3 5 6")
+    browser.run("document.querySelector('[data-part=name]').focus()")
+    page.renewed(DECK)
+    assert page.focus() == "save as"
 
 
 def test_the_panel_fits_and_everything_in_it_has_a_name(browser: Browser, watch: Watching) -> None:

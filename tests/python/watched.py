@@ -24,6 +24,7 @@ class Watched:
     """A running `flexact watch`, with what it says."""
 
     def __init__(self, file: Path, state: Path, *more: str) -> None:
+        self.file = file
         env = {**os.environ, "XDG_STATE_HOME": str(state), "PYTHONUNBUFFERED": "1"}
         for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
             env.pop(name, None)
@@ -66,7 +67,10 @@ class Watched:
 
     def end(self, number: int = signal.SIGINT) -> int:
         """Send a signal; the code with which it ends."""
-        self.process.send_signal(number)
+        if os.name == "posix":
+            self.process.send_signal(number)
+        else:
+            self.process.terminate()
         code = self.process.wait(PATIENCE)
         for reader in self._readers:
             reader.join(PATIENCE)

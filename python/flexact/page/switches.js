@@ -392,12 +392,14 @@ const Switches = (() => {
       const box = part("textarea", "to-copy");
       Object.assign(box, { readOnly: true, hidden: true, rows: 4 });
       box.setAttribute("aria-label", "To copy");
+      box.dataset.key = "to copy";
       const copy = button("Copy", () => this.copy());
       copy.dataset.key = "copy";
       const form = element("form", "", "save");
       const label = element("label", "Save as a new deck ");
       const name = part("input", "name");
       Object.assign(name, { type: "text", autocomplete: "off", spellcheck: false });
+      name.dataset.key = "save as";
       label.append(name);
       const save = button("Save", () => {});
       save.type = "submit";
