@@ -2,7 +2,6 @@
 """``flexact batch --resume``: killed at any moment, nothing is lost and nothing is done twice."""
 
 import json
-import os
 import random
 import signal
 import socket
@@ -13,6 +12,7 @@ import zlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from dask_cluster import running_cluster
@@ -23,6 +23,7 @@ from test_cli_signals import bars_in_a_row
 
 from flexact.cli.main import main
 from flexact.files.outputs import OutputError
+from flexact.variants.batches.journal import Journal
 
 KINDS = (*DECKS.values(), BROKEN)
 
@@ -109,7 +110,7 @@ def kill_after(process: subprocess.Popen[bytes], number: int, has_come: Callable
     return process.returncode
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+@pytest.mark.posix
 @pytest.mark.parametrize("workers", ["-j1", "-j2"])
 def test_killed_and_resumed_it_is_the_same_table(workers: str, many: Path, tmp_path: Path) -> None:
     """Byte for byte but for times; what was in the journal is never done again."""
@@ -139,7 +140,30 @@ def test_killed_and_resumed_it_is_the_same_table(workers: str, many: Path, tmp_p
     ]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="limits of POSIX")
+@pytest.mark.posix
+def test_a_signal_that_falls_into_a_destructor_ends_it_all_the_same(
+    many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Python lets such an exception go; the next deck is not begun."""
+
+    class Deaf:
+        def __del__(self) -> None:
+            signal.raise_signal(signal.SIGTERM)
+
+    add = Journal.add
+
+    def deafly(journal: Journal, record: Any) -> Any:
+        Deaf()
+        return add(journal, record)
+
+    monkeypatch.setattr(Journal, "add", deafly)
+    monkeypatch.setattr(sys, "unraisablehook", lambda _: None)
+    table = tmp_path / "table.csv"
+    assert main(["batch", str(many), "-o", str(table), "-j1"]) == 128 + signal.SIGTERM
+    assert len(journaled(tmp_path / "table.csv.journal")) == 1 and not table.exists()
+
+
+@pytest.mark.posix
 def test_where_the_disk_is_full_it_goes_on_later(many: Path, tmp_path: Path) -> None:
     """Files may not grow beyond a size here, which the system reports as a full disk."""
     table, journal = tmp_path / "table.csv", tmp_path / "table.csv.journal"
@@ -198,6 +222,7 @@ def test_what_is_done_is_not_done_again(
     assert not (tmp_path / "t.csv.journal").exists()
 
 
+@pytest.mark.posix
 def test_a_deck_that_has_changed_is_done_again(
     interrupted: list[str], decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -268,6 +293,7 @@ def test_with_nothing_there_it_starts(decks: Path, tmp_path: Path) -> None:
         assert len(rows_of(tmp_path / "t.csv")) == 4
 
 
+@pytest.mark.posix
 def test_where_nothing_is_done_nothing_is_left(
     decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -279,6 +305,7 @@ def test_where_nothing_is_done_nothing_is_left(
     assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []
 
 
+@pytest.mark.posix
 def test_a_cluster_that_is_lost_leaves_what_is_done(tmp_path: Path) -> None:
     """A worker dies, then the scheduler; processes of this machine go on. The table is the same."""
     pytest.importorskip("distributed")
@@ -330,7 +357,7 @@ def dask_patience(seconds: str) -> Iterator[None]:
         yield
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+@pytest.mark.posix
 @pytest.mark.parametrize("workers", ["-j1", "-j2"])
 def test_control_c_does_not_wait_for_a_large_deck(workers: str, tmp_path: Path) -> None:
     """One of 3600 x 3600 takes longer than anybody waits; the one before it is kept."""

@@ -9,6 +9,7 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 import pytest
 from small_decks import DECKS, write
 from test_cli_process import process_environment
@@ -16,7 +17,7 @@ from test_cli_process import process_environment
 from flexact.base.interruption import SIGNALS, Stopped, undisturbed, unwinding
 from flexact.cli.main import main
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+pytestmark = pytest.mark.posix
 
 LATE = 20.0
 #: A command in which a function, once it runs, says so and goes on for longer than anybody waits.
@@ -136,6 +137,27 @@ def test_signals_unwind_and_are_as_before_afterwards() -> None:
         signal.raise_signal(signal.SIGTERM)
     assert stop.value.number == signal.SIGTERM
     assert [signal.getsignal(number) for number in SIGNALS] == before
+
+
+class Swallowing(type):
+    """A class that is sent a signal while NumPy asks it for attributes, and forgets exceptions."""
+
+    def __getattr__(cls, name: str) -> object:
+        signal.raise_signal(signal.SIGTERM)
+        raise AttributeError(name)
+
+
+def test_a_signal_that_is_swallowed_ends_the_work_at_the_next_look() -> None:
+    class Asked(metaclass=Swallowing):
+        pass
+
+    steps = []
+    with pytest.raises(Stopped), unwinding() as look:
+        assert np.ones(1) != Asked
+        steps.append("swallowed")
+        look()
+        steps.append("never")
+    assert steps == ["swallowed"]
 
 
 def test_signals_are_held_back() -> None:

@@ -9,14 +9,21 @@ ends it at once, except while it writes files.
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
+import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import FrameType
 
+#: Those that the system has: SIGHUP, or on Windows SIGBREAK, where a terminal is closed.
 SIGNALS = tuple(
-    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+    getattr(signal, name)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+    if hasattr(signal, name)
 )
+#: How Windows says that Ctrl-C ended a process, STATUS_CONTROL_C_EXIT, as a signed number.
+_ENDED_BY_CONTROL_C = 0xC000013A - 2**32
 
 
 class Stopped(KeyboardInterrupt):
@@ -40,13 +47,20 @@ def end_at_once() -> None:
 
 def end_by(number: int) -> None:
     """End this process by a signal, which is what a shell wants to see."""
+    if sys.platform == "win32":
+        # What its C library does by itself is to end with 3, which says something else here.
+        os._exit(_ENDED_BY_CONTROL_C)
     signal.signal(number, signal.SIG_DFL)
     signal.raise_signal(number)
 
 
 @contextlib.contextmanager
-def unwinding() -> Iterator[None]:
-    """Make signals that would end the process raise `Stopped`, so that it can clean up."""
+def unwinding() -> Iterator[Callable[[], None]]:
+    """Make signals that would end the process raise `Stopped`, so that it can clean up.
+
+    Yields:
+        To be called between two pieces of work: it raises `Stopped`, too, where a signal came.
+    """
     asked: list[int] = []
 
     def stop(number: int, _: FrameType | None) -> None:
@@ -55,11 +69,15 @@ def unwinding() -> Iterator[None]:
         if len(asked) == 1:
             raise Stopped(number)
 
-    with _handled(signal.SIG_DFL, stop):
-        yield
+    def look() -> None:
+        # Python lets it go where it falls into a destructor or a callback of a weak reference,
+        # and NumPy where it asks an object for an attribute.
         if asked:
-            # Where it fell into a destructor or a callback of a weak reference, Python let it go.
             raise Stopped(asked[0])
+
+    with _handled(signal.SIG_DFL, stop):
+        yield look
+        look()
 
 
 @contextlib.contextmanager
@@ -70,7 +88,9 @@ def undisturbed() -> Iterator[None]:
         with _handled(None, lambda number, _: held.append(number)):
             yield
     finally:
-        if held:
+        if held and signal.getsignal(held[0]) is signal.SIG_DFL:
+            end_by(held[0])
+        elif held:
             signal.raise_signal(held[0])
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 from array import array
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -84,9 +84,9 @@ class BatchRun:
             BatchError: It cannot be gone on with; what is done is in the journal.
         """
         try:
-            with unwinding():
+            with unwinding() as look:
                 if self._left:
-                    self._do(executor, workers)
+                    self._do(executor, workers, look)
                 return self._write(table)
         except BatchError as error:
             raise BatchError(f"{error}; {self._where_to_go_on}") from error
@@ -99,10 +99,11 @@ class BatchRun:
                 if not self.done:
                     self._journal.remove()
 
-    def _do(self, executor: str | None, workers: int | None) -> None:
+    def _do(self, executor: str | None, workers: int | None, look: Callable[[], None]) -> None:
         results = results_of(self._work, self._items(), executor=executor, workers=workers)
         with closing(results), BatchBar(len(self._decks), self.done) as self._bar:
             for index, answer, failure in results:
+                look()
                 deck, digest = self._sent.pop(index)
                 if failure:
                     answer = self._failed(deck, AnalysisError(failure))

@@ -147,8 +147,13 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             model = opened(deck, bar)
             report_problems(model)
             try:
-                with unwinding():
-                    made = cost_of(model, asked, deck.name, bar.show_work, Cost)
+                with unwinding() as look:
+
+                    def show(what: str, done: float) -> None:
+                        look()
+                        bar.show_work(what, done)
+
+                    made = cost_of(model, asked, deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
                         save(made, target)

@@ -100,7 +100,12 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
         with Bar(deck.name, deck.path) as bar:
             analysis = read_and_analysed(deck, chosen, bar)
             try:
-                with unwinding():
+                with unwinding() as look:
+
+                    def show(done: float) -> None:
+                        look()
+                        bar.show_steps(done)
+
                     made = trace(
                         analysis,
                         motion=chosen.motion,
@@ -108,7 +113,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                         length=chosen.length,
                         steps=chosen.steps,
                         through=chosen.through,
-                        progress=bar.show_steps,
+                        progress=show,
                     )
             except BatchError:
                 raise
