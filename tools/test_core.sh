@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 # allocated, so that overflows are reported which are none. Memory that lives until the
 # program ends is no leak.
 sanitizers="-Db_sanitize=address,undefined -Db_lundef=false -Dfortran_args=-fno-sanitize=signed-integer-overflow,pointer-overflow"
-export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 echo end | gfortran -x f95 - -fsanitize=address,undefined -o /dev/null 2>/dev/null || {
     echo "The compiler has no sanitizers: the core is built with run-time checks alone." >&2
     sanitizers=
@@ -22,7 +22,7 @@ for part in matrices mechanics; do
     fuzzing=$([ $part = mechanics ] && echo true || echo false)
     options="--buildtype=debug -Dpython_package=false -Dcore_tests=true -Dcore_checks=true
         -Dmatrices_only=$only -Dcore_fuzzing=$fuzzing $sanitizers"
-    if [ ! -f build/$part/build.ninja ] || [ "$(cat build/$part/options 2>/dev/null)" != "$options" ]; then
+    if [ ! -f build/$part/build.ninja ] || [ meson.options -nt build/$part/build.ninja ] || [ "$(cat build/$part/options 2>/dev/null)" != "$options" ]; then
         rm -rf build/$part
         # shellcheck disable=SC2086  # the options are words
         meson setup build/$part $options

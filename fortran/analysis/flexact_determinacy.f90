@@ -2,15 +2,14 @@
 !> Kinematic and static determinacy, section 3 of the paper: the rank of D(c),
 !> the motions that it leaves free and the self-stresses that it admits.
 module flexact_determinacy
-   use flexact_cholmod, only: cholmod_is_there
    use flexact_components, only: largest_component, component_of_columns, shape_of
    use flexact_dense_route, only: analyse_dense, operations, entries_of_bases
-   use flexact_error, only: fail, is_kind, error_convergence, error_library
+   use flexact_error, only: is_kind, error_convergence
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_problem, only: problem_t, make_problem
    use flexact_progress, only: stage_assembling, stage_exact_rank
-   use flexact_proof, only: prove, no_proof, unknown
+   use flexact_proof, only: prove, no_proof, unknown, prove_by_cost, prove_always
    use flexact_rank, only: rank_rule_t
    use flexact_result, only: options_t, result_t, method_auto, method_svd, method_sparse
    use flexact_scaling, only: rank_rule_of
@@ -57,9 +56,7 @@ contains
          call options%progress%report(stage_exact_rank)
          call prove(model, problem, options%prove, options%as_stored, options%memory, result%proof)
       end if
-      if (result%method == method_sparse .and. cholmod_is_there() == 0) then
-         call fail(error_library, result%error)
-      else if (result%method == method_sparse) then
+      if (result%method == method_sparse) then
          call analyse_sparse(problem, options, rule, result)
          if (.not. options%only_plain_values) call look_again(model, problem, options, rule, result)
       else
@@ -77,12 +74,16 @@ contains
       type(result_t) :: complete
       logical :: is_wanted
 
+      if (is_in_doubt(result) .and. .not. result%proof%is_complete() .and. options%prove == prove_by_cost &
+          .and. operations(problem) > feasible) &
+         call prove(model, problem, prove_always, options%as_stored, options%memory, result%proof)
       result%unjudged = .not. result%proof%is_complete()
       is_wanted = is_in_doubt(result) .or. disagrees(problem, result)
       if (is_wanted .and. operations(problem) > feasible .and. result%proof%is_complete()) then
          ! What exact arithmetic says is offered beside the counts.
          result%undecided = max(0, result%proof%total() - result%decision%rank)
          result%confirmed = result%confirmed .and. result%proof%total() >= result%decision%rank
+         if (result%proof%total() < result%decision%rank) call count_unseen(result%proof%total(), result)
       end if
       if (operations(problem) > merge(feasible, soon_judged, is_wanted) .or. .not. (is_wanted .or. is_unseen(result))) return
       complete%method = method_svd
@@ -91,6 +92,16 @@ contains
       call analyse_dense(model, problem, options, rule, result%proof, complete)
       if (.not. allocated(complete%error)) result = complete
    end subroutine look_again
+
+   !> Count the zeros that exact arithmetic knows of and whose vectors were not found.
+   pure subroutine count_unseen(rank, result)
+      integer, intent(in) :: rank
+      type(result_t), intent(inout) :: result
+      integer :: k
+
+      result%scaled_values = [result%scaled_values, [(0.0_wp, k=rank + 1, result%decision%rank)]]
+      result%decision%rank = rank
+   end subroutine count_unseen
 
    !> Whether exact arithmetic has another rank than the sparse route for some component.
    pure logical function disagrees(problem, result)
@@ -148,8 +159,8 @@ contains
       type(problem_t), intent(in) :: problem
 
       choice = method_sparse
-      if (cholmod_is_there() == 0 .or. (minval(largest_component(problem%components)) <= small_component .and. &
-                                        min(problem%matrix%by_column%rows, problem%matrix%by_column%columns) <= small_whole &
-                                        .and. entries_of_bases(problem) <= most_entries)) choice = method_svd
+      if (minval(largest_component(problem%components)) <= small_component .and. &
+          min(problem%matrix%by_column%rows, problem%matrix%by_column%columns) <= small_whole .and. &
+          entries_of_bases(problem) <= most_entries) choice = method_svd
    end function choice
 end module flexact_determinacy

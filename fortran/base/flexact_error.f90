@@ -5,8 +5,8 @@ module flexact_error
    implicit none
    private
    public :: error_t, fail, is_kind
-   public :: error_convergence, error_memory, error_not_found, error_library, error_not_definite, &
-             error_names
+   public :: error_convergence, error_memory, error_not_found, error_not_definite, &
+             error_interrupted, error_names
 
    !> LAPACK gave up, or the matrix holds a number that is not finite.
    integer, parameter :: error_convergence = 1
@@ -14,20 +14,20 @@ module flexact_error
    integer, parameter :: error_memory = 2
    !> Fewer vectors were found than there must be.
    integer, parameter :: error_not_found = 3
-   !> SuiteSparse is asked for, and the build has none.
-   integer, parameter :: error_library = 4
    !> A factorisation met a pivot that is not positive.
-   integer, parameter :: error_not_definite = 5
+   integer, parameter :: error_not_definite = 4
+   !> Nobody waits for the result any more.
+   integer, parameter :: error_interrupted = 5
 
    character(len=24), parameter :: error_names(0:5) = [character(len=24) :: &
-                                                       'none', 'convergence', 'memory', 'not found', 'library', &
-                                                       'not definite']
+                                                       'none', 'convergence', 'memory', 'not found', &
+                                                       'not definite', 'interrupted']
    character(len=*), parameter :: words_of(5) = [character(len=60) :: &
                                                  'the decomposition did not converge', &
                                                  'memory does not suffice', &
                                                  'fewer vectors were found than there must be', &
-                                                 'this build has no SuiteSparse', &
-                                                 'the matrix is not positive definite']
+                                                 'the matrix is not positive definite', &
+                                                 'the work was stopped']
 
    type :: error_t
       !> One of those above.

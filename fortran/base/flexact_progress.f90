@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Where a caller on another thread watches what is at work.
 module flexact_progress
+   use flexact_kinds, only: wp
    implicit none
    private
    public :: progress_t
@@ -19,10 +20,10 @@ module flexact_progress
                                                        'singular values', 'exact rank']
 
    type :: progress_t
-      !> What is at work, and per cent of it, which no stage can tell yet.
+      !> What is at work, per cent of it where that can be told, and what is not 0 once nobody waits for it any more.
       integer, pointer :: stage(:) => null()
    contains
-      procedure :: report
+      procedure :: report, advance, is_stopped
    end type progress_t
 
 contains
@@ -31,6 +32,21 @@ contains
       class(progress_t), intent(in) :: self
       integer, intent(in) :: stage
 
-      if (associated(self%stage)) self%stage = [stage, 0]
+      if (associated(self%stage)) self%stage(:2) = [stage, 0]
    end subroutine report
+
+   !> done: the part of the stage that is done, from 0 to 1.
+   recursive subroutine advance(self, done)
+      class(progress_t), intent(in) :: self
+      real(wp), intent(in) :: done
+
+      if (associated(self%stage)) self%stage(2) = nint(100*done)
+   end subroutine advance
+
+   pure recursive logical function is_stopped(self)
+      class(progress_t), intent(in) :: self
+
+      is_stopped = .false.
+      if (associated(self%stage)) is_stopped = self%stage(3) /= 0
+   end function is_stopped
 end module flexact_progress

@@ -138,7 +138,7 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
 end subroutine assemble
 
 ! Rank, motions and self-stresses in the reference configuration; what comes back, and what
-! wishes are, as run_with_blas says. n: at least rows and columns. stage: work, per cent.
+! wishes are, as run_with_blas says. n: at least rows and columns. stage: work, per cent, not 0 to stop it.
 subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
    use iso_c_binding
    use flexact_result_exchange, only: run
@@ -146,7 +146,7 @@ subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wish
 !f2py threadsafe
    integer(c_int), intent(in) :: n, room, nn, ne, nodes(5, nn), elements(12, ne)
    real(c_double), intent(in) :: places(4, nn), vectors(3, ne), wishes(6)
-   integer(c_int), intent(inout), target :: stage(2)
+   integer(c_int), intent(inout), target :: stage(3)
    integer(c_int), intent(inout) :: index(3, n + 1), place(room)
    real(c_double), intent(inout) :: value(room), by_size(n, 8)
    real(c_double), intent(out) :: facts(48)

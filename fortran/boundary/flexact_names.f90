@@ -12,6 +12,7 @@ module flexact_names
    use flexact_element_table, only: frame_names, vector_names, member_names
    use flexact_appearance, only: section_names
    use flexact_keywords, only: keyword_rows
+   use flexact_linked, only: linked_names, linked_licences
    use flexact_model, only: class_names
    use flexact_progress, only: stage_names
    use flexact_proof, only: proof_names
@@ -55,6 +56,8 @@ contains
       case ('severities'); names = names_t(1, [severity_names])
       case ('keywords'); names%name = keyword_rows()
       case ('cross-sections'); names = names_t(1, [character(len=24) :: section_names])
+      case ('linked'); names = names_t(1, [linked_names])
+      case ('licences'); names = names_t(1, [linked_licences])
       case default; allocate (names%name(0))
       end select
    end function names_of

@@ -40,7 +40,6 @@ contains
       if (.not. allocated(space%layout%column)) call make_layout(elastic, space%layout)
       space%weight = row_weights(elastic, rows)
       call make_matrix(elastic, rows, space, matrix)
-      space%rows = row_space_t()
       call analyse_rows(matrix, space%rows, error, tolerance)
       space%failed = allocated(error)
       if (space%failed) return

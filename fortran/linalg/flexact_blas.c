@@ -9,21 +9,51 @@
  *
  * Memory: OpenBLAS takes a buffer of 128 MB of address space for each thread when
  * it is first used, and where it gets none it asks for ever. So we ask first. */
-#include <pthread.h>
+#include <stddef.h>
 #include <string.h>
 
 #if defined(__unix__) || defined(__APPLE__)
+#define HAS_LIMITS
 #include <sys/mman.h>
 #include <sys/resource.h>
+#ifndef MAP_NORESERVE
+#define MAP_NORESERVE 0
+#endif
+#endif
 
-extern void openblas_set_num_threads(int) __attribute__((weak));
-extern int openblas_get_num_threads(void) __attribute__((weak));
-extern int openblas_get_parallel(void) __attribute__((weak));
+#if (defined(HAS_LIMITS) || defined(__MINGW32__)) && (defined(FLEXACT_WITH_OPENBLAS) || defined(__ELF__))
+#include <pthread.h>
+
+/* What the library's names begin with. */
+#define JOIN(a, b) a##b
+#define PREFIXED(prefix, name) JOIN(prefix, name)
+#ifdef FLEXACT_BLAS_PREFIX
+#define BLAS(name) PREFIXED(FLEXACT_BLAS_PREFIX, name)
+#else
+#define BLAS(name) name
+#endif
+
+/* A library that the build knows as OpenBLAS has it all. Another may be OpenBLAS once the
+ * program runs (Debian's alternatives), which only ELF can find out, by weak symbols. */
+#if defined(FLEXACT_WITH_OPENBLAS)
+#define PERHAPS
+#else
+#define PERHAPS __attribute__((weak))
+#endif
+#define openblas_set_num_threads BLAS(openblas_set_num_threads)
+#define openblas_get_num_threads BLAS(openblas_get_num_threads)
+#define openblas_get_parallel BLAS(openblas_get_parallel)
+#define dsyrk_ BLAS(dsyrk_)
+extern void openblas_set_num_threads(int) PERHAPS;
+extern int openblas_get_num_threads(void) PERHAPS;
+extern int openblas_get_parallel(void) PERHAPS;
 void dsyrk_(const char *, const char *, const int *, const int *, const double *, const double *, const int *,
-            const double *, double *, const int *, size_t, size_t) __attribute__((weak));
+            const double *, double *, const int *, size_t, size_t) PERHAPS;
 
+#ifdef __ELF__
 extern void omp_set_max_active_levels(int) __attribute__((weak));
 extern int omp_get_max_active_levels(void) __attribute__((weak));
+#endif
 
 enum { openmp = 2 };
 static const size_t buffer = (size_t)129 << 20;
@@ -43,9 +73,14 @@ static int buffered;
 
 static int has_threads(void)
 {
+#ifdef FLEXACT_WITH_OPENBLAS
+    return 1;
+#else
     return openblas_set_num_threads && openblas_get_num_threads && openblas_get_parallel && dsyrk_;
+#endif
 }
 
+#ifdef HAS_LIMITS
 static int has_room(size_t size)
 {
     void *room = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -60,19 +95,32 @@ static int is_limited(void)
     return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
+#else
+static int has_room(size_t size) { return size > 0; }
+static int is_limited(void) { return 0; }
+#endif
+
 static int is_tight(size_t bytes) { return is_limited() && !has_room(ample + bytes); }
 
 /* OpenMP, with which CHOLMOD may be built, ends the process where it gets no threads. */
 static void forbid_openmp(work_t *work)
 {
+#ifdef __ELF__
     if (!omp_set_max_active_levels || !omp_get_max_active_levels) return;
     work->levels = omp_get_max_active_levels();
     omp_set_max_active_levels(0);
+#else
+    work->levels = 0;
+#endif
 }
 
 static void allow_openmp(const work_t *work)
 {
+#ifdef __ELF__
     if (work->levels > 0) omp_set_max_active_levels(work->levels);
+#else
+    (void)work;
+#endif
 }
 
 /* Let OpenBLAS take its buffers while there is room for them. All of its threads must be at
@@ -107,6 +155,7 @@ static void set_threads(void)
     }
 }
 
+#ifdef HAS_LIMITS
 static void before_fork(void) { pthread_mutex_lock(&lock); }
 static void after_fork(void) { pthread_mutex_unlock(&lock); }
 
@@ -123,6 +172,7 @@ __attribute__((constructor)) static void load(void)
     pthread_atfork(before_fork, after_fork, in_child);
     find_buffers();
 }
+#endif
 
 /* 0, or -1 where OpenBLAS, or so many bytes for others, would find no room even when nothing
  * else is at work; work is what flexact_blas_end is to be given. */
@@ -168,6 +218,26 @@ void flexact_blas_end(work_t *work)
     pthread_mutex_unlock(&lock);
 }
 
+/* Where threads are those of OpenMP, or a limit might be met, others are not to be started. */
+int flexact_blas_threads(void)
+{
+    return has_threads() && !is_limited() && openblas_get_parallel() != openmp ? openblas_get_num_threads() : 1;
+}
+
+/* Within a piece of work, and so nothing is waited for. */
+static void share(int calls)
+{
+    if (!has_threads() || openblas_get_parallel() == openmp) return;
+    pthread_mutex_lock(&lock);
+    active += calls;
+    alone += calls;
+    set_threads();
+    pthread_mutex_unlock(&lock);
+}
+
+void flexact_blas_share(void) { share(1); }
+void flexact_blas_unshare(void) { share(-1); }
+
 #else
 
 typedef struct { int limited, alone, threads, levels; } work_t;
@@ -180,5 +250,10 @@ int flexact_blas_begin(int is_small, double bytes, work_t *work)
 }
 
 void flexact_blas_end(work_t *work) { (void)work; }
+
+int flexact_blas_threads(void) { return 1; }
+
+void flexact_blas_share(void) {}
+void flexact_blas_unshare(void) {}
 
 #endif

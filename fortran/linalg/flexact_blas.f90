@@ -4,7 +4,7 @@ module flexact_blas
    use, intrinsic :: iso_c_binding, only: c_int, c_double
    implicit none
    private
-   public :: blas_work_t, blas_begin, blas_end, blas_bytes, is_small
+   public :: blas_work_t, blas_begin, blas_end, blas_threads, blas_share, blas_unshare, blas_bytes, is_small
 
    !> What OpenBLAS takes when it is first used.
    integer, parameter :: blas_bytes = 129*2**20
@@ -30,6 +30,20 @@ module flexact_blas
          import :: blas_work_t
          type(blas_work_t), intent(in) :: work
       end subroutine blas_end
+
+      !> With how many threads BLAS works now: so many may others take as well.
+      function blas_threads() bind(c, name='flexact_blas_threads') result(threads)
+         import :: c_int
+         integer(c_int) :: threads
+      end function blas_threads
+
+      !> From here on, within a piece of work, several threads call BLAS at once: it works with one
+      !> for each, until blas_unshare.
+      subroutine blas_share() bind(c, name='flexact_blas_share')
+      end subroutine blas_share
+
+      subroutine blas_unshare() bind(c, name='flexact_blas_unshare')
+      end subroutine blas_unshare
    end interface
 
 contains

@@ -10,10 +10,11 @@ contains
    !> The first row below the diagonal of each column of L, 0 where there is none
    !> (Liu, SIAM J. Matrix Anal. Appl. 11, 1990, pp. 134-172).
    !> Row k of the lower triangle of the matrix has entries row_start(k) to row_start(k + 1) - 1.
-   pure subroutine elimination_tree(row_start, row_column, parent)
+   !> ancestor (n) is room for the work.
+   pure subroutine elimination_tree(row_start, row_column, parent, ancestor)
       integer, intent(in) :: row_start(:), row_column(:)
-      integer, intent(out) :: parent(:)
-      integer :: ancestor(size(parent)), k, entry, i, next
+      integer, intent(out) :: parent(:), ancestor(:)
+      integer :: k, entry, i, next
 
       parent = 0
       ancestor = 0
@@ -31,11 +32,12 @@ contains
       end do
    end subroutine elimination_tree
 
-   !> An order in which all descendants stand right before each node of a tree.
-   pure subroutine postorder(parent, order)
+   !> An order in which all descendants stand right before each node of a tree. child (0:n) and
+   !> sibling (n) are room for the work.
+   pure subroutine postorder(parent, order, child, sibling)
       integer, intent(in) :: parent(:)
-      integer, intent(out) :: order(:)
-      integer :: child(0:size(parent)), sibling(size(parent)), node, found, next
+      integer, intent(out) :: order(:), child(0:), sibling(:)
+      integer :: node, found, next
 
       child = 0
       do node = size(parent), 1, -1
@@ -61,10 +63,12 @@ contains
    !> The first descendant of each node of a tree in postorder.
    pure subroutine find_first(parent, first)
       integer, intent(in) :: parent(:)
-      integer, allocatable, intent(out) :: first(:)
+      integer, intent(out) :: first(:)
       integer :: k
 
-      first = [(k, k=1, size(parent))]
+      do k = 1, size(parent)
+         first(k) = k
+      end do
       do k = 1, size(parent)
          if (parent(k) /= 0) first(parent(k)) = min(first(parent(k)), first(k))
       end do

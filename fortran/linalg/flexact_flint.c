@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/* Arithmetic modulo a prime by FLINT (https://flintlib.org), where the build has it. */
+/* Arithmetic modulo a prime by FLINT (https://flintlib.org), where the build has it; elsewhere
+ * flexact_modular.c does the same. */
 #include <stdint.h>
 
-#ifdef FLEXACT_WITH_FLINT
 #include <flint/flint.h>
 #include <flint/nmod_mat.h>
 #include <flint/ulong_extras.h>
@@ -66,38 +66,3 @@ int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus
     nmod_mat_clear(matrix);
     return rank;
 }
-
-#else
-
-int flexact_flint_is_there(void) { return 0; }
-
-int64_t flexact_flint_prime(int64_t seed)
-{
-    (void)seed;
-    return 0;
-}
-
-int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
-{
-    (void)a, (void)b, (void)modulus;
-    return 0;
-}
-
-int64_t flexact_flint_inverse(int64_t a, int64_t prime)
-{
-    (void)a, (void)prime;
-    return 0;
-}
-
-int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
-{
-    (void)rows, (void)columns, (void)entry, (void)modulus;
-    return -1;
-}
-
-int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
-{
-    (void)rows, (void)columns, (void)entry, (void)modulus;
-    return -1;
-}
-#endif

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Arithmetic modulo a prime by FLINT (https://flintlib.org), where the build has it.
+!> Arithmetic modulo a prime: by FLINT (https://flintlib.org) where the build has it, else by
+!> flexact_modular.c.
 module flexact_flint
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
    implicit none
@@ -7,6 +8,7 @@ module flexact_flint
    public :: flint_is_there, flint_prime, flint_times, flint_inverse, flint_rank, flint_echelon
 
    interface
+      !> 0 only without FLINT and with a compiler that has no integers of 128 bits.
       function flint_is_there() bind(c, name='flexact_flint_is_there') result(is_there)
          import :: c_int
          integer(c_int) :: is_there
@@ -33,7 +35,7 @@ module flexact_flint
          integer(c_int64_t) :: inverse
       end function flint_inverse
 
-      !> The rank modulo a prime of a matrix given as (columns, rows).
+      !> The rank modulo a prime of a matrix given as (columns, rows); -1 where there is no room.
       pure function flint_rank(rows, columns, entry, modulus) bind(c, name='flexact_flint_rank') result(rank)
          import :: c_int, c_int64_t
          integer(c_int), value :: rows, columns

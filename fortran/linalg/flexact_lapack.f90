@@ -5,7 +5,7 @@ module flexact_lapack
    implicit none
    private
    public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
-   public :: dsyrk, dpotrf, dgemm, dsyevd, dsygv
+   public :: dsyrk, dpotrf, dtrsm, dgemm, dsyevd, dsygv
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -118,6 +118,15 @@ module flexact_lapack
          real(wp), intent(inout) :: a(lda, *)
          integer, intent(out) :: info
       end subroutine dpotrf
+
+      !> b := alpha inverse(op(a)) b (side 'L') or alpha b inverse(op(a)) (side 'R'), a a triangle.
+      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
+         import :: wp
+         character, intent(in) :: side, uplo, transa, diag
+         integer, intent(in) :: m, n, lda, ldb
+         real(wp), intent(in) :: alpha, a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+      end subroutine dtrsm
 
       !> c := alpha op(a) op(b) + beta c, op by 'N' as it is, by 'T' transposed.
       pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)

@@ -53,7 +53,7 @@ contains
       type(quotient_t), intent(in) :: graph
       integer, intent(in) :: of_groups(:)
       integer, intent(inout) :: place_of(:)
-      integer :: parent(size(of_groups)), order(size(of_groups)), i
+      integer :: parent(size(of_groups)), order(size(of_groups)), room(2*size(of_groups) + 1), i
 
       do i = 1, size(of_groups)
          associate (joined => graph%joined(of_groups(i))%item)
@@ -61,7 +61,7 @@ contains
             if (size(joined) > 0) parent(i) = minval(place_of(joined))
          end associate
       end do
-      call postorder(parent, order)
+      call postorder(parent, order, room(:size(order) + 1), room(size(order) + 2:))
       place_of(of_groups(order)) = [(i, i=1, size(order))]
    end subroutine bring_together
 

@@ -5,7 +5,7 @@ module flexact_orthonormal
    use flexact_dense, only: allocate_work
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp
-   use flexact_lapack, only: dgeqrf, dorgqr
+   use flexact_lapack, only: dgemm, dgeqrf, dorgqr
    use flexact_scaled_norm, only: length_of
    use flexact_sparse_basis, only: sparse_basis_t
    implicit none
@@ -15,6 +15,10 @@ module flexact_orthonormal
    !> Part of a vector's length below which what is left of it is nothing new: half
    !> the digits are lost then, which a second round restores; of fewer it would not.
    real(wp), parameter :: new = 1.0e-7_wp
+
+   !> Vectors that are made orthogonal to a space together: more gain nothing, and the work
+   !> among themselves grows with their square.
+   integer, parameter :: at_once = 8
 
 contains
 
@@ -56,40 +60,106 @@ contains
       end do
    end subroutine deflate
 
-   !> Append what is new in a block (n, k) to an orthonormal space, of which the
-   !> first `used` columns are there, and which stays orthogonal to what is deflated.
-   pure subroutine extend(deflated, lowest, block, space, used, fresh)
+   !> Append what is new in a block (n, k), which is lost, to an orthonormal space, of which
+   !> the first `used` columns are there, and which stays orthogonal to what is deflated. The
+   !> block was the space times `products` (columns of the space, k), but for what was
+   !> deflated and what was nothing new.
+   pure subroutine extend(deflated, lowest, block, space, used, fresh, products)
       type(sparse_basis_t), intent(in) :: deflated
-      real(wp), intent(in) :: lowest(:, :), block(:, :)
-      real(wp), intent(inout) :: space(:, :)
+      real(wp), intent(in), contiguous :: lowest(:, :)
+      real(wp), intent(inout), contiguous :: block(:, :), space(:, :)
       integer, intent(inout) :: used
       integer, intent(out) :: fresh
-      real(wp) :: vector(size(block, 1), 1), length, left
-      integer :: k, round
+      real(wp), intent(out), optional :: products(:, :)
+      real(wp) :: whole(size(space, 2), size(block, 2))
+      integer :: first, last, some
 
       fresh = 0
-      do k = 1, size(block, 2)
-         if (used == size(space, 2)) return
-         vector(:, 1) = block(:, k)
-         length = length_of(vector(:, 1))
-         if (.not. length > 0) cycle
-         do round = 1, 2
-            call deflated%deflate(vector)
-            call deflate(lowest, vector)
-            call deflate(space(:, :used), vector)
-            left = length_of(vector(:, 1))
-            if (left <= new*length) exit
-            vector = vector/left
-            ! Twice where much was taken away, and rounding with it.
-            if (left > 0.5_wp*length) exit
-            length = 1.0_wp
+      do first = 1, size(block, 2), at_once
+         last = min(first + at_once - 1, size(block, 2))
+         call extend_at_once(deflated, lowest, block(:, first:last), space, used, some, whole(:, first:last))
+         fresh = fresh + some
+      end do
+      if (present(products)) products = whole
+   end subroutine extend
+
+   !> The same for a few vectors.
+   pure subroutine extend_at_once(deflated, lowest, block, space, used, fresh, whole)
+      type(sparse_basis_t), intent(in) :: deflated
+      real(wp), intent(in), contiguous :: lowest(:, :)
+      real(wp), intent(inout), contiguous :: block(:, :), space(:, :)
+      integer, intent(inout) :: used
+      integer, intent(out) :: fresh
+      real(wp), intent(out) :: whole(:, :)
+      real(wp) :: taken(used, size(block, 2)), factor(size(block, 2)), length, left
+      real(wp) :: lengths(size(block, 2))
+      integer :: k, round, before
+
+      before = used
+      whole = 0.0_wp
+      lengths = [(length_of(block(:, k)), k=1, size(block, 2))]
+      factor = lengths
+      ! Twice, as much may be taken away, and rounding with it.
+      do round = 1, 2
+         do k = 1, size(block, 2)
+            if (factor(k) > 0) block(:, k) = block(:, k)/lengths(k)
          end do
+         call deflated%deflate(block)
+         call take_out(lowest, block)
+         call take_out(space(:, :before), block, taken)
+         do k = 1, size(block, 2)
+            if (.not. factor(k) > 0) cycle
+            whole(:before, k) = whole(:before, k) + factor(k)*taken(:, k)
+            lengths(k) = length_of(block(:, k))
+            factor(k) = merge(factor(k)*lengths(k), 0.0_wp, lengths(k) > new)
+         end do
+      end do
+      do k = 1, size(block, 2)
+         if (.not. factor(k) > 0 .or. used == size(space, 2)) cycle
+         length = lengths(k)
+         call take_out_twice(space(:, before + 1:used), block(:, k), whole(before + 1:used, k))
+         left = length_of(block(:, k))
+         whole(before + 1:used, k) = whole(before + 1:used, k)*(factor(k)/length)
          if (left <= new*length) cycle
          used = used + 1
-         fresh = fresh + 1
-         space(:, used) = vector(:, 1)
+         space(:, used) = block(:, k)/left
+         whole(used, k) = factor(k)*(left/length)
       end do
-   end subroutine extend
+      fresh = used - before
+   end subroutine extend_at_once
+
+   !> Make a block (n, k) orthogonal to orthonormal vectors (n, m), all at once; `taken`: of
+   !> each how much it had.
+   pure subroutine take_out(orthonormal, block, taken)
+      real(wp), intent(in), contiguous :: orthonormal(:, :)
+      real(wp), intent(inout), contiguous :: block(:, :)
+      real(wp), intent(out), contiguous, optional :: taken(:, :)
+      real(wp) :: part(size(orthonormal, 2), size(block, 2))
+
+      associate (n => size(block, 1), m => size(orthonormal, 2), k => size(block, 2))
+         if (n == 0 .or. m == 0 .or. k == 0) return
+         call dgemm('T', 'N', m, k, n, 1.0_wp, orthonormal, n, block, n, 0.0_wp, part, m)
+         call dgemm('N', 'N', n, k, m, -1.0_wp, orthonormal, n, part, m, 1.0_wp, block, n)
+      end associate
+      if (present(taken)) taken = part
+   end subroutine take_out
+
+   pure subroutine take_out_twice(orthonormal, vector, taken)
+      real(wp), intent(in) :: orthonormal(:, :)
+      real(wp), intent(inout) :: vector(:)
+      real(wp), intent(out) :: taken(:)
+      real(wp) :: part
+      integer :: j, round
+
+      taken = 0.0_wp
+      do round = 1, 2
+         do j = 1, size(orthonormal, 2)
+            part = dot_product(orthonormal(:, j), vector)
+            vector = vector - part*orthonormal(:, j)
+            taken(j) = taken(j) + part
+         end do
+      end do
+   end subroutine take_out_twice
 
    !> The same numbers between -1 and 1 every time (Park and Miller's generator).
    pure subroutine fill_at_random(run, x)

@@ -33,14 +33,15 @@ contains
    pure subroutine analyse_pattern(matrix, pattern)
       type(sparse_t), intent(in) :: matrix
       type(symmetric_pattern_t), intent(out) :: pattern
-      integer :: parent(matrix%columns)
+      integer :: parent(matrix%columns), room(matrix%columns)
 
       pattern%n = matrix%columns
       allocate (pattern%order(pattern%n), pattern%place_of(pattern%n))
       call minimum_degree_order(both_triangles(matrix), pattern%order)
       call take_order(matrix, pattern)
-      call elimination_tree(pattern%row_start, pattern%row_column, parent)
+      call elimination_tree(pattern%row_start, pattern%row_column, parent, room)
       call find_columns(parent, pattern)
+      allocate (pattern%first(pattern%n))
       call find_first(parent, pattern%first)
    end subroutine analyse_pattern
 

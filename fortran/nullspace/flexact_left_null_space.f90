@@ -20,8 +20,8 @@ module flexact_left_null_space
 contains
 
    !> Orthonormal vectors (rows, wanted) that A' sends to zero: random ones less
-   !> their projections on the range of A, A inverse(F) A'. `known` (rows, k):
-   !> orthonormal directions in the range that the pins hide.
+   !> their projections on the range of A, A inverse(F) A'. `known` (rows, k): directions in
+   !> the range that the pins hide, or of which the projections take the least.
    subroutine left_null_space(a, pinned, known, wanted, vectors, error)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned

@@ -19,7 +19,7 @@ module flexact_local_vectors
    integer, parameter :: reach(3) = [10, 30, 100]
    !> The same where the null space of the neighbourhood is wanted, and how many
    !> places are tried for each vector.
-   integer, parameter :: wide(3) = [40, 120, 300]
+   integer, parameter :: wide(4) = [40, 70, 120, 300]
    integer, parameter :: seeds = 4
    !> Pivots that count as zero; the residue decides, whether they were.
    real(wp), parameter :: tiny_value = 1.0e-12_wp

@@ -10,7 +10,7 @@ module flexact_low_end
    use flexact_decomposition, only: singular_values
    use flexact_error, only: error_t, is_kind, error_not_definite, error_not_found
    use flexact_kinds, only: wp
-   use flexact_lanczos, only: next_space
+   use flexact_lanczos, only: next_space, first_block
    use flexact_local_vectors, only: find_local_vectors
    use flexact_pin_search, only: seek_pins, repin, low_end
    use flexact_pinned, only: pinned_t, make_pinned, assure, shift_and_mark
@@ -61,10 +61,10 @@ module flexact_low_end
    !> Up to these pins are dealt with together; of more, vectors are sought where
    !> they live.
    integer, parameter :: few = 16
-   !> Other pins, and entries of their vectors, that are dealt with at most: guards of
-   !> time and memory (0.4 GB); beyond, the count is not confirmed.
+   !> Other pins, and columns times their number squared, that are dealt with at most: guards
+   !> of time, some seconds; beyond, the count is not confirmed.
    integer, parameter :: most_dense = 800
-   real(wp), parameter :: most_entries = 5.0e7_wp
+   real(wp), parameter :: most_work = 4.5e8_wp
    !> A pinned space that has less of a unit vector at the pins is pinned anew: the
    !> condition of F grows with its inverse squared.
    real(wp), parameter :: weak = 0.05_wp
@@ -92,7 +92,7 @@ contains
       if (.not. (is_kind(error, error_not_definite) .or. is_kind(error, error_not_found))) return
       ! What the low end is then is not shown by two routes.
       low%confirmed = .false.
-      call shift_and_mark(pinned, error)
+      call shift_and_mark(a, pinned, error)
    end subroutine factorise_low_end
 
    !> Columns of several units are made equally long first.
@@ -126,14 +126,17 @@ contains
       type(pinned_t), intent(inout) :: pinned
       type(low_end_t), intent(inout) :: low
       type(error_t), allocatable, intent(out) :: error
-      real(wp), allocatable :: spanned(:, :), next(:, :), in_pins(:), beyond(:)
+      real(wp), allocatable :: spanned(:, :), next(:, :), in_pins(:), beyond(:), start(:, :)
       integer, allocatable :: pin(:)
       logical :: is_shown
 
       if (pinned%n >= large) call request%progress%report(stage_motions)
       call split_pins(a, pinned, low, pin, error)
       if (allocated(error)) return
-      call pinned_space(a, pinned, pin, low%deflated, spanned, in_pins, error)
+      associate (rest => pinned%n - low%local%vectors - size(pin))
+         call first_block(pinned%n, rest, min(rest, request%values), request%values > 1, start)
+      end associate
+      call pinned_space(a, pinned, pin, low%deflated, spanned, in_pins, error, start)
       if (allocated(error)) return
       if (.not. (pinned%is_shifted .or. request%values_only)) then
          if (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :))) &
@@ -141,7 +144,7 @@ contains
          if (allocated(error)) return
       end if
       if (pinned%n >= large) call request%progress%report(stage_values)
-      call find_beyond(a, request, pinned, in_pins, spanned, low, next, beyond, error)
+      call find_beyond(a, request, pinned, in_pins, spanned, start, low, next, beyond, error)
       if (allocated(error)) return
       if (.not. request%values_only .and. &
           any(in_pins > low%decision%tolerance .and. in_pins <= low_end*pinned%least)) then
@@ -155,13 +158,14 @@ contains
       if (low%decision%tolerance > pinned%bound) low%confirmed = .false.
    end subroutine find_low_end
 
-   !> Values beyond the pins until one is above the tolerance.
-   subroutine find_beyond(a, request, pinned, in_pins, spanned, low, next, beyond, error)
+   !> Values beyond the pins until one is above the tolerance; start: of the first search.
+   subroutine find_beyond(a, request, pinned, in_pins, spanned, start, low, next, beyond, error)
       type(operator_t), intent(in) :: a
       type(request_t), intent(in) :: request
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(in) :: in_pins(:)
       real(wp), intent(in), contiguous :: spanned(:, :)
+      real(wp), allocatable, intent(inout) :: start(:, :)
       type(low_end_t), intent(inout) :: low
       real(wp), allocatable, intent(out) :: next(:, :), beyond(:)
       type(error_t), allocatable, intent(out) :: error
@@ -170,7 +174,7 @@ contains
       rest = pinned%n - low%local%vectors - size(in_pins)
       wanted = min(rest, request%values)
       do
-         call next_space(a, pinned, low%deflated, spanned, wanted, request%values > 1, next, beyond, error)
+         call next_space(a, pinned, low%deflated, spanned, wanted, request%values > 1, start, next, beyond, error)
          if (allocated(error)) return
          low%decision = decide_rank(request%rule, [norm_bound(a%by_column), beyond(size(beyond):1:-1), &
                                                    in_pins(size(in_pins):1:-1)])
@@ -245,7 +249,7 @@ contains
       call add_scaled_sparse(low%local, [(i, i=1, pinned%n)], [(1.0_wp, i=1, pinned%n)], low%deflated, error, is_orthonormal)
       ! What follows takes the vectors for orthonormal.
       if (.not. is_orthonormal) low%confirmed = .false.
-      most = min(most_dense, max(few, int(most_entries/pinned%n)))
+      most = min(most_dense, max(few, int(sqrt(most_work/pinned%n))))
       if (size(pin) <= most) return
       low%confirmed = .false.
       pin = pin(:most)

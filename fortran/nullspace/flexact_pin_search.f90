@@ -18,9 +18,10 @@ module flexact_pin_search
    !> Columns at which a factorisation may fail in spite of its pins: a guard.
    integer, parameter :: most_rounds = 8
    !> Width of the search at first, how many vectors more than are low it takes, so
-   !> that those have converged, and entries that it may have, a guard of memory.
+   !> that those have converged, and columns times its width squared, a guard of time: some
+   !> seconds.
    integer, parameter :: least_wide = 32, wider_by = 8
-   real(wp), parameter :: most_entries = 2.0e7_wp
+   real(wp), parameter :: most_work = 2.5e8_wp
    !> Each brings the low vectors out by the square of t over the next value.
    integer, parameter :: iterations = 3
 
@@ -35,7 +36,7 @@ contains
       real(wp), allocatable :: vectors(:, :), values(:)
       integer :: width, low
 
-      call shift(pinned, error)
+      call shift(a, pinned, error)
       if (allocated(error)) return
       width = min(least_wide, pinned%n)
       do
@@ -44,7 +45,7 @@ contains
          low = count(values <= low_end*pinned%least)
          if (low + wider_by <= width .or. width == pinned%n) exit
          width = min(2*width, pinned%n)
-         if (real(width, wp)*pinned%n > most_entries) then
+         if (real(width, wp)**2*pinned%n > most_work) then
             call fail(error_not_found, error)
             return
          end if

@@ -10,12 +10,12 @@
 !> BIT 46, 2006; `flexact_backward_error`): what is shown holds up to the root of
 !> t**2 - d. Where d is large, t is raised; theory.md (30), (31) and (34).
 module flexact_pinned
-   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated
-   use flexact_backward_error, only: error_of_gram, error_of_skyline, error_of_cholmod
-   use flexact_cholmod, only: cholmod_is_there, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_solve, &
-                              cholmod_free
+   use flexact_backward_error, only: error_of_gram, error_of_skyline
+   use flexact_blas, only: blas_threads
    use flexact_components, only: breadth_first_order
-   use flexact_error, only: error_t, fail, is_kind, error_library, error_memory, error_not_definite
+   use flexact_error, only: error_t, fail, is_kind, error_memory, error_not_definite
+   use flexact_factor, only: factor_t, analyse, factorise_matrix => factorise, get_pivots, error_of_factor, &
+                             solve_with => solve, release_factor => release
    use flexact_gram, only: gram_t, make_gram
    use flexact_kinds, only: wp
    use flexact_nested_order, only: nested_order
@@ -31,6 +31,8 @@ module flexact_pinned
    !> rounding, below which t is raised, and to which.
    real(wp), parameter :: least_square = 1.0e-13_wp
    real(wp), parameter :: safe = 1.25_wp, raised = 1.5_wp
+   !> A bound of the rounding below this part of t**2 is as good as any.
+   real(wp), parameter :: little = 0.1_wp
    !> t**2 over the largest diagonal entry for each entry of the longest column of the
    !> factor: above what bounds come out at, so that t need not be raised later.
    real(wp), parameter :: expected = 3.0e-15_wp
@@ -67,7 +69,8 @@ module flexact_pinned
       real(wp), allocatable :: scale(:)
       type(skyline_t) :: skyline
       type(gram_t) :: gram
-      type(c_ptr) :: handle = c_null_ptr
+      type(factor_t) :: factor
+      type(progress_t) :: progress
    end type pinned_t
 
 contains
@@ -85,6 +88,7 @@ contains
       real(wp) :: entries, largest
 
       pinned%n = a%by_column%columns
+      pinned%progress = progress
       largest = largest_diagonal(a%by_column)
       pinned%error_of_gram = error_of_gram(a, largest)
       pinned%least = sqrt(max(least_square*largest, raised*pinned%error_of_gram))
@@ -101,8 +105,6 @@ contains
          call factorise(pinned%skyline, small_pivot*pinned%least**2, pinned%pin, pinned%pins)
          pinned%pin = order(pinned%pin(:pinned%pins))
          call set_bound(pinned)
-      else if (cholmod_is_there() == 0) then
-         call fail(error_library, error)
       else
          call analyse_pattern(a, group, memory, progress, pinned, error)
          if (allocated(error)) return
@@ -135,7 +137,7 @@ contains
       if (pinned%is_narrow) then
          pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline)
       else
-         pinned%rounding = pinned%error_of_gram + error_of_cholmod(pinned%handle)
+         pinned%rounding = pinned%error_of_gram + error_of_factor(pinned%factor, little*pinned%least**2)
       end if
       pinned%bound = 0.0_wp
       if (pinned%rounding < pinned%least**2) pinned%bound = sqrt(pinned%least**2 - pinned%rounding)
@@ -162,20 +164,17 @@ contains
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       integer, allocatable :: order(:)
-      real(wp) :: entries
-      integer :: widest
 
       call progress%report(stage_ordering)
       call make_gram(a, memory, pinned%gram, pinned%bytes)
       if (allocated(pinned%gram%value)) then
          call nested_order(a, group, order, error)
          if (allocated(error)) return
-         pinned%handle = cholmod_analyse(pinned%n, pinned%gram%start, pinned%gram%place, order, entries, widest)
-         if (c_associated(pinned%handle)) then
-            pinned%least = max(pinned%least, sqrt(expected*widest*largest_diagonal(a%by_column)))
-            pinned%bytes = 8*entries
-            if (pinned%bytes <= memory) return
-         end if
+         call analyse(pinned%gram%start, pinned%gram%place, order, blas_threads(), pinned%factor, error)
+         if (allocated(error)) return
+         pinned%least = max(pinned%least, sqrt(expected*pinned%factor%widest*largest_diagonal(a%by_column)))
+         pinned%bytes = pinned%factor%bytes
+         if (pinned%bytes <= memory) return
       end if
       call fail(error_memory, error)
    end subroutine analyse_pattern
@@ -194,9 +193,9 @@ contains
       call pin_groups(a%by_column, group, small_pivot*pinned%least**2, is_pinned)
       call pin(a, is_pinned, pinned, error)
       if (.not. is_kind(error, error_not_definite)) return
-      call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) + pinned%least**2, pinned, error)
+      call factorise_with(a, merge(1.0_wp, 0.0_wp, is_pinned) + pinned%least**2, pinned, error)
       if (allocated(error)) return
-      call cholmod_pivots(pinned%handle, pivot)
+      call get_pivots(pinned%factor, pivot)
       do attempt = 0, most_attempts
          call pin(a, is_pinned .or. pivot < 100.0_wp**attempt*small_pivot*pinned%least**2, pinned, error)
          if (.not. is_kind(error, error_not_definite)) return
@@ -207,11 +206,12 @@ contains
    !> Factorise A'A + t**2 I, which runs to its end whatever A is: its inverse
    !> brings forth the null space, and pivots vanish at columns that depend on
    !> those before them.
-   subroutine shift(pinned, error)
+   subroutine shift(a, pinned, error)
+      type(operator_t), intent(in) :: a
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
 
-      call factorise_with(spread(pinned%least**2, 1, pinned%n), pinned, error)
+      call factorise_with(a, spread(pinned%least**2, 1, pinned%n), pinned, error)
       pinned%pin = [integer ::]
       pinned%pins = 0
       pinned%bound = 0.0_wp
@@ -219,15 +219,22 @@ contains
    end subroutine shift
 
    !> The same, and mark the columns with small pivots as if they were pinned.
-   subroutine shift_and_mark(pinned, error)
+   subroutine shift_and_mark(a, pinned, error)
+      type(operator_t), intent(in) :: a
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       real(wp) :: pivot(pinned%n)
       integer :: i
 
-      call shift(pinned, error)
+      call shift(a, pinned, error)
       if (allocated(error)) return
-      call cholmod_pivots(pinned%handle, pivot)
+      if (pinned%is_narrow) then
+         associate (matrix => pinned%skyline)
+            pivot = matrix%value(matrix%base(pinned%place_of) + pinned%place_of)**2
+         end associate
+      else
+         call get_pivots(pinned%factor, pivot)
+      end if
       pinned%pin = pack([(i, i=1, pinned%n)], pivot < doubtful_pivot*pinned%least**2)
       pinned%pins = size(pinned%pin)
    end subroutine shift_and_mark
@@ -241,53 +248,52 @@ contains
       integer :: i
 
       pinned%is_shifted = .false.
-      if (pinned%is_narrow) then
-         call pin_narrow(a%by_row, is_pinned, pinned, error)
-      else
-         call factorise_with(merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2, pinned, error)
-      end if
+      call factorise_with(a, merge(1.0_wp, 0.0_wp, is_pinned) - pinned%least**2, pinned, error)
       pinned%pin = pack([(i, i=1, pinned%n)], is_pinned)
       pinned%pins = size(pinned%pin)
       if (.not. allocated(error)) call set_bound(pinned)
    end subroutine pin
 
-   subroutine pin_narrow(by_row, is_pinned, pinned, error)
+   !> Factorise A'A with this added to its diagonal.
+   subroutine factorise_with(a, added, pinned, error)
+      type(operator_t), intent(in) :: a
+      real(wp), intent(in) :: added(:)
+      type(pinned_t), intent(inout) :: pinned
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: kept(size(added))
+
+      if (pinned%is_narrow) then
+         call factorise_narrow(a%by_row, added, pinned, error)
+         return
+      end if
+      associate (gram => pinned%gram)
+         kept = gram%value(gram%diagonal)
+         gram%value(gram%diagonal) = kept + added
+         call factorise_matrix(pinned%factor, gram%value, pinned%progress, pinned%failed, error)
+         gram%value(gram%diagonal) = kept
+      end associate
+   end subroutine factorise_with
+
+   subroutine factorise_narrow(by_row, added, pinned, error)
       type(sparse_t), intent(in) :: by_row
-      logical, intent(in) :: is_pinned(:)
+      real(wp), intent(in) :: added(:)
       type(pinned_t), intent(inout) :: pinned
       type(error_t), allocatable, intent(out) :: error
       integer :: failed(pinned%n), first(pinned%n), fails, i, place
 
       first = pinned%skyline%first
-      call fill_skyline(by_row, pinned%place_of, first, pinned%least**2, pinned%skyline)
+      call fill_skyline(by_row, pinned%place_of, first, 0.0_wp, pinned%skyline)
       do i = 1, pinned%n
          place = pinned%place_of(i)
          associate (diagonal => pinned%skyline%value(pinned%skyline%base(place) + place))
-            if (is_pinned(i)) diagonal = diagonal + 1.0_wp
+            diagonal = diagonal + added(i)
          end associate
       end do
       call factorise(pinned%skyline, tiny(1.0_wp), failed, fails)
       if (fails == 0) return
       pinned%failed = findloc(pinned%place_of, failed(1), 1)
       call fail(error_not_definite, error)
-   end subroutine pin_narrow
-
-   !> Factorise A'A with this added to its diagonal.
-   subroutine factorise_with(added, pinned, error)
-      real(wp), intent(in) :: added(:)
-      type(pinned_t), intent(inout) :: pinned
-      type(error_t), allocatable, intent(out) :: error
-      real(wp) :: kept(size(added))
-
-      associate (gram => pinned%gram)
-         kept = gram%value(gram%diagonal)
-         gram%value(gram%diagonal) = kept + added
-         pinned%failed = cholmod_factor(pinned%handle, pinned%n, gram%start, gram%place, gram%value)
-         gram%value(gram%diagonal) = kept
-      end associate
-      if (pinned%failed < 0) call fail(error_memory, error)
-      if (pinned%failed > 0) call fail(error_not_definite, error)
-   end subroutine factorise_with
+   end subroutine factorise_narrow
 
    !> x = inverse(F) x, column by column.
    subroutine apply_inverse(pinned, x, error)
@@ -308,8 +314,7 @@ contains
             x(i, :) = y(pinned%place_of(i), :)
          end do
       else
-         if (cholmod_solve(pinned%handle, pinned%n, size(x, 2), x, y) /= 0) call fail(error_memory, error)
-         x = y
+         call solve_with(pinned%factor, x, error)
       end if
       if (allocated(pinned%scale)) call divide(pinned%scale, x)
    end subroutine apply_inverse
@@ -327,7 +332,6 @@ contains
    subroutine release(pinned)
       type(pinned_t), intent(inout) :: pinned
 
-      if (c_associated(pinned%handle)) call cholmod_free(pinned%handle)
-      pinned%handle = c_null_ptr
+      call release_factor(pinned%factor)
    end subroutine release
 end module flexact_pinned

@@ -14,51 +14,77 @@ module flexact_pinned_space
    private
    public :: pinned_space, show_values
 
-   !> A value below this part of the norm is as good as zero.
-   real(wp), parameter :: practically_zero = 2*epsilon(1.0_wp)
+   !> A value below so many roundings of the norm is as good as zero, or as half the root of
+   !> the number of columns: so many add up at random in the length of an image.
+   real(wp), parameter :: least_zero = 2.0_wp
    !> Relative change of the values that ends the improvement, and a guard.
    real(wp), parameter :: converged = 1.0e-8_wp
    integer, parameter :: most_rounds = 8
+   !> The same where nothing is shown anyway.
+   integer, parameter :: few_rounds = 2
    !> Rounds in which rounding is taken from the image of a vector.
    integer, parameter :: most_corrections = 4
 
 contains
 
    !> Orthonormal vectors (columns, k) whose span, with that of `deflated`, holds the
-   !> null space, for k of the pins, and their values, ascending.
-   subroutine pinned_space(a, pinned, pin, deflated, vectors, values, error)
+   !> null space, for k of the pins, and their values, ascending. beside: vectors (columns, l)
+   !> that inverse(F) is applied to as well, as it takes little longer for a few more.
+   subroutine pinned_space(a, pinned, pin, deflated, vectors, values, error, beside)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
       integer, intent(in) :: pin(:)
       type(sparse_basis_t), intent(in) :: deflated
       real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
       type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(inout), optional :: beside(:, :)
       real(wp), allocatable :: before(:)
       real(wp) :: zero
-      integer :: k, round
+      integer :: round
 
-      allocate (vectors(a%by_column%columns, size(pin)), source=0.0_wp)
-      allocate (values(size(pin)))
-      if (size(pin) == 0) return
-      do k = 1, size(pin)
-         vectors(pin(k), k) = 1.0_wp
-      end do
-      call apply_inverse(pinned, vectors, error)
-      if (allocated(error)) return
-      do round = 1, 2
+      allocate (vectors(a%by_column%columns, size(pin)), values(size(pin)))
+      call solve_for_pins(pinned, pin, vectors, error, beside)
+      if (allocated(error) .or. size(pin) == 0) return
+      do round = 1, merge(2, 1, deflated%vectors > 0)
          call deflated%deflate(vectors)
          call orthonormalise(vectors, error)
          if (allocated(error)) return
       end do
       call rayleigh_ritz(a, vectors, values, error)
-      zero = practically_zero*norm_bound(a%by_column)
-      do round = 1, most_rounds
+      zero = epsilon(1.0_wp)*max(least_zero, sqrt(real(pinned%n, wp))/2)*norm_bound(a%by_column)
+      do round = 1, merge(few_rounds, most_rounds, pinned%is_shifted)
          if (allocated(error) .or. all(values <= zero)) return
          before = values
          call improve(a, pinned, deflated, vectors, values, error)
          if (all(abs(before - values) <= converged*values)) return
       end do
    end subroutine pinned_space
+
+   !> Columns of inverse(F), and what it makes of what is beside.
+   subroutine solve_for_pins(pinned, pin, vectors, error, beside)
+      type(pinned_t), intent(in) :: pinned
+      integer, intent(in) :: pin(:)
+      real(wp), intent(out), contiguous :: vectors(:, :)
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(inout), optional :: beside(:, :)
+      real(wp), allocatable :: all(:, :)
+      integer :: k
+
+      vectors = 0.0_wp
+      do k = 1, size(pin)
+         vectors(pin(k), k) = 1.0_wp
+      end do
+      if (present(beside)) then
+         allocate (all(size(vectors, 1), size(pin) + size(beside, 2)))
+         all(:, :size(pin)) = vectors
+         all(:, size(pin) + 1:) = beside
+         call apply_inverse(pinned, all, error)
+         vectors = all(:, :size(pin))
+         beside = all(:, size(pin) + 1:)
+      else
+         call apply_inverse(pinned, vectors, error)
+      end if
+   end subroutine solve_for_pins
 
    !> The lowest in the space of all vectors and of inverse(F) times their residuals:
    !> the vectors are off by rounding, and, where their values are not zero, because

@@ -7,10 +7,13 @@ module flexact_rayleigh_ritz
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgeqrf
-   use flexact_sparse, only: operator_t, times_transposed
+   use flexact_sparse, only: operator_t, sparse_t
    implicit none
    private
    public :: rayleigh_ritz, take_lowest
+
+   !> So many fit the cache of a processor beside each other.
+   integer, parameter :: rows_at_once = 256
 
 contains
 
@@ -34,34 +37,59 @@ contains
       real(wp), intent(in), contiguous :: space(:, :)
       real(wp), intent(out) :: vectors(:, :), values(:)
       type(error_t), allocatable, intent(out) :: error
-      real(wp), allocatable :: image(:, :)
       real(wp), dimension(size(space, 2), size(space, 2)) :: r, u, vt
       real(wp) :: lengths(size(space, 2))
       integer :: k, wanted
 
       k = size(space, 2)
       wanted = size(values)
-      allocate (image(a%by_column%rows, k))
-      call times_transposed(a%by_row, space, image)
-      call triangle_of(image, r)
+      call triangle_of_image(a%by_row, space, r)
       call decompose(r, lengths, u, vt, error)
       if (allocated(error)) return
       values = lengths(k:k - wanted + 1:-1)
       vectors = matmul(space, transpose(vt(k:k - wanted + 1:-1, :)))
    end subroutine take_lowest
 
-   !> The triangle R of the QR factorisation of a matrix, which is destroyed; with
-   !> zeros below where it has fewer rows than columns.
-   subroutine triangle_of(matrix, r)
-      real(wp), intent(inout), contiguous :: matrix(:, :)
+   !> The triangle R of the QR factorisation of the image of a space (columns, k), which is made
+   !> some rows at a time, and is never there as a whole. by_row: the rows of A.
+   subroutine triangle_of_image(by_row, space, r)
+      type(sparse_t), intent(in) :: by_row
+      real(wp), intent(in), contiguous :: space(:, :)
       real(wp), intent(out) :: r(:, :)
-      real(wp) :: tau(size(matrix, 2)), work(64*size(matrix, 2))
-      integer :: j, info
+      real(wp) :: block(size(r, 1) + rows_at_once, size(r, 1)), tau(size(r, 1)), work(64*size(r, 1))
+      integer :: j, k, first, last, info
 
-      call dgeqrf(size(matrix, 1), size(matrix, 2), matrix, size(matrix, 1), tau, work, size(work), info)
-      r = 0.0_wp
-      do j = 1, size(matrix, 2)
-         r(:min(j, size(matrix, 1)), j) = matrix(:min(j, size(matrix, 1)), j)
+      k = size(r, 1)
+      block = 0.0_wp
+      do first = 1, by_row%columns, rows_at_once
+         last = min(first + rows_at_once - 1, by_row%columns)
+         do j = 1, k
+            call multiply_rows(by_row, first, last, space(:, j), block(k + 1:k + last - first + 1, j))
+            block(j + 1:k, j) = 0.0_wp
+         end do
+         call dgeqrf(k + last - first + 1, k, block, size(block, 1), tau, work, size(work), info)
       end do
-   end subroutine triangle_of
+      r = 0.0_wp
+      do j = 1, k
+         r(:j, j) = block(:j, j)
+      end do
+   end subroutine triangle_of_image
+
+   !> Some entries of A x.
+   pure subroutine multiply_rows(by_row, first, last, x, y)
+      type(sparse_t), intent(in) :: by_row
+      integer, intent(in) :: first, last
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(out) :: y(first:)
+      real(wp) :: total
+      integer :: i, entry
+
+      do i = first, last
+         total = 0.0_wp
+         do entry = by_row%start(i), by_row%start(i + 1) - 1
+            total = total + by_row%value(entry)*x(by_row%place(entry))
+         end do
+         y(i) = total
+      end do
+   end subroutine multiply_rows
 end module flexact_rayleigh_ritz

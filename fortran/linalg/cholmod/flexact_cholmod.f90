@@ -1,29 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The sparse Cholesky factorisation of SuiteSparse (Chen, Davis, Hager,
-!> Rajamanickam, ACM Trans. Math. Softw. 35, 2008), where the build has it.
+!> Rajamanickam, ACM Trans. Math. Softw. 35, 2008), for -Dsparse=cholmod.
 !> Indices count from 0; matrices are lower triangles, column by column.
 module flexact_cholmod
    use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr
    implicit none
    private
-   public :: cholmod_is_there, cholmod_order, cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_error, &
+   public :: cholmod_analyse, cholmod_factor, cholmod_pivots, cholmod_error, &
              cholmod_solve, cholmod_free
 
    interface
-      function cholmod_is_there() bind(c, name='flexact_cholmod_is_there') result(is_there)
-         import :: c_int
-         integer(c_int) :: is_there
-      end function cholmod_is_there
-
-      !> 0 with a fill-reducing order, or -1.
-      function cholmod_order(n, start, place, order) bind(c, name='flexact_cholmod_order') result(status)
-         import :: c_int
-         integer(c_int), value :: n
-         integer(c_int), intent(in) :: start(*), place(*)
-         integer(c_int), intent(out) :: order(*)
-         integer(c_int) :: status
-      end function cholmod_order
-
       !> Symbolic analysis: entries of the factor and of its longest column; null where
       !> memory does not suffice.
       function cholmod_analyse(n, start, place, order, entries, widest) bind(c, name='flexact_cholmod_analyse') &
@@ -55,11 +41,12 @@ module flexact_cholmod
 
       !> By how much L L' may differ from what was factorised, in the 2-norm. unit: of
       !> rounding; extra: roundings of an entry beside those of its products.
-      function cholmod_error(handle, unit, extra) bind(c, name='flexact_cholmod_error') result(bound)
+      function cholmod_error(handle, unit, extra, enough) bind(c, name='flexact_cholmod_error') result(bound)
          import :: c_int, c_double, c_ptr
          type(c_ptr), value :: handle
          real(c_double), value :: unit
          integer(c_int), value :: extra
+         real(c_double), value :: enough
          real(c_double) :: bound
       end function cholmod_error
 

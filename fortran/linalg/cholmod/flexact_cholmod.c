@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* CHOLMOD behind flat functions, for flexact_cholmod.f90. In C because CHOLMOD's
  * settings and factors are fields of structs whose layout changes between its
- * versions. Indices count from 0. Without FLEXACT_WITH_CHOLMOD all of it says
- * that CHOLMOD is absent.
+ * versions. Indices count from 0.
  *
  * Symmetric matrices are given by their lower triangles, column by column. */
 #include <stddef.h>
-
-#ifdef FLEXACT_WITH_CHOLMOD
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,29 +41,6 @@ static void begin(cholmod_common *common)
     common->nmethods = 1;
     common->postorder = 1;
     common->final_ll = 1;
-}
-
-int flexact_cholmod_is_there(void) { return 1; }
-
-/* A fill-reducing order: by AMD for small graphs, where it is quicker, and for
- * others by METIS if CHOLMOD has it. */
-int flexact_cholmod_order(int n, int *start, int *place, int *order)
-{
-    const int small = 3000;
-    cholmod_common common;
-    cholmod_sparse a = lower(n, start, place, NULL);
-    int done = 0;
-    begin(&common);
-#ifndef NPARTITION
-    if (n > small)
-        done = cholmod_metis(&a, NULL, 0, 1, order, &common);
-#endif
-    if (!done) {
-        common.status = CHOLMOD_OK;
-        done = cholmod_amd(&a, NULL, 0, order, &common);
-    }
-    cholmod_finish(&common);
-    return done ? 0 : -1;
 }
 
 void flexact_cholmod_free(void *handle)
@@ -230,8 +204,9 @@ static void count_in_rows(cholmod_factor *f, double *count)
 }
 
 /* By how much, in the 2-norm, L L' may differ from what was factorised: see
- * flexact_backward_error.f90. Infinite where memory does not suffice. */
-double flexact_cholmod_error(void *handle, double unit, int extra)
+ * flexact_backward_error.f90. Infinite where memory does not suffice. enough: no better bound than
+ * this is sought. */
+double flexact_cholmod_error(void *handle, double unit, int extra, double enough)
 {
     chol *c = handle;
     cholmod_factor *f = c->factor;
@@ -248,7 +223,7 @@ double flexact_cholmod_error(void *handle, double unit, int extra)
         w[i] = k / (1 - k);
         x[i] = sqrt(w[i]);
     }
-    for (round = 0; round < 2; round++) {
+    for (round = 0; round < 2 && bound > enough; round++) {
         double largest = 0;
         multiply_twice(f, x, z, z + n);
         for (i = 0; i < n; i++) {
@@ -281,42 +256,3 @@ int flexact_cholmod_solve(void *handle, int n, int k, double *b, double *x)
     memcpy(x, c->x->x, sizeof(double) * (size_t)n * (size_t)k);
     return 0;
 }
-
-#else
-
-int flexact_cholmod_is_there(void) { return 0; }
-
-int flexact_cholmod_order(int n, int *start, int *place, int *order)
-{
-    (void)n, (void)start, (void)place, (void)order;
-    return -1;
-}
-
-void flexact_cholmod_free(void *handle) { (void)handle; }
-
-void *flexact_cholmod_analyse(int n, int *start, int *place, int *order, double *entries, int *widest)
-{
-    (void)n, (void)start, (void)place, (void)order, (void)entries, (void)widest;
-    return NULL;
-}
-
-int flexact_cholmod_factor(void *handle, int n, int *start, int *place, double *value)
-{
-    (void)handle, (void)n, (void)start, (void)place, (void)value;
-    return -1;
-}
-
-void flexact_cholmod_pivots(void *handle, double *pivot) { (void)handle, (void)pivot; }
-
-double flexact_cholmod_error(void *handle, double unit, int extra)
-{
-    (void)handle, (void)unit, (void)extra;
-    return 0;
-}
-
-int flexact_cholmod_solve(void *handle, int n, int k, double *b, double *x)
-{
-    (void)handle, (void)n, (void)k, (void)b, (void)x;
-    return -1;
-}
-#endif

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Arithmetic modulo a prime, for flexact_flint.f90 where the build has no FLINT: the same
+ * functions, and the same answers. Primes are below 2**61, so that four times one fits. */
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef __SIZEOF_INT128__
+
+__extension__ typedef unsigned __int128 wide;
+
+/* So many entries are copied to the stack instead of the heap, where there may be no room. */
+enum { few = 64 * 64 };
+
+static uint64_t times(uint64_t a, uint64_t b, uint64_t modulus) { return (uint64_t)((wide)a * b % modulus); }
+
+static uint64_t power(uint64_t a, uint64_t exponent, uint64_t modulus)
+{
+    uint64_t result = 1;
+    for (; exponent > 0; exponent >>= 1) {
+        if (exponent & 1) result = times(result, a, modulus);
+        a = times(a, a, modulus);
+    }
+    return result;
+}
+
+/* Miller's and Rabin's test with the first twelve primes, which no number below 2**64 passes
+ * that is composite (Sorenson and Webster, Mathematics of Computation 86, 2017). */
+static int is_prime(uint64_t n)
+{
+    static const uint64_t base[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+    uint64_t odd = n - 1;
+    int twos = 0;
+    for (; odd % 2 == 0; odd /= 2) twos++;
+    for (size_t i = 0; i < sizeof base / sizeof *base; i++) {
+        uint64_t x;
+        int k = 0;
+        if (n % base[i] == 0) return n == base[i];
+        x = power(base[i], odd, n);
+        if (x == 1) continue;
+        for (; x != n - 1 && k < twos; k++) x = times(x, x, n);
+        if (k == twos) return 0;
+    }
+    return 1;
+}
+
+int flexact_flint_is_there(void) { return 1; }
+
+/* The next number of a generator by Steele, Lea and Flood, OOPSLA 2014 ("splitmix"). */
+static uint64_t next_of(uint64_t *state)
+{
+    uint64_t z = (*state += UINT64_C(0x9e3779b97f4a7c15));
+    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+    return z ^ (z >> 31);
+}
+
+int64_t flexact_flint_prime(int64_t seed)
+{
+    uint64_t state = (uint64_t)seed, candidate;
+    do
+        candidate = (UINT64_C(1) << 60) | (next_of(&state) >> 4) | 1;
+    while (!is_prime(candidate));
+    return (int64_t)candidate;
+}
+
+int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
+{
+    return (int64_t)times((uint64_t)a, (uint64_t)b, (uint64_t)modulus);
+}
+
+/* Euclid's algorithm, with the multiple of a that each remainder is. */
+int64_t flexact_flint_inverse(int64_t a, int64_t prime)
+{
+    int64_t older = prime, newer = a, before = 0, now = 1;
+    while (newer != 0) {
+        int64_t quotient = older / newer, next = older - quotient * newer;
+        older = newer, newer = next;
+        next = before - quotient * now;
+        before = now, now = next;
+    }
+    return before < 0 ? before + prime : before;
+}
+
+static uint64_t below(uint64_t x, uint64_t bound) { return x < bound ? x : x - bound; }
+
+/* row := row + factor * pivot, all below twice the modulus, which factor is below. Products with
+ * one factor need no division: its quotient by the modulus is known beforehand (Shoup; see
+ * Harvey, Journal of Symbolic Computation 60, 2014). */
+static void add_multiple(uint64_t *row, const uint64_t *pivot, int count, uint64_t factor, uint64_t modulus)
+{
+    const uint64_t quotient = (uint64_t)(((wide)factor << 64) / modulus);
+    for (int j = 0; j < count; j++) {
+        const uint64_t turns = (uint64_t)((wide)quotient * pivot[j] >> 64);
+        row[j] = below(row[j] + (factor * pivot[j] - turns * modulus), 2 * modulus);
+    }
+}
+
+static void scale(uint64_t *row, int count, uint64_t factor, uint64_t modulus)
+{
+    for (int j = 0; j < count; j++) row[j] = times(row[j], factor, modulus);
+}
+
+static void swap(uint64_t *a, uint64_t *b, int count)
+{
+    for (int j = 0; j < count; j++) {
+        const uint64_t kept = a[j];
+        a[j] = b[j];
+        b[j] = kept;
+    }
+}
+
+/* Gauss's elimination of rows below each pivot, and of those above it for the reduced form. */
+static int eliminate(int rows, int columns, uint64_t *entry, uint64_t modulus, int is_reduced)
+{
+    int rank = 0;
+    for (int j = 0; j < columns && rank < rows; j++) {
+        uint64_t *pivot = entry + (int64_t)rank * columns + j;
+        int i = rank;
+        for (; i < rows; i++)
+            if (below(entry[(int64_t)i * columns + j], modulus) != 0) break;
+        if (i == rows) continue;
+        if (i != rank) swap(pivot, entry + (int64_t)i * columns + j, columns - j);
+        scale(pivot, columns - j, (uint64_t)flexact_flint_inverse((int64_t)below(*pivot, modulus), (int64_t)modulus),
+              modulus);
+        for (int k = is_reduced ? 0 : rank + 1; k < rows; k++) {
+            uint64_t *row = entry + (int64_t)k * columns + j;
+            const uint64_t first = below(*row, modulus);
+            if (k != rank && first != 0) add_multiple(row, pivot, columns - j, modulus - first, modulus);
+        }
+        rank++;
+    }
+    return rank;
+}
+
+/* The rank; -1 where there is no room. */
+int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
+{
+    uint64_t small[few], *copy = small;
+    const size_t count = (size_t)rows * (size_t)columns;
+    int rank;
+    if (count > few) copy = malloc(count * sizeof *copy);
+    if (!copy) return -1;
+    memcpy(copy, entry, count * sizeof *copy);
+    rank = eliminate(rows, columns, copy, (uint64_t)modulus, 0);
+    if (copy != small) free(copy);
+    return rank;
+}
+
+int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
+{
+    uint64_t *row = (uint64_t *)entry;
+    const int rank = eliminate(rows, columns, row, (uint64_t)modulus, 1);
+    for (int64_t k = 0; k < (int64_t)rows * columns; k++) row[k] = below(row[k], (uint64_t)modulus);
+    return rank;
+}
+
+#else
+
+/* Without integers of 128 bits there are no proofs. */
+int flexact_flint_is_there(void) { return 0; }
+
+int64_t flexact_flint_prime(int64_t seed)
+{
+    (void)seed;
+    return 0;
+}
+
+int64_t flexact_flint_times(int64_t a, int64_t b, int64_t modulus)
+{
+    (void)a, (void)b, (void)modulus;
+    return 0;
+}
+
+int64_t flexact_flint_inverse(int64_t a, int64_t prime)
+{
+    (void)a, (void)prime;
+    return 0;
+}
+
+int flexact_flint_rank(int rows, int columns, const int64_t *entry, int64_t modulus)
+{
+    (void)rows, (void)columns, (void)entry, (void)modulus;
+    return -1;
+}
+
+int flexact_flint_echelon(int rows, int columns, int64_t *entry, int64_t modulus)
+{
+    (void)rows, (void)columns, (void)entry, (void)modulus;
+    return -1;
+}
+
+#endif

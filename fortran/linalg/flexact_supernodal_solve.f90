@@ -1,0 +1,267 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Solutions with a sparse Cholesky factor, several right-hand sides side by side. Subtrees are
+!> worked on side by side; what stands above them is left to the threads of BLAS.
+module flexact_supernodal_solve
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use flexact_blas, only: blas_share, blas_unshare
+   use flexact_cholesky, only: cholesky_t
+   use flexact_error, only: error_t, fail, error_memory
+   use flexact_kinds, only: wp, long
+   use flexact_lapack, only: dgemm, dtrsm
+   use flexact_supernodal_pattern, only: supernodal_t, columns_in, rows_in
+   use flexact_threads, only: run_tasks
+   implicit none
+   private
+   public :: solve
+
+   !> Right-hand sides that are taken together, and multiplications in a supernode from which BLAS
+   !> is quicker than plain loops.
+   integer, parameter :: together = 16
+   integer, parameter :: worth_blas = 4000
+
+   !> The rows of one supernode (rows, k); and where the rows above a task stand among those that
+   !> it leaves something for.
+   type :: worker_t
+      real(wp), allocatable :: some(:)
+      integer, allocatable :: place(:)
+   end type worker_t
+
+   !> What a task takes from rows above it (k, rows).
+   type :: left_t
+      real(wp), allocatable :: value(:, :)
+   end type left_t
+
+   type :: job_t
+      type(cholesky_t), pointer :: factor => null()
+      !> Right-hand sides side by side (k, n), in the order of elimination.
+      integer :: k = together
+      real(wp), allocatable :: all(:)
+      type(worker_t), allocatable :: worker(:)
+      type(left_t), allocatable :: left(:)
+   end type job_t
+
+contains
+
+   !> Solve L L' x = b in place, column by column.
+   subroutine solve(factor, x, error)
+      type(cholesky_t), intent(in), target :: factor
+      real(wp), intent(inout), contiguous :: x(:, :)
+      type(error_t), allocatable, intent(out) :: error
+      type(job_t), target :: job
+      integer :: first, last, info
+
+      if (size(x) == 0) return
+      job%factor => factor
+      do first = 1, size(x, 2), together
+         last = min(first + together - 1, size(x, 2))
+         call make_room(job, last - first + 1, info)
+         if (info /= 0) then
+            call fail(error_memory, error)
+            return
+         end if
+         call take(factor%pattern%order, x(:, first:last), job%all)
+         call on_all_tasks(job, forward_in)
+         call work_above(job)
+         call on_all_tasks(job, backward_in)
+         call give(factor%pattern%order, job%all, x(:, first:last))
+      end do
+   end subroutine solve
+
+   !> For k right-hand sides.
+   subroutine make_room(job, k, info)
+      type(job_t), intent(inout) :: job
+      integer, intent(in) :: k
+      integer, intent(out) :: info
+      integer :: i, t, root
+
+      info = 0
+      if (allocated(job%all) .and. k == job%k) return
+      if (allocated(job%all)) deallocate (job%all, job%worker, job%left)
+      job%k = k
+      associate (factor => job%factor)
+         allocate (job%all(int(factor%n, long)*k), job%worker(factor%threads), job%left(factor%tasks%count), stat=info)
+         do i = 1, factor%threads
+            if (info == 0) allocate (job%worker(i)%some(int(factor%widest, long)*k), job%worker(i)%place(factor%n), stat=info)
+         end do
+         do t = 1, factor%tasks%count
+            root = factor%tasks%root(t)
+            if (info == 0) allocate (job%left(t)%value(k, rows_in(factor%pattern, root) - columns_in(factor%pattern, root)), &
+                                     stat=info)
+         end do
+      end associate
+   end subroutine make_room
+
+   subroutine on_all_tasks(job, work)
+      type(job_t), intent(inout), target :: job
+      interface
+         recursive subroutine work(task, worker, data) bind(c)
+            import :: c_int, c_ptr
+            integer(c_int), value :: task, worker
+            type(c_ptr), value :: data
+         end subroutine work
+      end interface
+
+      call blas_share()
+      call run_tasks(int(job%factor%tasks%count, c_int), int(job%factor%threads, c_int), c_funloc(work), c_loc(job))
+      call blas_unshare()
+   end subroutine on_all_tasks
+
+   recursive subroutine forward_in(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(job_t), pointer :: job
+      integer :: i, s, root, last
+
+      call c_f_pointer(data, job)
+      associate (pattern => job%factor%pattern, own => job%worker(worker), left => job%left(task)%value)
+         root = job%factor%tasks%root(task)
+         last = pattern%first(root + 1) - 1
+         left = 0.0_wp
+         do i = 1, size(left, 2)
+            own%place(pattern%row(pattern%rows_from(root + 1) - size(left, 2) + i - 1)) = i
+         end do
+         do s = job%factor%tasks%from(task), root
+            call forward(pattern, s, last, rows_in(pattern, s), columns_in(pattern, s), job%k, &
+                         job%factor%value(pattern%panel(s)), own%place, own%some, job%all, left)
+         end do
+      end associate
+   end subroutine forward_in
+
+   recursive subroutine backward_in(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(job_t), pointer :: job
+      integer :: s
+
+      call c_f_pointer(data, job)
+      associate (pattern => job%factor%pattern)
+         do s = job%factor%tasks%root(task), job%factor%tasks%from(task), -1
+            call backward(pattern, s, rows_in(pattern, s), columns_in(pattern, s), job%k, &
+                          job%factor%value(pattern%panel(s)), job%worker(worker)%some, job%all)
+         end do
+      end associate
+   end subroutine backward_in
+
+   !> What stands above the tasks, after what they have left for it, in their order.
+   subroutine work_above(job)
+      type(job_t), intent(inout) :: job
+      integer :: s, t
+
+      associate (pattern => job%factor%pattern, tasks => job%factor%tasks, own => job%worker(1))
+         do t = 1, tasks%count
+            call add_left(pattern, tasks%root(t), job%k, job%left(t)%value, job%all)
+         end do
+         do s = 1, pattern%supernodes
+            if (tasks%of_supernode(s) == 0) &
+               call forward(pattern, s, job%factor%n, rows_in(pattern, s), columns_in(pattern, s), job%k, &
+                            job%factor%value(pattern%panel(s)), own%place, own%some, job%all, job%left(1)%value)
+         end do
+         do s = pattern%supernodes, 1, -1
+            if (tasks%of_supernode(s) == 0) &
+               call backward(pattern, s, rows_in(pattern, s), columns_in(pattern, s), job%k, &
+                             job%factor%value(pattern%panel(s)), own%some, job%all)
+         end do
+      end associate
+   end subroutine work_above
+
+   pure subroutine add_left(pattern, root, k, left, all)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: root, k
+      real(wp), intent(in) :: left(:, :)
+      real(wp), intent(inout) :: all(k, *)
+      integer :: i
+
+      do i = 1, size(left, 2)
+         associate (row => pattern%row(pattern%rows_from(root + 1) - size(left, 2) + i - 1))
+            all(:, row) = all(:, row) + left(:, i)
+         end associate
+      end do
+   end subroutine add_left
+
+   pure recursive subroutine take(order, x, all)
+      integer, intent(in) :: order(:)
+      real(wp), intent(in) :: x(:, :)
+      real(wp), intent(out) :: all(size(x, 2), *)
+      integer :: i
+
+      do i = 1, size(order)
+         all(:, i) = x(order(i), :)
+      end do
+   end subroutine take
+
+   pure recursive subroutine give(order, all, x)
+      integer, intent(in) :: order(:)
+      real(wp), intent(out) :: x(:, :)
+      real(wp), intent(in) :: all(size(x, 2), *)
+      integer :: i
+
+      do i = 1, size(order)
+         x(order(i), :) = all(:, i)
+      end do
+   end subroutine give
+
+   !> Divide the places of supernode s by its diagonal block, and take its part from the rows below,
+   !> those after `last` among what is left for them.
+   pure recursive subroutine forward(pattern, s, last, rows, columns, k, panel, place, some, all, left)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, last, rows, columns, k, place(:)
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(rows, k), all(k, *), left(k, *)
+      integer :: i, j, r, row
+
+      do i = 1, columns
+         some(i, :) = all(:, pattern%first(s) + i - 1)
+      end do
+      some(columns + 1:, :) = 0.0_wp
+      if (real(rows, wp)*columns*k < worth_blas) then
+         do j = 1, columns
+            do r = 1, k
+               some(j, r) = some(j, r)/panel(j, j)
+               some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
+            end do
+         end do
+      else
+         call dtrsm('L', 'L', 'N', 'N', columns, k, 1.0_wp, panel, rows, some, rows)
+         if (rows > columns) call dgemm('N', 'N', rows - columns, k, columns, -1.0_wp, panel(columns + 1, 1), rows, &
+                                        some, rows, 0.0_wp, some(columns + 1, 1), rows)
+      end if
+      do i = 1, columns
+         all(:, pattern%first(s) + i - 1) = some(i, :)
+      end do
+      do i = columns + 1, rows
+         row = pattern%row(pattern%rows_from(s) + i - 1)
+         if (row <= last) then
+            all(:, row) = all(:, row) + some(i, :)
+         else
+            left(:, place(row)) = left(:, place(row)) + some(i, :)
+         end if
+      end do
+   end subroutine forward
+
+   !> Take the part of the rows below from the places of supernode s, and divide by the transpose.
+   pure recursive subroutine backward(pattern, s, rows, columns, k, panel, some, all)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, rows, columns, k
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(rows, k), all(k, *)
+      integer :: i, j, r
+
+      do i = 1, rows
+         some(i, :) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
+      end do
+      if (real(rows, wp)*columns*k < worth_blas) then
+         do j = columns, 1, -1
+            do r = 1, k
+               some(j, r) = (some(j, r) - dot_product(panel(j + 1:, j), some(j + 1:, r)))/panel(j, j)
+            end do
+         end do
+      else
+         if (rows > columns) call dgemm('T', 'N', columns, k, rows - columns, -1.0_wp, panel(columns + 1, 1), rows, &
+                                        some(columns + 1, 1), rows, 1.0_wp, some, rows)
+         call dtrsm('L', 'L', 'T', 'N', columns, k, 1.0_wp, panel, rows, some, rows)
+      end if
+      do i = 1, columns
+         all(:, pattern%first(s) + i - 1) = some(i, :)
+      end do
+   end subroutine backward
+end module flexact_supernodal_solve
