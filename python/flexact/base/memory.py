@@ -6,8 +6,9 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Iterator
 from pathlib import Path
+
+from .loading import load
 
 if sys.platform != "win32":
     import resource
@@ -38,8 +39,12 @@ def allowance(most: float = math.inf) -> float:
 
 
 def available() -> float:
-    """Bytes of memory that can be had, the least of all limits; infinity where none is told."""
-    return min(_of_machine(), address_space(), *_of_groups())
+    """Bytes of memory that can be had, the least of all limits; infinity where none is told.
+
+    Those of the machine, of this process (`ulimit`), and of the container, cluster or job that it
+    is in. On Linux and Windows the system is asked, on other systems psutil.
+    """
+    return min(_of_machine(), address_space(), _of_groups())
 
 
 def address_space(limits: dict[int, float] | None = None, root: Path = _ROOT) -> float:
@@ -70,6 +75,10 @@ def _limits() -> dict[int, float]:
 
 
 def _of_machine(root: Path = _ROOT) -> float:
+    """Bytes that the machine has left, without what is bounded further within it."""
+    if sys.platform == "win32":
+        left: float = load("flexact.base.windows").memory_left()
+        return left
     try:
         with open(root / "proc/meminfo", encoding="ascii") as file:
             for line in file:
@@ -77,49 +86,29 @@ def _of_machine(root: Path = _ROOT) -> float:
                     return 1024.0 * int(line.split()[1])
     except (OSError, ValueError):
         pass
+    return _of_other_systems()
+
+
+def _of_other_systems() -> float:
+    """On macOS, the BSDs, and a Linux that hides what it has."""
     try:
-        return float(os.sysconf("SC_AVPHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, ValueError, OSError):
-        return math.inf
-
-
-def _of_groups(root: Path = _ROOT) -> Iterator[float]:
-    """What the control groups of this process and those round them leave it."""
-    yield math.inf
-    try:
-        lines = (root / "proc/self/cgroup").read_text(encoding="utf-8").splitlines()
-    except (OSError, ValueError):
-        return
-    mounted = root / "sys/fs/cgroup"
-    for line in lines:
-        _, controllers, group = [*line.split(":", 2), "", ""][:3]
-        if not controllers:
-            yield from _left(mounted, group, ("memory.max", "memory.current", "inactive_file"))
-        elif "memory" in controllers.split(","):
-            old = ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file")
-            yield from _left(mounted / "memory", group, old)
-
-
-def _left(mounted: Path, group: str, names: tuple[str, str, str]) -> Iterator[float]:
-    """By each group on the way up; in a container some of them cannot be seen."""
-    limit, usage, cached = names
-    parts = [part for part in group.split("/") if part not in ("", "..")]
-    for depth in range(len(parts), -1, -1):
-        folder = mounted.joinpath(*parts[:depth])
+        return float(load("psutil").virtual_memory().available)
+    except (ImportError, AttributeError, OSError, RuntimeError, ValueError):
+        pass
+    # All that there is, where nobody says how much of it is free, is better than no bound.
+    for pages in ("SC_AVPHYS_PAGES", "SC_PHYS_PAGES"):
         try:
-            most = float((folder / limit).read_text(encoding="ascii"))
-            used = float((folder / usage).read_text(encoding="ascii"))
-            yield max(0.0, most - used + _given_back(folder, cached))
-        except (OSError, ValueError):
+            count = os.sysconf(pages)
+            if count > 0:
+                return float(count) * os.sysconf("SC_PAGE_SIZE")
+        except (AttributeError, ValueError, OSError):
             continue
+    return math.inf
 
 
-def _given_back(folder: Path, cached: str) -> float:
-    """Bytes of files that are kept in memory while nobody else wants it."""
-    try:
-        lines = (folder / "memory.stat").read_text(encoding="ascii").splitlines()
-        return next(
-            (float(line.split()[1]) for line in lines if line.startswith(f"{cached} ")), 0.0
-        )
-    except (OSError, ValueError, IndexError):
-        return 0.0
+def _of_groups(root: Path = _ROOT) -> float:
+    """What the control groups of this process and those round them leave it."""
+    if sys.platform != "linux":
+        return math.inf
+    left: float = load("flexact.base.control_groups").memory_left(root)
+    return left

@@ -8,6 +8,20 @@ import os
 #: Bits of a number, and letters of what is given, beyond which a message leaves them out.
 _LONG_NUMBER, _LONG_TEXT = 64, 60
 
+#: What our own words and tables hold beyond ASCII, and what people write for it.
+_STAND_INS = {
+    **{"\N{RIGHTWARDS ARROW}": "->", "\N{LEFTWARDS ARROW}": "<-", "\N{LEFT RIGHT ARROW}": "<->"},
+    **{"\N{HORIZONTAL ELLIPSIS}": "...", "\N{NO-BREAK SPACE}": " ", "\N{MINUS SIGN}": "-"},
+    **{"\N{EN DASH}": "-", "\N{EM DASH}": "-", "\N{MIDDLE DOT}": ".", "\N{CHECK MARK}": "ok"},
+    **{"\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u", "\N{DEGREE SIGN}": " deg"},
+    **{"\N{PLUS-MINUS SIGN}": "+-", "\N{MULTIPLICATION SIGN}": "x", "\N{ALMOST EQUAL TO}": "~"},
+    **{"\N{SUPERSCRIPT TWO}": "^2", "\N{SUPERSCRIPT THREE}": "^3", "\N{SUPERSCRIPT FOUR}": "^4"},
+    **{"\N{LESS-THAN OR EQUAL TO}": "<=", "\N{GREATER-THAN OR EQUAL TO}": ">="},
+    **{"\N{LEFT DOUBLE QUOTATION MARK}": '"', "\N{RIGHT DOUBLE QUOTATION MARK}": '"'},
+    **{"\N{LEFT SINGLE QUOTATION MARK}": "'", "\N{RIGHT SINGLE QUOTATION MARK}": "'"},
+    **{"\N{BOX DRAWINGS LIGHT HORIZONTAL}": "-", "\N{BOX DRAWINGS LIGHT VERTICAL}": "|"},
+}
+
 #: A decimal of more digits cannot be told from a number that was computed.
 MOST_TYPED = 15
 
@@ -27,6 +41,17 @@ def _harmless(c: str, keep_tabs: bool) -> str:
     if ord(c) < 0x20:
         return chr(0x2400 + ord(c))
     return "\u2421" if c == "\x7f" else "\ufffd"
+
+
+def spelled(error: UnicodeError) -> tuple[str, int]:
+    """Stand-ins for characters that an encoding lacks, as an error handler of codecs."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    given = error.object[error.start : error.end]
+    made = (
+        _STAND_INS.get(c) or c.encode("ascii", "backslashreplace").decode("ascii") for c in given
+    )
+    return "".join(made), error.end
 
 
 def file_name(name: str) -> str:

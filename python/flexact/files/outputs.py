@@ -6,6 +6,8 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
+import sys
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -13,11 +15,16 @@ from typing import BinaryIO
 
 from ..base.errors import BatchError, reason_of
 from ..base.interruption import undisturbed
+from ..base.loading import load
 from .decks import DeckFile
 from .temporary import remove_left, temporary_name
 
 #: What stands for standard output.
 STDOUT = Path("-")
+#: Loaded where it is wanted: a first word comes sooner without.
+_NAMES = "flexact.files.names"
+#: On Windows others, such as a virus scanner, may hold a new file for a moment [s].
+_PAUSES = (0.01, 0.03, 0.1, 0.3)
 
 
 class OutputError(BatchError):
@@ -38,26 +45,29 @@ def plan_files(
         The files of each deck, by the deck's path, in the order of ``suffixes``.
 
     Raises:
-        OutputError: Two decks would write one file, a deck would be overwritten, or the folder
-            cannot take files.
+        OutputError: Two decks would write one file, also where a folder takes their names for one,
+            a deck would be overwritten, or the folder or the system cannot take the files.
     """
     if folder == STDOUT:
         raise OutputError("a folder is wanted, and - is standard output")
     _check_folder(folder)
-    owner: dict[str, str] = {}
     plan = {}
     decks = [deck for deck in decks if deck.error is None]
-    sources = {os.path.realpath(deck.path): deck.path for deck in decks}
+    names = load(_NAMES)
+    written, sources = names.Owners(), names.Owners()
+    for deck in decks:
+        sources.add(os.path.realpath(deck.path), deck.path)
     for deck in decks:
         stem = folder / deck.relative
         targets = tuple(stem.with_name(stem.name + suffix) for suffix in suffixes)
         for target in targets:
+            _require_fit(target)
             place = os.path.realpath(target)
-            if place in owner:
-                raise OutputError(_shared(target, owner[place], deck.path))
-            if place in sources:
-                raise OutputError(f"{target} would overwrite the deck {sources[place]}")
-            owner[place] = deck.path
+            if (owner := written.of(place)) is not None:
+                raise OutputError(_shared(target, owner, deck.path))
+            if (source := sources.of(place)) is not None:
+                raise OutputError(f"{target} would overwrite the deck {source}")
+            written.add(place, deck.path)
         plan[deck.path] = targets
     return plan
 
@@ -89,10 +99,21 @@ def require_replaceable(target: Path) -> None:
 def _shared(target: Path, first: str, second: str) -> str:
     if first == second:
         return f"{target} is a link to another file of the results of {first}"
+    folded = load(_NAMES).folded
+    if folded(first) == folded(second):
+        return (
+            f"{first} and {second} would both write {target}: capitals, and how accents are "
+            "stored, tell no files apart there; analyse them apart"
+        )
     return (
         f"{first} and {second} would both write {target}; analyse them apart, or name one "
         "folder that holds both"
     )
+
+
+def _require_fit(target: Path) -> None:
+    if sys.platform == "win32" and (why := load(_NAMES).why_unfit(target)):
+        raise OutputError(f"cannot write {target}: {why}")
 
 
 def _check_folder(folder: Path) -> None:
@@ -130,7 +151,7 @@ def write_together(files: Mapping[Path, bytes]) -> None:
             temporary.write_bytes(content)
         with undisturbed():
             for temporary, target in waiting.items():
-                os.replace(temporary, places[target])
+                _move(temporary, places[target])
     except OSError as error:
         raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
     finally:
@@ -160,7 +181,7 @@ def written_whole(target: Path) -> Iterator[BinaryIO]:
             file.flush()
             os.fsync(file.fileno())
         with undisturbed():
-            os.replace(temporary, place)
+            _move(temporary, place)
             keep_names(place.parent)
     except OSError as error:
         raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
@@ -168,6 +189,17 @@ def written_whole(target: Path) -> Iterator[BinaryIO]:
         with undisturbed():
             if temporary is not None:
                 temporary.unlink(missing_ok=True)
+
+
+def _move(temporary: Path, place: Path) -> None:
+    """Move a file to its place, of which others may let go in a moment."""
+    for pause in _PAUSES if sys.platform == "win32" else ():
+        try:
+            os.replace(temporary, place)
+            return
+        except PermissionError:
+            time.sleep(pause)
+    os.replace(temporary, place)
 
 
 def keep_names(folder: Path) -> None:
@@ -182,7 +214,10 @@ def keep_names(folder: Path) -> None:
 
 def _place(target: Path) -> Path:
     """Where a target lies, links followed, if it is one that may be replaced."""
+    _require_fit(target)
     place = Path(os.path.realpath(target))
+    if sys.platform == "win32":
+        place = Path(load(_NAMES).reachable(str(place)))
     try:
         mode = place.stat().st_mode
     except FileNotFoundError:
@@ -194,4 +229,16 @@ def _place(target: Path) -> Path:
     # The superuser may write to every file, whatever its owner meant.
     if not mode & 0o222 or not os.access(place, os.W_OK):
         raise OutputError(f"cannot write {target}: it is read-only")
+    if sys.platform == "win32":
+        _require_closed(target, place)
     return place
+
+
+def _require_closed(target: Path, place: Path) -> None:
+    """Raise where another program has a file open, which Windows would not let go of later."""
+    try:
+        os.rename(place, place)
+    except PermissionError as error:
+        raise OutputError(
+            f"cannot write {target}: it is open in another program; close it there"
+        ) from error

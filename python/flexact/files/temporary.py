@@ -6,12 +6,15 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import sys
 import time
 from functools import cache
 from hashlib import sha256
 from itertools import count
 from pathlib import Path
 from socket import gethostname
+
+from ..base.loading import load
 
 _NAME = re.compile(r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9]+\.tmp")
 #: Between two looks into a folder [s]: a batch may write thousands of files into one.
@@ -41,13 +44,18 @@ def remove_left(folder: Path) -> None:
 
 
 def _is_left(entry: os.DirEntry[str], process: int) -> bool:
-    if os.name != "posix" or not entry.is_file(follow_symlinks=False):
+    if not entry.is_file(follow_symlinks=False):
         return False
-    owner = entry.stat(follow_symlinks=False).st_uid
-    return owner == os.geteuid() and not _is_alive(process)
+    if hasattr(os, "geteuid") and entry.stat(follow_symlinks=False).st_uid != os.geteuid():
+        return False
+    return not _is_alive(process)
 
 
 def _is_alive(process: int) -> bool:
+    if sys.platform == "win32":
+        # There os.kill ends a process whatever it is told.
+        alive: bool = load("flexact.base.windows").is_alive(process)
+        return alive
     try:
         os.kill(process, 0)
     except ProcessLookupError:

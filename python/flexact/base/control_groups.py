@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the control groups of Linux, by which containers and clusters are bounded, leave a process.
+
+Both versions are read, also side by side. A group is bounded by those round it as well. In a
+container its path may be that of the host, of which only the lower part can be seen, or none.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+_ESCAPED = re.compile(r"\\([0-7]{3})")
+#: Where they are mounted if `mountinfo` does not say: that of version 2, and those of version 1.
+_USUAL = "/sys/fs/cgroup"
+
+
+class _Mount(NamedTuple):
+    """Where groups can be seen: the group at the top of what is mounted, and the folder."""
+
+    is_first_version: bool
+    top: str
+    folder: str
+
+
+def memory_left(root: Path) -> float:
+    """Bytes that the groups leave; infinity without a bound.
+
+    Args:
+        root: Where `proc` and `sys` are.
+    """
+    return min((_left(old, folder) for old, folder in _groups(root, "memory")), default=math.inf)
+
+
+def processors(root: Path) -> float:
+    """How many processors' time the groups may use, such as 1.5; infinity without a bound."""
+    return min((_share(old, folder) for old, folder in _groups(root, "cpu")), default=math.inf)
+
+
+def _left(is_first_version: bool, folder: Path) -> float:
+    """Swap is not counted, as little as in `MemAvailable`: an analysis in it has no end."""
+    told = _table(folder / "memory.stat")
+    if is_first_version:
+        # The second counts groups round it as well, also those that cannot be seen.
+        most = min(
+            _number(folder / "memory.limit_in_bytes"), _read(told, "hierarchical_memory_limit")
+        )
+        used, cached = folder / "memory.usage_in_bytes", "total_inactive_file"
+    else:
+        # Above `high` the processes are held up until they hardly go on.
+        most = min(_number(folder / "memory.max"), _number(folder / "memory.high"))
+        used, cached = folder / "memory.current", "inactive_file"
+    # Files that are kept in memory while nobody else wants it.
+    given_back = _read(told, cached, 0.0)
+    return max(0.0, most - max(0.0, _number(used, 0.0) - given_back))
+
+
+def _share(is_first_version: bool, folder: Path) -> float:
+    if is_first_version:
+        quota = _number(folder / "cpu.cfs_quota_us")
+        period = _number(folder / "cpu.cfs_period_us", 0.0)
+    else:
+        quota, period = [*map(_as_number, _text(folder / "cpu.max").split()), math.inf, 0.0][:2]
+    return quota / period if quota > 0 and period > 0 else math.inf
+
+
+def _groups(root: Path, controller: str) -> Iterator[tuple[bool, Path]]:
+    """The folders of the groups of this process and of those round them, and their version."""
+    for line in _text(root / "proc/self/cgroup").splitlines() or ["0::/", f"1:{controller}:/"]:
+        _, controllers, group = [*line.split(":", 2), "", ""][:3]
+        is_first_version = bool(controllers)
+        if is_first_version and controller not in controllers.split(","):
+            continue
+        for mount in _mounts(root, controller, is_first_version):
+            parts = _below(mount.top, group)
+            folder = root / mount.folder.lstrip("/")
+            for depth in range(len(parts), -1, -1):
+                yield is_first_version, folder.joinpath(*parts[:depth])
+
+
+def _below(top: str, group: str) -> list[str]:
+    """The path of a group from the one at the top of what is mounted."""
+    if top != "/" and (group == top or group.startswith(f"{top}/")):
+        group = group[len(top) :]
+    return [part for part in group.split("/") if part not in ("", "..")]
+
+
+def _mounts(root: Path, controller: str, is_first_version: bool) -> list[_Mount]:
+    found = []
+    for line in _text(root / "proc/self/mountinfo").splitlines():
+        before, _, behind = line.partition(" - ")
+        words, kinds = before.split(), behind.split()
+        if len(words) < 5 or len(kinds) < 3:
+            continue
+        is_old = kinds[0] == "cgroup" and controller in kinds[2].split(",")
+        if is_old if is_first_version else kinds[0] == "cgroup2":
+            found.append(_Mount(is_first_version, _plain(words[3]), _plain(words[4])))
+    usual = f"{_USUAL}/{controller}" if is_first_version else _USUAL
+    return found or [_Mount(is_first_version, "/", usual)]
+
+
+def _plain(path: str) -> str:
+    return _ESCAPED.sub(lambda found: chr(int(found[1], 8)), path)
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except (OSError, ValueError):
+        return ""
+
+
+def _table(path: Path) -> dict[str, float]:
+    """Lines of a name and a number."""
+    pairs = (line.split() for line in _text(path).splitlines())
+    return {pair[0]: _as_number(pair[1]) for pair in pairs if len(pair) == 2}
+
+
+def _read(table: dict[str, float], name: str, missing: float = math.inf) -> float:
+    value = table.get(name, missing)
+    return value if math.isfinite(value) else missing
+
+
+def _number(path: Path, missing: float = math.inf) -> float:
+    value = _as_number(_text(path))
+    return value if math.isfinite(value) else missing
+
+
+def _as_number(text: str) -> float:
+    """A number; infinity for "max", and for what is none."""
+    try:
+        value = float(text)
+    except ValueError:
+        return math.inf
+    return math.inf if math.isnan(value) else value
