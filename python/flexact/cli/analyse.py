@@ -16,7 +16,9 @@ from flexact.cli import colour, failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import add_decks, take
+from flexact.cli.findings import TEXT, Findings, add_format, require_one_form
 from flexact.cli.help_texts import add_examples
+from flexact.cli.mesh_format import add_mesh
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.summary import TABLES, Analysed, add_summary, is_table
 from flexact.cli.targets import folder_or
@@ -54,9 +56,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "TABLE.csv, .jsonl or .parquet",
     )
     add_summary(parser, "a table, one line a deck, in place of the words")
-    parser.add_argument(
-        "--format", metavar="FORMAT", help="mesh format: vtu (default), vtk, xdmf, ..."
-    )
+    add_format(parser, was_mesh=True)
+    add_mesh(parser, "-o")
     parser.add_argument(
         "--log",
         choices=LOGS,
@@ -91,26 +92,29 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "In a design's own CI: exits with 3 unless it is so",
             "flexact analyse input_decks/paper/five_wires.dat --expect exact",
         ),
+        (
+            "The same in a workflow of GitHub, with marks beside the lines of a pull request",
+            "flexact analyse input_decks/paper/five_wires.dat --expect exact --format github",
+        ),
     )
     parser.set_defaults(run=analyse_decks)
 
 
 def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the decks that were asked for, say and write the results."""
-    if chosen.format and not chosen.output:
-        raise BatchError("--format is for the mesh, which needs a folder: -o DIR")
-    if chosen.log and chosen.json and not chosen.output:
-        raise BatchError("--json and --log both go to stdout: choose one, or a folder: -o DIR")
-    if chosen.summary and (chosen.json or chosen.log):
-        other = "--json" if chosen.json else "--log"
-        raise BatchError(f"--summary is in place of {other}; choose one")
+    if chosen.mesh and not chosen.output:
+        raise BatchError("--mesh needs a folder: -o DIR")
+    require_one_form(chosen)
     if chosen.output and is_table(chosen.output) and not chosen.summary:
         raise BatchError(f"-o {chosen.output} is a table, which --summary writes; or name a folder")
     decks = find_decks(chosen.decks)
     work = _Work(chosen, decks)
     if chosen.summary:
         return Analysed(chosen, decks, work.judge_and_write).run()
-    return take(decks, work.step, as_json=chosen.json)
+    findings = work.findings
+    if findings is None:
+        return take(decks, work.step, as_json=chosen.json)
+    return findings.finish(take(decks, work.step, on_failure=findings.failed))
 
 
 class _Work:
@@ -119,10 +123,11 @@ class _Work:
     def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
         self.chosen = chosen
         self.files: ResultFiles | None = None
+        self.findings = None if chosen.format == TEXT else Findings(chosen.format)
         if chosen.output and not is_table(chosen.output):
             module = load("flexact.cli.result_files")
             self.files = module.ResultFiles(
-                decks, chosen.output, chosen.format or "vtu", log=chosen.log
+                decks, chosen.output, chosen.mesh or "vtu", log=chosen.log
             )
 
     def step(self, deck: DeckFile) -> Outcome:
@@ -131,8 +136,11 @@ class _Work:
             analysis = read_and_analysed(deck, self.chosen, bar)
             bar.show("writing")
             failure = self._written(deck, analysis)
-            words, is_data = self._words(analysis)
-        give(words) if is_data else say(words)
+            words, is_data = ("", True) if self.findings else self._words(analysis)
+        if self.findings:
+            self.findings.analysed(deck, analysis, VERDICTS.get(self.chosen.expect))
+        else:
+            give(words) if is_data else say(words)
         outcome = self.judge(deck, analysis)
         if outcome.code is ExitCode.DIFFERENT:
             wanted = VERDICTS[self.chosen.expect].value

@@ -19,6 +19,7 @@ from flexact.cli.batch_run import BatchRun
 from flexact.cli.batch_work import Work
 from flexact.cli.decks import add_decks
 from flexact.cli.help_texts import add_examples
+from flexact.cli.mesh_format import add_mesh
 from flexact.cli.outcome import ExitCode
 from flexact.cli.renamed import add_renamed
 from flexact.cli.targets import folder
@@ -75,9 +76,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="write what analyse -o writes of each deck there",
     )
-    parser.add_argument(
-        "--format", metavar="FORMAT", help="mesh format of --files: vtu (default), vtk, xdmf, ..."
-    )
+    add_mesh(parser, "--files")
+    add_renamed(parser, "--format", "--mesh", dest="mesh")
     parser.add_argument(
         "--report",
         type=folder,
@@ -103,8 +103,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def make_table(chosen: argparse.Namespace) -> ExitCode:
     """Analyse the decks that were asked for, and write their table."""
-    if chosen.format and not chosen.files:
-        raise BatchError("--format is for the meshes of --files DIR")
+    if chosen.mesh and not chosen.files:
+        raise BatchError("--mesh is for the meshes of --files DIR")
     table: Path = chosen.output
     if table == STDOUT:
         raise BatchError(
@@ -114,7 +114,7 @@ def make_table(chosen: argparse.Namespace) -> ExitCode:
     require_table(table)
     decks = find_decks(chosen.decks)
     require_place(table, decks)
-    outputs = Outputs(decks, chosen.files, chosen.format or "vtu", chosen.report)
+    outputs = Outputs(decks, chosen.files, chosen.mesh or "vtu", chosen.report)
     asked = asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     work = Work(asked, chosen.columns, chosen.where, outputs.mesh_format, outputs.has_pages)
     run = BatchRun(decks, work, outputs, _journal(table, _head(chosen, decks), chosen.resume))
@@ -167,7 +167,7 @@ def _head(chosen: argparse.Namespace, decks: Sequence[DeckFile]) -> dict[str, An
             "--tolerance": chosen.zero_tolerance,
             "--prove": chosen.prove,
             "--accuracy": chosen.accuracy and list(chosen.accuracy),
-            "--format": chosen.format,
+            "--mesh": chosen.mesh,
             **{f"--{name}": path and os.path.abspath(path) for name, path in folders.items()},
         },
         "decks": [deck.path for deck in decks],

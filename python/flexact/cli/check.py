@@ -6,15 +6,19 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
+from flexact.base.loading import load
 from flexact.base.plain_text import harmless
+from flexact.cli import failures
 from flexact.cli.analysed import report_problems
 from flexact.cli.decks import add_decks, take
+from flexact.cli.findings import TEXT, Findings, add_format, require_one_form
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.summary import Told, add_summary, failed, summarise
 from flexact.cli.summary_table import Cells
-from flexact.cli.terminal import say
+from flexact.cli.terminal import give, say
 from flexact.deck.reading import read_deck
+from flexact.diagnostics.diagnostic import Problems
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
 
@@ -23,6 +27,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
     """Give the verb its description and arguments."""
     parser.description = "Say what is wrong with decks."
     add_decks(parser)
+    parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
+    add_format(parser)
     add_summary(parser, "a table, one line a deck, with its first error")
     add_examples(
         parser,
@@ -34,21 +40,31 @@ def fill(parser: argparse.ArgumentParser) -> None:
             "A deck on standard input",
             "flexact check - < input_decks/paper/five_wires.dat",
         ),
+        (
+            "Marks beside the lines of a pull request, in a workflow of GitHub",
+            "flexact check input_decks/paper --format github",
+        ),
     )
     parser.set_defaults(run=check_decks)
 
 
 def check_decks(chosen: argparse.Namespace) -> ExitCode:
     """Read the decks that were asked for and say what is wrong with them."""
+    require_one_form(chosen)
     decks = find_decks(chosen.decks)
     if chosen.summary:
         return summarise(decks, ("errors", "warnings", "notes"), _counted)
-    return take(decks, _check)
+    if chosen.json:
+        return take(decks, _object, on_failure=_object_of_failure)
+    if chosen.format == TEXT:
+        return take(decks, _check)
+    findings = Findings(chosen.format)
+    return findings.finish(take(decks, findings.checked, on_failure=findings.failed))
 
 
 def _counted(deck: DeckFile) -> Told:
     """The line of a deck: how many problems it has."""
-    outcome = Outcome(deck.name, ExitCode.ANALYSED, "without errors")
+    outcome = _without_errors(deck)
     try:
         found = read_deck(deck).problems
     except DeckError as error:
@@ -64,4 +80,24 @@ def _check(deck: DeckFile) -> Outcome:
     model = read_deck(deck)
     report_problems(model)
     say(f"{harmless(deck.name)}: no errors")
+    return _without_errors(deck)
+
+
+def _without_errors(deck: DeckFile) -> Outcome:
     return Outcome(deck.name, ExitCode.ANALYSED, "without errors")
+
+
+def _object(deck: DeckFile) -> Outcome:
+    model = read_deck(deck)
+    report_problems(model)
+    _give(deck, model.problems)
+    return _without_errors(deck)
+
+
+def _object_of_failure(deck: DeckFile, error: Exception) -> None:
+    _give(deck, failures.problems_of(error))
+
+
+def _give(deck: DeckFile, problems: Problems) -> None:
+    made = load("flexact.findings.check_json").dictionary_of(deck.name, problems)
+    give(load("json").dumps(made))

@@ -31,7 +31,11 @@ def add_decks(parser: argparse.ArgumentParser) -> None:
 
 
 def take(
-    decks: Sequence[DeckFile], step: Callable[[DeckFile], Outcome], *, as_json: bool = False
+    decks: Sequence[DeckFile],
+    step: Callable[[DeckFile], Outcome],
+    *,
+    as_json: bool = False,
+    on_failure: Callable[[DeckFile, Exception], None] | None = None,
 ) -> ExitCode:
     """Take one deck after the other through `step`; a failing deck does not stop the rest.
 
@@ -39,6 +43,8 @@ def take(
         decks: The decks.
         step: What is done with a deck; it may raise DeckError, AnalysisError, BatchError.
         as_json: Whether stdout is for JSON alone.
+        on_failure: Says on stdout why a deck failed, in a form for programs, which stdout is for
+            then.
 
     Returns:
         The exit code of the command.
@@ -46,20 +52,28 @@ def take(
     outcomes = []
     for number, deck in enumerate(decks, start=1):
         show_progress(number, len(decks), deck.name)
-        outcomes.append(_attempt(deck, step, as_json))
+        outcomes.append(_attempt(deck, step, as_json, on_failure))
     end_progress()
     if text := summarise(outcomes):
-        complain(text) if as_json else say(text)
+        complain(text) if as_json or on_failure else say(text)
     return exit_code(outcomes)
 
 
-def _attempt(deck: DeckFile, step: Callable[[DeckFile], Outcome], as_json: bool) -> Outcome:
+def _attempt(
+    deck: DeckFile,
+    step: Callable[[DeckFile], Outcome],
+    as_json: bool,
+    on_failure: Callable[[DeckFile, Exception], None] | None,
+) -> Outcome:
     try:
         if deck.error is not None:
             raise deck.error
         return step(deck)
     except (DeckError, FolderError, AnalysisError, BatchError, MemoryError) as error:
-        return failures.report(deck, error, as_json=as_json)
+        outcome = failures.report(deck, error, as_json=as_json)
+        if on_failure is not None:
+            on_failure(deck, error)
+        return outcome
 
 
 def summarise(outcomes: Sequence[Outcome]) -> str:

@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import sys
-from typing import Any
 
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.terminal import columns_of, complain, give
-from flexact.diagnostics.diagnostic import Diagnostic, Severity
+from flexact.diagnostics.diagnostic import Diagnostic, Problems, Severity
 from flexact.diagnostics.errors import DeckError
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile, FolderError
@@ -37,9 +36,9 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
     """Report why a deck failed: rendered on stderr, and as one JSON line on stdout if asked."""
     report_failure(deck, error)
     if as_json:
-        records = _records(error)
-        total = error.problems.errors if isinstance(error, DeckError) else len(records)
-        failure = {"diagnostics": records, "errors": total}
+        problems = problems_of(error)
+        records = [each.to_dict() for each in problems.kept if each.is_error]
+        failure = {"diagnostics": records, "errors": problems.errors}
         # Loaded where it is wanted: a command that starts does not wait for it.
         head = load("flexact.text.json_result").header(deck.name)
         give(load("json").dumps({**head, "error": failure}))
@@ -77,8 +76,9 @@ def _reason(error: Exception) -> str:
     return harmless(str(error) or words)
 
 
-def _records(error: Exception) -> list[dict[str, Any]]:
-    if not isinstance(error, DeckError):
-        code = getattr(error, "code", CODES.get(type(error).__name__, "failed"))
-        return [Diagnostic(Severity.ERROR, code, _reason(error)).to_dict()]
-    return [each.to_dict() for each in error.diagnostics if each.is_error]
+def problems_of(error: Exception) -> Problems:
+    """Why a deck failed, as problems: those of the deck, else one without a place."""
+    if isinstance(error, DeckError):
+        return error.problems
+    code = getattr(error, "code", CODES.get(type(error).__name__, "failed"))
+    return Problems.of([Diagnostic(Severity.ERROR, code, _reason(error))])

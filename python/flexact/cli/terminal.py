@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import codecs
 import contextlib
+import errno
 import os
 import sys
 from collections.abc import Iterator
@@ -12,9 +14,12 @@ from typing import TextIO
 
 from flexact.base.columns import USUAL, refitted
 from flexact.base.errors import reason_of
-from flexact.base.plain_text import harmless
+from flexact.base.loading import load
+from flexact.base.plain_text import harmless, spelled
 from flexact.cli import colour
 
+#: What becomes of characters that an encoding lacks.
+_SPELLED = "flexact.spelled"
 #: No terminal counts as narrower.
 _LEAST = 20
 
@@ -53,7 +58,17 @@ def is_verbose() -> bool:
 
 def is_coloured(stream: TextIO | None) -> bool:
     """Whether a stream is to be coloured."""
-    return colour.is_wanted(stream, _MANNER.colour, os.environ)
+    wanted = colour.is_wanted(stream, _MANNER.colour, os.environ)
+    return wanted and (_obeys_escapes(stream) or _MANNER.colour == "always")
+
+
+def _obeys_escapes(stream: TextIO | None) -> bool:
+    """Whether escape sequences do what they say: older consoles of Windows show them instead."""
+    if sys.platform != "win32" or stream is None or not stream.isatty():
+        return True
+    number = 2 if stream is sys.stderr else 1
+    obeys: bool = load("flexact.base.windows").obeys_escapes(number)
+    return obeys
 
 
 def text_width(usual: int = USUAL, stream: TextIO | None = None) -> int:
@@ -125,6 +140,9 @@ def _results() -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
+        if sys.platform == "win32" and error.errno == errno.EINVAL:
+            # What Windows says of a pipe at whose end nobody reads on.
+            raise BrokenPipeError(errno.EPIPE, "nobody reads on") from error
         raise ResultsError(f"cannot write the results: {reason_of(error)}") from error
 
 
@@ -175,14 +193,16 @@ def _is_watched() -> bool:
         sys.stderr is not None
         and sys.stderr.isatty()
         and not (sys.stdout is not None and sys.stdout.isatty())
+        and _obeys_escapes(sys.stderr)
     )
 
 
 def accept_every_character() -> None:
-    """Let stdout and stderr spell out what their encoding lacks, rather than fail."""
+    """Let stdout and stderr spell out what their encoding lacks; lines end alike everywhere."""
+    codecs.register_error(_SPELLED, spelled)
     for stream in (sys.stdout, sys.stderr):
         if (reconfigure := getattr(stream, "reconfigure", None)) is not None:
-            reconfigure(errors="backslashreplace")
+            reconfigure(errors=_SPELLED, newline="\n")
 
 
 def discard(stream: TextIO | None) -> None:

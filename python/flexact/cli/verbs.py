@@ -19,6 +19,7 @@ VERBS = {
     "watch": "the page of a deck or a script in the browser, renewed whenever it is saved",
     "report": "a page of each deck, to open in a browser and to mail",
     "convert": "decks from and to tables as of SPACAR Light, and meshes of lines",
+    "bench": "how fast this machine is, in half a minute",
     "lsp": "a language server for editors, which start it",
     "completion": "a script by which a shell completes the words of this command",
     "help": "what a verb does, with its options and examples",

@@ -100,11 +100,6 @@ class _Renewed:
             words = "cannot be analysed"
         elif answer.problems:
             complain(harmless_lines(answer.problems))
-        encoding = sys.stdout.encoding or "ascii"
-        try:
-            words.encode(encoding)
-        except UnicodeEncodeError:
-            words = words.replace("\N{RIGHTWARDS ARROW}", "->")
         say(f"{time.strftime('%H:%M:%S')} {self._name}: {words}")
 
 
