@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Write the moving pages of the gallery, and what they share, as files beside them.
+
+Usage: live.py FOLDER, which is emptied.
+"""
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import gallery  # noqa: E402
+
+from flexact.page.assets import SCRIPTS, asset, script  # noqa: E402
+from flexact.page.page import page  # noqa: E402
+
+#: From disk a page has no origin, so its files are allowed by their scheme.
+POLICY = (
+    "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src data:; "
+    "base-uri 'none'; form-action 'none'"
+)
+
+
+def shared(text: str) -> str:
+    """The page with its scripts and styles beside it."""
+    for name in SCRIPTS:
+        embedded = f"<script>{script(name)}</script>"
+        beside = f'<script src="{"three.js" if name == SCRIPTS[0] else "viewer.js"}"></script>'
+        if text.count(embedded) != 1:
+            raise SystemExit(f"A page of the gallery has not one {name}.")
+        text = text.replace(embedded, beside if name in (SCRIPTS[0], SCRIPTS[-1]) else "")
+    text = re.sub(
+        r"<style>.*?</style>", '<link rel="stylesheet" href="style.css">', text, count=1, flags=re.S
+    )
+    return re.sub(r'(Security-Policy" content=")[^"]*', rf"\g<1>{POLICY}", text, count=1)
+
+
+def main(folder: Path) -> None:
+    """Write all."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    (folder / "three.js").write_text(asset(SCRIPTS[0]), encoding="utf-8")
+    rest = "\n".join(asset(name) for name in SCRIPTS[1:])
+    (folder / "viewer.js").write_text(rest, encoding="utf-8")
+    (folder / "style.css").write_text(asset("style.css"), encoding="utf-8")
+    for each in gallery.scripts():
+        text = page(gallery.analysis_of(each))
+        (folder / f"{each.stem}.html").write_text(shared(text), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
