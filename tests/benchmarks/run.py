@@ -25,6 +25,8 @@ from commands import (
     parts_against_one,
     reading_against_split,
 )
+from large_end import table as large_table
+from large_end import threads_table
 from picture import draw
 from trade import METHODS, NAMES, Outcome, best_peer, errors_of_smallest, one_of, outcomes
 
@@ -51,7 +53,8 @@ def main() -> None:
     commands = _commands()
     found = outcomes(_QUICK) if quick else outcomes()
     errors = errors_of_smallest(_CONDITIONED[1:3] if quick else _CONDITIONED)
-    parts = [commands, _speed(found), _accuracy(found, errors), _verdicts(found)]
+    large = [] if quick else [large_table(), threads_table()]
+    parts = [commands, _speed(found), *large, _accuracy(found, errors), _verdicts(found)]
     text = "\n\n".join("\n".join(part) for part in parts) + "\n"
     print(text)
     if quick:

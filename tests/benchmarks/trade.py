@@ -165,12 +165,12 @@ def _remember_orderings(found: list[Outcome], orderings: dict[str, str]) -> None
 
 def _in_turn(calls: dict[str, list[str]]) -> dict[str, list[dict[str, Any]]]:
     """What each call printed, by round; a contestant that fails is left out."""
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    environment = environment_of(1)
     found: dict[str, list[dict[str, Any]]] = {name: [] for name in calls}
     start = time.perf_counter()
     for _ in range(_ROUNDS):
         for name in list(found):
-            answer = _answer(calls[name], environment)
+            answer = answer_of(calls[name], environment)
             if isinstance(answer, str):
                 print(f"{name} gave no answer: {answer}", flush=True)
                 del found[name]
@@ -181,13 +181,22 @@ def _in_turn(calls: dict[str, list[str]]) -> dict[str, list[dict[str, Any]]]:
     return {name: seen for name, seen in found.items() if seen}
 
 
-def _answer(call: list[str], environment: dict[str, str]) -> dict[str, Any] | str:
+def environment_of(threads: int) -> dict[str, str]:
+    """So many threads for certain: some libraries take more, unless OpenMP has a limit."""
+    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT")
+    return dict(os.environ, **dict.fromkeys(names, str(threads)))
+
+
+def answer_of(
+    call: list[str], environment: dict[str, str], limit: float = _LIMIT
+) -> dict[str, Any] | str:
+    """What a contestant printed, or why it did not."""
     try:
         ran = subprocess.run(
-            call, env=environment, capture_output=True, text=True, timeout=_LIMIT, check=True
+            call, env=environment, capture_output=True, text=True, timeout=limit, check=True
         )
     except subprocess.TimeoutExpired:
-        return f"more than {_LIMIT:.0f} s"
+        return f"more than {limit:.0f} s"
     except subprocess.CalledProcessError as error:
         return (error.stderr.strip() or f"exit {error.returncode}").splitlines()[-1]
     answer: dict[str, Any] = json.loads(ran.stdout)
@@ -228,11 +237,11 @@ def _outcome(
 def errors_of_smallest(cases: tuple[tuple[str, int], ...]) -> list[dict[str, Any]]:
     """Relative errors of the smallest singular value by method (smallest_value.py)."""
     methods = [*METHODS[1:], METHODS[0]]
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
+    environment = environment_of(1)
     made = []
     for kind, size in cases:
         script = str(HERE / "smallest_value.py")
-        answer = _answer([sys.executable, script, kind, str(size), *methods], environment)
+        answer = answer_of([sys.executable, script, kind, str(size), *methods], environment)
         print(f"smallest value, {kind} {size}: {answer}", flush=True)
         if not isinstance(answer, str):
             made.append(answer)

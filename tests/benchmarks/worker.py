@@ -4,8 +4,8 @@
     python tests/benchmarks/worker.py FAMILY COLUMNS METHOD
 
 METHOD is one of Flexact's, or `dgesdd`, numpy's SVD of the same matrix with both bases. Prints
-a line of JSON: time [s], growth of the resident memory [bytes], what was found, and the largest
-residual of a null vector of unit length.
+a line of JSON: time [s], time and processor time of the first call, growth of the resident
+memory [bytes], what was found, and the largest residual of a null vector of unit length.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from families import FAMILIES, Case, two_bars
@@ -28,6 +28,21 @@ import flexact
 from flexact.core.basis import Basis
 
 _T = TypeVar("_T")
+
+
+class Took(NamedTuple):
+    """What a call took."""
+
+    time: float
+    """Median of some calls [s]."""
+    first: float
+    """Of the first [s]."""
+    processor: float
+    """Of the first, processor time [s]."""
+    memory: int
+    """By how much the resident memory grew at most [bytes]."""
+
+
 #: Null vectors of which the residual is computed.
 _LOOKED_AT = 64
 #: A call that takes less than this [s] is repeated, the first one having warmed up ...
@@ -48,10 +63,10 @@ def main() -> None:
 
 def _by_numpy(matrix: Columns) -> dict[str, Any]:
     full = matrix.toarray()
-    (u, s, vt), seconds, memory = _measured(lambda: np.linalg.svd(full, full_matrices=True))
+    (u, s, vt), took = _measured(lambda: np.linalg.svd(full, full_matrices=True))
     rank = int(np.count_nonzero(s > max(full.shape) * np.finfo(float).eps * s[0]))
     motions, stresses = Basis.of_dense(vt[rank:].T), Basis.of_dense(u[:, rank:])
-    return _result(seconds, memory, (motions, stresses), matrix)
+    return _result(took, (motions, stresses), matrix)
 
 
 def _by_flexact(case: Case, matrix: Columns, method: str) -> dict[str, Any]:
@@ -64,10 +79,10 @@ def _by_flexact(case: Case, matrix: Columns, method: str) -> dict[str, Any]:
 
     # What is imported late is neither time nor memory of the analysis.
     _ = flexact.analyse(two_bars(0.1, 0.2), method=method).certainty
-    analysis, seconds, memory = _measured(analyse)
+    analysis, took = _measured(analyse)
     raw = analysis.raw
     bases = (_scaled(raw.motions, raw.column_scale), _scaled(raw.stresses, raw.row_scale))
-    found = _result(seconds, memory, bases, matrix)
+    found = _result(took, bases, matrix)
     found |= {"motions": analysis.under_constrained, "stresses": analysis.over_constrained}
     nearly = analysis.nearly
     found["nearly"] = None if nearly is None else list(nearly)
@@ -79,18 +94,14 @@ def _scaled(basis: Basis, scale: NDArray[np.float64]) -> Basis:
     return basis._replace(value=basis.value / scale[basis.place])
 
 
-def _result(
-    seconds: float, memory: int, bases: tuple[Basis, Basis], matrix: Columns
-) -> dict[str, Any]:
+def _result(took: Took, bases: tuple[Basis, Basis], matrix: Columns) -> dict[str, Any]:
     column = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.start))
     residual = max(
         _residual(bases[0], matrix.row, column, matrix),
         _residual(bases[1], column, matrix.row, matrix),
     )
     motions, stresses = (basis.vectors for basis in bases)
-    return {
-        "time": seconds,
-        "memory": memory,
+    return took._asdict() | {
         "motions": motions,
         "stresses": stresses,
         "residual": residual,
@@ -108,18 +119,19 @@ def _residual(
     return largest
 
 
-def _measured(call: Callable[[], _T]) -> tuple[_T, float, int]:
-    """Result, median time [s], and by how much the resident memory grew at most [bytes]."""
+def _measured(call: Callable[[], _T]) -> tuple[_T, Took]:
+    """Result, and what it took."""
     _forget_peak()
-    before = _memory("VmRSS:")
+    before, busy = _memory("VmRSS:"), time.process_time()
     times: list[float] = []
     made = _timed(call, times)
+    first, processor = times[0], time.process_time() - busy
     memory = _memory("VmHWM:") - before
     if times[0] < _SHORT:
         times.clear()
         while len(times) < _MOST_RUNS and sum(times) < _LONG_ENOUGH:
             made = _timed(call, times)
-    return made, statistics.median(times), memory
+    return made, Took(statistics.median(times), first, processor, memory)
 
 
 def _timed(call: Callable[[], _T], times: list[float]) -> _T:
