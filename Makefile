@@ -11,14 +11,14 @@ PYTEST := OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist workstea
 # What make check asks of the package: see CONTRIBUTING.md.
 QUICK := element_table paper invariance analysis analysis_result methods margin model model_errors boundary \
          derivatives certainty accuracy json advice advice_on_declarations modes broken_decks no_cascades \
-         diagnostics_rendering reading regress engine cli outputs wording docs version package_files parts screws \
+         diagnostics_rendering reading regress engine cli outputs wording docs docs_elements version package_files parts screws \
          builder_words builder_bodies builder_edits gallery sweep crossings notebooks elastic_core \
          stiffness_cases
 
 # Tests that compare words with files.
-WORDED := wording advice_wording broken_decks appearance docs element_table gallery keywords
+WORDED := wording advice_wording broken_decks appearance docs docs_sessions element_table gallery keywords
 
-.PHONY: demo test check core-test lint wording gallery vscode attack fuzz bench reference clean
+.PHONY: demo test check core-test lint wording gallery vscode attack fuzz bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -46,16 +46,18 @@ lint: .venv/ready-to-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/fprettify --diff --recursive fortran tests/fortran tests/fuzz | (! grep .)
+	$(BIN)/fprettify --diff --recursive fortran tests/fortran tests/fuzz tests/patterns tests/second_opinion | (! grep .)
 
 # Write what results and messages say now where the tests compare it; read git diff afterwards.
 wording: .venv/ready-to-test
 	$(BIN)/python -m pytest --renew-wording $(WORDED:%=tests/python/test_%.py)
 	git diff --stat -- tests/python/golden tests/python/decks input_decks/broken README.md docs
 
-# Pages of the gallery, and in results/gallery those that move.
+# Pages of the gallery, in results/gallery those that move, and pictures of other pages.
 gallery: .venv/ready-to-run
 	$(BIN)/python tools/gallery.py results/gallery
+	$(BIN)/python tools/element_pictures.py
+	$(BIN)/python tools/page_pictures.py
 
 # The extension for VS Code, editors/vscode/flexact-*.vsix; needs Node.js.
 vscode:
@@ -73,13 +75,46 @@ fuzz: .venv/ready-to-test
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test
 	$(BIN)/python tests/benchmarks/run.py
+	$(BIN)/python paper/make.py --numbers
 
 # What a finite-element package that is not ours (CalculiX) finds; some minutes.
 reference: .venv/ready-to-test
 	$(BIN)/python tests/reference/finite_elements/run.py
 
-clean:
-	rm -rf .venv build results
+# Ten million small random sparse matrices and ten thousand larger ones through the Cholesky factor; minutes.
+patterns: .venv/ready-to-test
+	PATH="$(CURDIR)/$(BIN):$$PATH" tests/patterns/run.sh
+# The paper's figures and numbers, and results/paper.html where pandoc is installed.
+paper: .venv/ready-to-run
+	$(BIN)/python paper/make.py
 
-.venv/ready-to-run .venv/ready-to-test: $(SOURCES)
+# Wheels that hold all they need, in dist/; as root for the Pythons of two Debians. See docs/installing.md.
+wheel: .venv/ready-to-run
+	PYTHON="$(PYTHON)" tools/wheel.sh
+
+# They at work in systems that have Python alone; needs root.
+wheel-test:
+	PYTHON="$(PYTHON)" tools/wheel_test.sh
+
+# The sources as they are published, in dist/, built from there in an environment of its own.
+sdist: .venv/ready-to-run
+	PYTHON="$(PYTHON)" tools/sdist.sh
+
+# The same analyses by our factor and by CHOLMOD's, which no count may tell apart; some minutes.
+second-opinion: .venv/ready-to-test
+	PATH="$(CURDIR)/$(BIN):$$PATH" tests/second_opinion/build.sh
+	OPENBLAS_NUM_THREADS=1 build/patterns/tests/second_opinion/test_second_opinion 1000
+	$(BIN)/python tests/second_opinion/run.py
+
+# The site, results/site/index.html: read from disk, without a network. Its links are checked.
+docs: .venv/ready-to-docs
+	$(BIN)/python tools/site/live.py results/live
+	@# The generator's older major version is asked for: a notice of the newer one is not wanted.
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet -f tools/site/mkdocs.yml
+	$(BIN)/python tools/site/check.py results/site
+
+clean:
+	rm -rf .venv build results dist
+
+.venv/ready-to-run .venv/ready-to-test .venv/ready-to-docs: $(SOURCES)
 	PYTHON="$(PYTHON)" tools/setup.sh $(@:.venv/ready-to-%=%)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Install what Flexact needs into .venv, and from the system's packages what a
-# virtual environment cannot hold. Usage: tools/setup.sh run|test
+# virtual environment cannot hold. Usage: tools/setup.sh run|test|docs
 # NUMPY="numpy==1.26.*" asks for another numpy than the newest.
 set -eu
 cd "$(dirname "$0")/.."
@@ -25,7 +25,13 @@ has_lapack() {
     return 1
 }
 
-# Optional in the build, for the method sparse; here it is always wanted.
+# Optional in the build, for orders of elimination of large models in space; here it is always wanted.
+has_metis() {
+    printf '#include <metis.h>\nint main(void) { idx_t n = 0; return METIS_NodeND(&n, 0, 0, 0, 0, 0, 0); }\n' |
+        cc -x c - -o /dev/null -lmetis >/dev/null 2>&1
+}
+
+# For tests and benchmarks, which compare our factorisation with it.
 has_cholmod() {
     printf '#include <cholmod.h>\nint main(void) { cholmod_common c; return !cholmod_start(&c); }\n' |
         cc -x c - -I/usr/include/suitesparse -o /dev/null -lcholmod >/dev/null 2>&1
@@ -61,7 +67,8 @@ missing_packages() {
     has_command gfortran || echo gfortran libc6-dev
     has_command cc || echo gcc libc6-dev
     { has_command gfortran && has_lapack; } || echo libopenblas-dev
-    { has_command cc && has_cholmod; } || echo libsuitesparse-dev
+    { has_command cc && has_metis; } || echo libmetis-dev
+    [ "$purpose" != test ] || { has_command cc && has_cholmod; } || echo libsuitesparse-dev
     { has_command cc && has_flint; } || echo libflint-dev
     "$python" -c 'import venv, ensurepip' >/dev/null 2>&1 || echo python3-venv
     has_python_headers || echo python3-dev
@@ -107,11 +114,14 @@ fi
 
 [ -x .venv/bin/python ] || "$python" -m venv .venv
 requirements="pip>=23.1 meson-python>=0.17 meson ninja ${NUMPY:-numpy} meshio tqdm threadpoolctl matplotlib pillow"
-[ "$purpose" = run ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis imageio-ffmpeg jsonschema mpmath selenium vtk pyarrow pypdfium2 PyYAML pygls>=2 ruff mypy fprettify"
+[ "$purpose" != docs ] || requirements="$requirements mkdocs>=1.6,<2 mkdocs-material>=9.5 mkdocstrings[python]>=0.26"
+[ "$purpose" != test ] || requirements="$requirements distributed pandas pytest pytest-xdist hypothesis imageio-ffmpeg jsonschema check-jsonschema pre-commit pysarif trove-classifiers mpmath selenium vtk pyarrow pypdfium2 PyYAML pygls>=2 ruff mypy fprettify"
 echo "Preparing .venv"
 # shellcheck disable=SC2086
 .venv/bin/python -m pip install --quiet --disable-pip-version-check $requirements ||
     fail "The Python packages could not be installed: $requirements" "A package index must be within reach of pip."
+# Options whose kind has changed cannot be told to a folder that knows the old ones.
+[ ! meson.options -nt build/python/build.ninja ] || rm -rf build/python
 echo "Building Flexact"
 PATH="$PWD/.venv/bin:$PATH" .venv/bin/python -m pip install --quiet --disable-pip-version-check \
     --no-build-isolation --no-deps -Cbuild-dir=build/python . || fail "The build failed: see above."
