@@ -59,11 +59,21 @@ def names_of(enumeration: str) -> dict[str, int]:
     Raises:
         LookupError: the core has no such enumeration.
     """
+    first, words = _words_of(enumeration)
+    return {word: first + i for i, word in enumerate(words)}
+
+
+def linked() -> dict[str, str]:
+    """The libraries that the core is linked with, and their licences."""
+    return dict(zip(_words_of("linked")[1], _words_of("licences")[1], strict=True))
+
+
+def _words_of(enumeration: str) -> tuple[int, list[str]]:
+    """The value of the first word, and the words."""
     names, first, count = _core.describe_names(np.frombuffer(enumeration.encode(), np.int8))
     if not count:
         raise LookupError(f"the core has no enumeration {enumeration!r}")
-    words = [names[:, i].tobytes().decode("ascii").strip() for i in range(count)]
-    return {word: first + i for i, word in enumerate(words)}
+    return first, [names[:, i].tobytes().decode("ascii").strip() for i in range(count)]
 
 
 #: Ways to decompose D(c).
@@ -231,7 +241,8 @@ def analyse_model(
         model: the model.
         method: one of `METHODS`.
         tolerance: scaled singular values up to here count as zero; None: from the data.
-        stage: (2,) kept up to date while the call runs: stage (an index of `STAGES`), per cent.
+        stage: (3,) kept up to date while the call runs: stage (an index of `STAGES`), per cent;
+            and what the caller sets to 1 to have the call end soon, by an error.
         memory: bytes that may be used.
         only_plain_values: whether, in place of all else, the singular values of D(c) itself
             are wanted (by the method sparse the smallest), as `scaled_values`.
@@ -256,7 +267,7 @@ def analyse_model(
             ),
             float,
         ),
-        np.zeros(2, np.int32) if stage is None else stage,
+        np.zeros(3, np.int32) if stage is None else stage,
         index,
         place,
         value,

@@ -15,7 +15,7 @@ from ..base.memory import address_space
 _NARROW = 2.0**31
 #: What numpy's own BLAS takes for a buffer, and more [bytes].
 _BUFFER = 2**26
-#: What numpy, the core and SuiteSparse take when they are loaded, but for buffers [bytes].
+#: What numpy and the core take when they are loaded, but for buffers [bytes].
 _LIBRARIES = 2**27
 _VARIABLE = "OPENBLAS_NUM_THREADS"
 

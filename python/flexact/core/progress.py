@@ -21,12 +21,12 @@ Result = TypeVar("Result")
 
 
 def reported(work: Callable[[IntArray], Result], progress: Progress) -> Result:
-    """The result of work that says in a (2,) array, stage and per cent, how far it is.
+    """The result of work that says in a (3,) array, stage and per cent, how far it is.
 
     It runs in a thread of its own, so that this one stays awake for Ctrl-C: the work is then
-    left to itself, and what it gives is dropped.
+    told to end soon, and what it gives is dropped.
     """
-    stage = np.zeros(2, np.int32)
+    stage = np.zeros(3, np.int32)
     results: list[Result] = []
     errors: list[BaseException] = []
 
@@ -39,11 +39,16 @@ def reported(work: Callable[[IntArray], Result], progress: Progress) -> Result:
     thread = threading.Thread(target=run, name="flexact", daemon=True)
     thread.start()
     working = True
-    while working:
-        number, per_cent = stage.tolist()
-        progress(STAGES[min(max(number, 0), len(STAGES) - 1)], min(max(per_cent / 100.0, 0.0), 1.0))
-        thread.join(_PAUSE)
-        working = thread.is_alive()
+    try:
+        while working:
+            number, per_cent, _ = stage.tolist()
+            name = STAGES[min(max(number, 0), len(STAGES) - 1)]
+            progress(name, min(max(per_cent / 100.0, 0.0), 1.0))
+            thread.join(_PAUSE)
+            working = thread.is_alive()
+    except BaseException:
+        stage[2] = 1
+        raise
     if errors:
         raise errors[0]
     return results[0]

@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
+import sys
 from typing import BinaryIO
 
+from ..base.loading import load
 from ..core import calls
 from ..diagnostics.diagnostic import Diagnostic, Place, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError
@@ -20,6 +23,7 @@ from ..model.properties import Properties
 LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+_ALONE = re.compile(rb"\r(?!\n)")
 _SAMPLE = 65536
 _PIECE = 2**20
 _CONTROLS = bytes(c for c in range(32) if chr(c) not in "\t\n\r\f\v\x1a") + b"\x7f"
@@ -52,7 +56,9 @@ def file_bytes(path: str) -> bytes:
         DeckError: the file cannot be read.
     """
     try:
-        status = os.stat(path)
+        is_windows = sys.platform == "win32"
+        place = load("flexact.files.names").reachable(path) if is_windows else path
+        status = os.stat(place)
         if stat.S_ISDIR(status.st_mode):
             raise _file_error(
                 path, "is-a-folder", "this is a folder, not a deck", "name a deck in it"
@@ -63,7 +69,7 @@ def file_bytes(path: str) -> bytes:
             )
         if status.st_size > LARGEST_DECK:
             raise _too_large(path)
-        with open(path, "rb") as file:
+        with open(place, "rb") as file:
             return _content(file, status.st_size)
     except FileNotFoundError:
         hint = "check its name and its folder"
@@ -98,9 +104,9 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
     if raw.startswith(_UTF8_MARK):
         raw = raw[len(_UTF8_MARK) :]
     raw = raw.removesuffix(b"\x1a")
-    if b"\r" in raw and b"\n" not in raw:
-        # Lines of an old Mac.
-        raw = raw.replace(b"\r", b"\n")
+    if raw.count(b"\r") != raw.count(b"\r\n"):
+        # Lines of an old Mac, which may stand among others; no character moves within its line.
+        raw = _ALONE.sub(b"\n", raw)
     _require_text(raw, name)
     source = Source(raw, name)
     try:

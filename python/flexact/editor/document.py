@@ -167,26 +167,8 @@ class Document:
     def place_of(self, line: int, column: int) -> Position:
         """The position of a line and a character of the core's, both from 1.
 
-        The core ends lines at LF, and at CR only where there is no LF.
+        Both end lines at LF, CR and CR LF.
         """
         if self.text.startswith(_BYTE_MARK) and line == 1:
             column += 1
-        starts = self._starts_of_core
-        if starts is None:
-            return self.clamped(Position(line - 1, column - 1))
-        return self._at(starts[min(line, len(starts)) - 1] + column - 1)
-
-    @cached_property
-    def _starts_of_core(self) -> list[int] | None:
-        """Where the core's lines start; None where they are the editor's."""
-        lone = self.text.count("\r") - self.text.count("\r\n")
-        if not lone or "\n" not in self.text:
-            return None
-        return [0, *(found.end() for found in re.finditer("\n", self.text))]
-
-    def _at(self, offset: int) -> Position:
-        for line, text in enumerate(self.lines):
-            if offset < len(text) or line == len(self.lines) - 1:
-                return self.clamped(Position(line, offset))
-            offset -= len(text)
-        raise AssertionError("a document has a line")
+        return self.clamped(Position(line - 1, column - 1))

@@ -27,6 +27,8 @@ from .worker import serve
 
 #: Forked processes are not safe with the libraries of macOS, and Windows has none.
 FORKS = sys.platform not in ("darwin", "win32")
+#: Lines that Windows can wait for at once, but for a few.
+_MOST_ON_WINDOWS = 60
 #: How often it is asked whether a worker whose line is silent is alive [s].
 _LOOK = 1.0
 
@@ -42,7 +44,7 @@ class LocalPool:
         """
         self._context: Any = multiprocessing.get_context("fork" if FORKS else "spawn")
         self._function = function if FORKS else pickled(function)
-        self._most = workers
+        self._most = min(workers, _MOST_ON_WINDOWS) if sys.platform == "win32" else workers
         self._workers: list[Member] = []
         # Those that are forked have it then.
         load("threadpoolctl")

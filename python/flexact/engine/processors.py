@@ -3,12 +3,37 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
+from pathlib import Path
+
+from ..base.loading import load
 
 
-def processors() -> int:
-    """Processors that this process may use; the bounds of a job or a container count."""
+def processors(root: Path = Path("/")) -> int:
+    """Processors that this process may use; the bounds of a job or a container count.
+
+    Of a share, such as the time of 1.5 processors, the next whole number.
+
+    Args:
+        root: Where `proc` and `sys` are.
+    """
+    count = _given()
+    share = math.inf
+    if sys.platform == "win32":
+        share = load("flexact.base.windows").processors(count)
+    elif sys.platform == "linux":
+        share = load("flexact.base.control_groups").processors(root)
+    # What rounding leaves is no processor.
+    return max(1, count if share >= count else math.ceil(share - 1e-9))
+
+
+def _given() -> int:
+    """Those that are set, as by taskset or a cluster, else all."""
+    # From Python 3.13 on it knows PYTHON_CPU_COUNT as well.
+    if (counted := getattr(os, "process_cpu_count", None)) is not None:
+        return counted() or 1
     if sys.platform != "win32" and hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -58,6 +58,10 @@ class DeckNames(Sequence[str]):
         """All names, faster than one by one."""
         return map(self._between, *self._places.tolist())
 
+    def are_there(self) -> bool:
+        """Whether there is any name."""
+        return bool(self._places[0].any())
+
     def _between(self, first: int, last: int) -> str:
         return decode(self._text[first - 1 : last]) if first > 0 else ""
 
@@ -121,10 +125,11 @@ class ModelData(Frozen):
 
     def _names_as_text(self) -> tuple[bytes, IntArray]:
         """All names in one text, and first and last place of each, from 1; 0 without one."""
-        names = [*self.element_names, *self.node_names]
-        places = np.zeros((2, len(names)), np.int32, order="F")
-        if not any(names):
+        every = (self.element_names, self.node_names)
+        places = np.zeros((2, sum(map(len, every))), np.int32, order="F")
+        if not any(e.are_there() if isinstance(e, DeckNames) else any(e) for e in every):
             return b"", places
+        names = [name for names in every for name in names]
         words = [name.encode("utf-8", "replace") for name in names]
         lengths = np.fromiter(map(len, words), np.int64, len(words))
         last = np.cumsum(lengths)

@@ -24,8 +24,7 @@ class AnalysisError(FlexactError):
 #: How the core may fail, in words.
 _FAILURES = {
     "convergence": "the decomposition of D(c) did not converge",
-    "library": "this build of Flexact has no SuiteSparse, which the method 'sparse' needs: "
-    "install it (apt-get install libsuitesparse-dev), then build Flexact again",
+    "interrupted": "the analysis was stopped",
 }
 #: Methods that were there once, and what serves instead.
 _REMOVED = {"qr": "use svd, or auto"}
@@ -86,8 +85,7 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
     Raises:
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
-        AnalysisError: it is too large for the memory, there was no convergence, or this build
-            lacks what the method needs.
+        AnalysisError: it is too large for the memory, or there was no convergence.
     """
     data.require_sound()
     # Below a bound of what it may need, nobody has to look how much there is.

@@ -20,6 +20,7 @@ from ..core import calls
 from ..core.arrays import FloatArray
 from ..core.basis import Basis
 from ..core.elements import NodeKind, Role, length_table, role_table
+from ..core.raw import RawAssembly
 from .outcome import Outcome
 from .sensitivity import Pair, affordable_pairs, of_nonzeros, of_zeros
 from .sparse_basis import Sparse, index_of
@@ -187,10 +188,12 @@ def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, Float
     bit; the others come from products, of which a small entry may be no more than the rounding.
     """
     arrays, raw = outcome.data.arrays, outcome.raw
-    whole = outcome.assembly
     element, deformation = raw.row_label[:, rows] - 1
     node, axis = raw.column_label - 1
-    row_of = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
+    used = np.flatnonzero(np.bincount(element, minlength=arrays.element_number.size))
+    whole = _assembly_of(outcome, used)
+    here = np.searchsorted(used, element)
+    row_of = index_of(6 * here + deformation, 6 * used.size)[whole.row_of]
     column_of = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
     chosen = (row_of >= 0) & (column_of >= 0) & (whole.value != 0.0)
     matrix = Sparse(row_of, column_of, whole.value, rows.size).only(chosen)
@@ -204,6 +207,16 @@ def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, Float
     np.maximum.at(largest, matrix.row_of, np.abs(matrix.value) * scale)
     of_row = largest[matrix.row_of] / scale
     return matrix, np.where(direction, np.abs(matrix.value), of_row)
+
+
+def _assembly_of(outcome: Outcome, elements: NDArray[np.integer]) -> RawAssembly:
+    """The Jacobian of some elements alone, of which there may be few among very many."""
+    packed = outcome.data.packed
+    some = packed._replace(
+        elements=np.asfortranarray(packed.elements[:, elements]),
+        vectors=np.asfortranarray(packed.vectors[:, elements]),
+    )
+    return calls.assemble(some, outcome.data.arrays.node_value, np.zeros(elements.size))
 
 
 def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArray:

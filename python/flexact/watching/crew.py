@@ -24,6 +24,11 @@ _START = (
 _HOME = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
+#: How long it may take to end what a worker has started, where another program does that [s].
+_PATIENCE = 5.0
+_CRASHED = 2**31
+
+
 class WorkerError(Exception):
     """A worker ended before it had an answer; the text says how."""
 
@@ -37,7 +42,7 @@ class Worker:
             [sys.executable, "-c", _START, _HOME],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            start_new_session=True,
+            **_apart(),
         )
         assert self._process.stdin is not None
         assert self._process.stdout is not None
@@ -81,11 +86,28 @@ class Worker:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self._process.pid, signal.SIGKILL)
         else:
+            with contextlib.suppress(OSError, subprocess.SubprocessError):
+                subprocess.run(
+                    ["taskkill", "/F", "/T", "/PID", str(self._process.pid)],
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    timeout=_PATIENCE,
+                )
             self._process.kill()
         self._process.wait()
 
 
+def _apart() -> dict[str, Any]:
+    """What starts a process that Ctrl-C of this terminal is not for."""
+    if sys.platform == "win32":
+        return {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0x200)}
+    return {"start_new_session": True}
+
+
 def _how(code: int) -> str:
+    if code >= _CRASHED:
+        # How Windows says of what a process died.
+        return f"the process ended with code {code:#010x} before it had an answer"
     if code >= 0:
         return f"the process ended with code {code} before it had an answer"
     name = signal.strsignal(-code) or f"signal {-code}"

@@ -44,7 +44,7 @@ def refusal(headers: Message, port: int, *, writes: bool) -> str:
 
 def token_of(path: str) -> str:
     """What the address of a deck holds: the same each time, so that open pages find it again."""
-    name = os.path.realpath(path).encode("utf-8", "surrogateescape")
+    name = os.fsencode(os.path.realpath(path))
     return hmac.new(_key(), name, hashlib.sha256).hexdigest()[:32]
 
 
@@ -55,7 +55,7 @@ def is_token(given: str, token: str) -> bool:
 
 def port_of(path: str) -> int:
     """The port that is tried first for a deck, the same each time."""
-    name = os.path.realpath(path).encode("utf-8", "surrogateescape")
+    name = os.fsencode(os.path.realpath(path))
     return _FIRST_PORT + int.from_bytes(hashlib.sha256(name).digest()[:4], "big") % _PORTS
 
 
@@ -67,7 +67,8 @@ def _key() -> bytes:
     with contextlib.suppress(OSError, RuntimeError):
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         with contextlib.suppress(FileExistsError):
-            number = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+            how = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+            number = os.open(file, how, 0o600)
             with open(number, "wb") as new:
                 new.write(made)
         kept = file.read_bytes()

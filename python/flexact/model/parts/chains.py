@@ -16,6 +16,8 @@ from ..names import part_name
 #: Cosine of the largest angle between neighbours in a row; between those of one name.
 _IN_ROW = 0.7071
 _OF_ONE_NAME = 0.2588
+#: Rounding of a cosine, with room.
+_SLACK = 1e-9
 #: A row whose ends are nearer to each other than this part of its length is no sheet.
 _STRAIGHTNESS = 0.5
 #: Deformation at the other end of a beam, by deformation, both from 0.
@@ -141,7 +143,7 @@ def perhaps_condensed(arrays: ModelArrays, names: Sequence[str], classes: IntArr
         (variants,)
     """
     found = np.zeros(len(classes), np.bool_)
-    for (i, at_i), (j, at_j) in _joined(arrays, _is_beam(arrays)):
+    for (i, at_i), (j, at_j) in _as_pairs(*_joined(arrays, _is_beam(arrays))):
         if arrays.element_kind[i] != arrays.element_kind[j] or not _may_be_one_part(names, i, j):
             continue
         swap = _OTHER_END if arrays.deformation_class[3, i] else _OTHER_END_IN_PLANE
@@ -159,13 +161,11 @@ def _may_be_one_part(names: Sequence[str], i: int, j: int) -> bool:
     return not mine or not other or mine == other
 
 
-def _joined(
-    arrays: ModelArrays, beams: BoolArray
-) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-    """Beam and end (0 at p, 1 at q) of both of two that are alone at a free node."""
+def _joined(arrays: ModelArrays, beams: BoolArray) -> tuple[IntArray, IntArray]:
+    """Beams and ends (0 at p, 1 at q), (pairs, 2), of two that are alone at a free node."""
     a = arrays
     if np.count_nonzero(beams) < 2:
-        return
+        return np.zeros((0, 2), np.int32), np.zeros((0, 2), np.int32)
     nodes = a.node_number.size
     uses = np.bincount(a.element_node[a.element_node > 0] - 1, minlength=nodes)
     free = np.all(
@@ -179,13 +179,28 @@ def _joined(
     position, orientation = ends[2 * end, at], ends[2 * end + 1, at]
     order = np.lexsort((beam[at], position))
     position, orientation = position[order], orientation[order]
-    end, at = end[order], at[order]
-    same = np.flatnonzero((position[1:] == position[:-1]) & (orientation[1:] == orientation[:-1]))
-    for k in same.tolist():
-        one = int(beam[at[k]]), int(end[k])
-        other = int(beam[at[k + 1]]), int(end[k + 1])
-        if one[0] != other[0]:
-            yield one, other
+    end, beam = end[order], beam[at[order]]
+    same = (position[1:] == position[:-1]) & (orientation[1:] == orientation[:-1])
+    first = np.flatnonzero(same & (beam[1:] != beam[:-1]))
+    both = np.column_stack([first, first + 1])
+    return beam[both].astype(np.int32), end[both].astype(np.int32)
+
+
+def _as_pairs(beams: IntArray, ends: IntArray) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+    """Beam and end of the one and of the other, pair by pair."""
+    for (i, j), (at_i, at_j) in zip(beams.tolist(), ends.tolist(), strict=True):
+        yield (i, at_i), (j, at_j)
+
+
+def _nearly_in_line(arrays: ModelArrays, beams: IntArray, ends: IntArray) -> BoolArray:
+    """Which pairs may go on in line: all others are seen at once that they do not, (pairs,)."""
+    way = np.diff(arrays.node_value[:3, arrays.element_node[[0, 2]][:, beams] - 1], axis=1)[:, 0]
+    # From the first beam into the second: the one ends, the other begins at the node.
+    along = way * np.where(ends == [1, 0], 1.0, -1.0)
+    products = np.einsum("ij,ij->j", along[:, :, 0], along[:, :, 1])
+    lengths = np.sqrt(np.einsum("ijk,ijk->jk", way, way)).prod(axis=1)
+    made: BoolArray = products >= (min(_IN_ROW, _OF_ONE_NAME) - _SLACK) * lengths
+    return made
 
 
 class _Neighbours:
@@ -195,7 +210,9 @@ class _Neighbours:
         self.arrays = arrays
         self.names = names
         self.next_of: dict[tuple[int, int], tuple[int, int]] = {}
-        for pair in _joined(arrays, _is_bendable(arrays)):
+        beams, ends = _joined(arrays, _is_bendable(arrays))
+        likely = _nearly_in_line(arrays, beams, ends)
+        for pair in _as_pairs(beams[likely], ends[likely]):
             if self._continue(*pair):
                 one, other = pair
                 self.next_of[one], self.next_of[other] = other, one

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...base.errors import BatchError, reason_of
+from ...base.loading import load
 from ...files.outputs import OutputError, keep_names, written_whole
 
 if sys.platform != "win32":
@@ -31,6 +32,8 @@ _BUFFER = 2**20
 _DIGITS = 8
 _encoded = json.JSONEncoder(separators=(",", ":")).encode
 _CLOSED = -1
+#: The byte that stands for the file where nobody else can read what is locked: far behind its end.
+_LOCKED = 2**31 - 2
 
 
 class JournalError(BatchError):
@@ -101,16 +104,30 @@ class Journal:
     def _lock(self) -> None:
         """Keep other processes away until this one ends, however it does."""
         if sys.platform == "win32":
+            self._lock_on_windows()
             return
         try:
             # Of this process alone: what it has forked may live a little longer.
             fcntl.lockf(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except (BlockingIOError, PermissionError):
-            raise JournalError(
-                f"{self.path} belongs to a run that is still going on; wait for its end"
-            ) from None
+            raise self._in_use() from None
         except OSError:
             return  # a file system without locks
+
+    def _lock_on_windows(self) -> None:
+        os.lseek(self._handle, _LOCKED, os.SEEK_SET)
+        try:
+            library = load("msvcrt")
+            library.locking(self._handle, library.LK_NBLCK, 1)
+        except PermissionError:
+            raise self._in_use() from None
+        except OSError:
+            return
+
+    def _in_use(self) -> JournalError:
+        return JournalError(
+            f"{self.path} belongs to a run that is still going on; wait for its end"
+        )
 
     def _end_line(self) -> None:
         """Let what is added begin a line, whatever a killed process has left half-written."""
@@ -200,6 +217,9 @@ class Journal:
         Raises:
             OutputError: It cannot be.
         """
+        if sys.platform == "win32":
+            # There nothing can be removed that is open.
+            self.close()
         try:
             self.path.unlink(missing_ok=True)
         except OSError as error:
