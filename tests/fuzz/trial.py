@@ -76,7 +76,7 @@ def _check_refusal(error: flexact.DeckError, text: bytes) -> None:
 
 
 def _check_problems(problems: tuple[Diagnostic, ...], text: bytes) -> None:
-    lines = 1 + max(text.count(b"\n"), text.count(b"\r"))
+    lines = 1 + text.count(b"\n") + text.count(b"\r") - text.count(b"\r\n")
     for item in problems:
         _require(bool(item.code and item.message), f"a problem without words: {item}")
         json.dumps(item.to_dict())

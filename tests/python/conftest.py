@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fixtures that several tests share, and what a build without SuiteSparse leaves out."""
+"""Fixtures that several tests share."""
 
 import os
 import signal
-from collections.abc import Generator
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,8 +11,6 @@ from browser import browser, chromium  # noqa: F401
 from left_out import pytest_make_collect_report, pytest_runtest_makereport  # noqa: F401
 from small_decks import DECKS, write
 from wording import AsStored
-
-import flexact
 
 # Workers of xdist state a width that is no terminal's.
 os.environ.pop("COLUMNS", None)
@@ -29,6 +27,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Skip what needs a POSIX system, or one of them, elsewhere."""
+    for mark in item.iter_markers("posix"):
+        if os.name != "posix" or sys.platform not in (mark.args or (sys.platform,)):
+            pytest.skip(f"needs {' or '.join(mark.args) or 'a POSIX system'}")
+
+
 @pytest.fixture
 def as_stored(request: pytest.FixtureRequest) -> AsStored:
     """Compares a text with a file; see wording.py."""
@@ -41,14 +46,3 @@ def decks(tmp_path: Path) -> Path:
     for name, text in DECKS.items():
         write(tmp_path / "decks" / f"{name}.dat", text)
     return tmp_path / "decks"
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_call() -> Generator[None, None, None]:
-    """Skip what needs the method sparse where the build has none; see left_out.py on CI."""
-    try:
-        return (yield)
-    except flexact.AnalysisError as error:
-        if "SuiteSparse" in str(error):
-            pytest.skip(str(error))
-        raise

@@ -100,7 +100,7 @@ def test_a_stumble_of_the_program_costs_one_row(
     assert errors == ["", "", f"{decks}/over.dat: unforeseen KeyError: 'surprise'", ""]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+@pytest.mark.posix
 def test_a_deck_that_kills_its_worker_costs_one_row(
     decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -124,6 +124,7 @@ def test_folders_without_decks_exit_with_2(decks: Path, tmp_path: Path) -> None:
     assert len(rows) == 5 and rows[0]["error"].startswith(f"{tmp_path / 'empty'}: no deck")
 
 
+@pytest.mark.posix
 def test_each_deck_once_in_the_order_of_the_input(
     decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -140,7 +141,7 @@ def test_each_deck_once_in_the_order_of_the_input(
     ]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="names of POSIX")
+@pytest.mark.posix
 def test_names_that_are_no_unicode_are_spelled_out(tmp_path: Path) -> None:
     folder = tmp_path / "decks"
     folder.mkdir()
@@ -191,14 +192,15 @@ def test_a_condition_is_for_rows_files_and_pages(
 
 
 def test_files_are_those_of_analyse(decks: Path, tmp_path: Path) -> None:
-    assert main(["analyse", str(decks), "-o", str(tmp_path / "one"), "--format", "vtk"]) == 0
-    arguments = ["--files", str(tmp_path / "two"), "--format", "vtk"]
+    assert main(["analyse", str(decks), "-o", str(tmp_path / "one"), "--mesh", "vtk"]) == 0
+    arguments = ["--files", str(tmp_path / "two"), "--mesh", "vtk"]
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv"), *arguments]) == 0
     assert files_in(tmp_path / "one") == files_in(tmp_path / "two")
     for name in files_in(tmp_path / "one"):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
 
 
+@pytest.mark.posix
 def test_pages_are_those_of_report(decks: Path, tmp_path: Path) -> None:
     write(decks / "sub" / "broken.dat", BROKEN)
     (decks / "unread.dat").symlink_to("nowhere")
@@ -219,8 +221,8 @@ def test_pages_are_those_of_report(decks: Path, tmp_path: Path) -> None:
         (["-o", "folder.csv"], "it is a folder"),
         (["-o", "t.csv", "--where", "over_constraind > 0"], "did you mean over_constrained"),
         (["-o", "t.csv", "--columns", "verdict", "--where", "margin > 0"], "--columns values"),
-        (["-o", "t.csv", "--format", "vtk"], "--files DIR"),
-        (["-o", "t.csv", "--files", "f", "--format", "nonsense"], "nonsense"),
+        (["-o", "t.csv", "--mesh", "vtk"], "--files DIR"),
+        (["-o", "t.csv", "--files", "f", "--mesh", "nonsense"], "nonsense"),
         (["-o", "t.csv", "-j", "0"], "a whole number from 1"),
         (["-o", "t.csv", "--dask", "nowhere"], "tcp://host:port"),
     ],
@@ -249,6 +251,7 @@ def test_decks_that_would_share_files_are_refused(decks: Path, tmp_path: Path) -
     assert main(both) == 0
 
 
+@pytest.mark.posix
 def test_a_table_that_is_there_is_replaced(decks: Path, tmp_path: Path) -> None:
     """As by every verb; a link stays one."""
     table = write(tmp_path / "real.csv", "before")
@@ -257,7 +260,7 @@ def test_a_table_that_is_there_is_replaced(decks: Path, tmp_path: Path) -> None:
     assert (tmp_path / "t.csv").is_symlink() and len(rows_of(table)) == 4
 
 
-@pytest.mark.skipif(os.name != "posix", reason="terminals of POSIX")
+@pytest.mark.posix
 def test_a_terminal_shows_how_far_it_is(decks: Path, tmp_path: Path) -> None:
     try:
         reader, terminal = os.openpty()

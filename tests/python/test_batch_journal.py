@@ -111,7 +111,7 @@ def test_a_journal_is_there_with_its_head_or_not_at_all(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == []
 
 
-@pytest.mark.skipif(os.name != "posix", reason="locks of POSIX")
+@pytest.mark.posix
 def test_two_processes_do_not_share_a_journal(path: Path) -> None:
     code = (
         "import sys; from pathlib import Path\n"
@@ -127,7 +127,7 @@ def test_two_processes_do_not_share_a_journal(path: Path) -> None:
     assert "still going on" in said[0] and said[1] == ""
 
 
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is full")
+@pytest.mark.posix("linux")
 def test_a_full_disk_is_said(path: Path) -> None:
     journal = journal_of(path)
     full = os.open("/dev/full", os.O_WRONLY)

@@ -27,7 +27,7 @@ def test_subfolders_of_a_folder_are_kept(tmp_path: Path) -> None:
     write(tmp_path / "in" / "a" / "x.dat", DECKS["exact"])
     write(tmp_path / "in" / "b" / "x.dat", DECKS["under"])
     out = tmp_path / "out"
-    assert main(["analyse", str(tmp_path / "in"), "-o", str(out), "--format", "vtk"]) == 0
+    assert main(["analyse", str(tmp_path / "in"), "-o", str(out), "--mesh", "vtk"]) == 0
     assert files_in(out) == [f"{f}/x.{s}" for f in "ab" for s in ("json", "log", "vtk")]
 
 
@@ -52,7 +52,7 @@ def test_a_format_that_cannot_hold_a_mesh_is_refused_beforehand(
     decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "out"
-    arguments = ["analyse", "--json", str(decks / "exact.dat"), "-o", str(out), "--format", "stl"]
+    arguments = ["analyse", "--json", str(decks / "exact.dat"), "-o", str(out), "--mesh", "stl"]
     assert main(arguments) == 2
     said, reported = capsys.readouterr()
     assert said == ""

@@ -2,7 +2,6 @@
 """Names of files that could move a cursor, or that are no text at all, are shown harmlessly."""
 
 import json
-import os
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,7 @@ from small_decks import BROKEN, DECKS, write
 
 from flexact.cli.main import main
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="names of POSIX")
+pytestmark = pytest.mark.posix
 
 NAMES = ["a\x1b[31m.dat", "b\nc.dat", "d\udcff.dat", "e\u202e.dat"]
 
@@ -33,7 +32,7 @@ def assert_harmless(text: str) -> None:
     "arguments",
     [
         ["analyse", "--expect", "over"],
-        ["analyse", "-o", "{}", "--format", "tecplot"],
+        ["analyse", "-o", "{}", "--mesh", "tecplot"],
         ["analyse", "-o", "{}/in/{name}"],
         ["analyse", "--{name}"],
         ["{name}"],

@@ -55,7 +55,7 @@ def test_progress_is_for_terminals_only(decks: Path) -> None:
     assert command("analyse", decks, "--json").stderr.count(b"[1/4]") == 0
 
 
-@pytest.mark.skipif(os.name != "posix", reason="terminals of POSIX")
+@pytest.mark.posix
 def test_progress_counts_the_decks(decks: Path) -> None:
     try:
         reader, terminal = os.openpty()
@@ -92,7 +92,7 @@ def test_any_encoding_of_stdout_will_do(encoding: str, tmp_path: Path) -> None:
     assert str(path) in [line["deck"] for line in lines]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="pipes and signals of POSIX")
+@pytest.mark.posix
 @pytest.mark.parametrize("arguments", [("--help",), ("analyse", "{decks}", "--json")])
 def test_a_broken_pipe_ends_quietly(arguments: tuple[str, ...], decks: Path) -> None:
     reader, writer = os.pipe()
@@ -110,7 +110,7 @@ def test_a_broken_pipe_ends_quietly(arguments: tuple[str, ...], decks: Path) -> 
     assert done.stderr == b""
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.posix("linux")
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("arguments", [("analyse", "{decks}"), ("analyse", "--help")])
 def test_a_full_disk_behind_stdout_is_reported(
@@ -128,7 +128,7 @@ def test_a_full_disk_behind_stdout_is_reported(
     assert_one_line_of_the_command(done.stderr)
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.posix("linux")
 def test_a_full_disk_behind_stderr_does_not_cost_the_results(decks: Path) -> None:
     write(decks / "broken.dat", "PLTRUS 1 1 2\n")
     with open("/dev/full", "wb") as full:
@@ -143,7 +143,7 @@ def test_a_full_disk_behind_stderr_does_not_cost_the_results(decks: Path) -> Non
     assert len(json_lines(done.stdout.decode())) == 5
 
 
-@pytest.mark.skipif(os.name != "posix", reason="a shell of POSIX")
+@pytest.mark.posix
 @pytest.mark.parametrize("arguments", ["--version", "analyse {decks}", "check {decks}"])
 def test_a_closed_stdout_is_reported(arguments: str, decks: Path) -> None:
     line = f"exec '{sys.executable}' -m flexact {arguments.format(decks=decks)} >&-"

@@ -23,8 +23,8 @@ from flexact.cli.main import main
 from flexact.cli.outcome import ExitCode
 
 ROOT = Path(__file__).parents[2]
-#: They serve until they are stopped, or are for shells: their examples are read alone.
-NOT_RUN = {"view", "watch", "lsp", "completion"}
+#: They serve until they are stopped, are for shells, or take long: their examples are read alone.
+NOT_RUN = {"view", "watch", "lsp", "completion", "bench"}
 #: What their examples exit with, where it is not 0.
 CODES = {"flexact analyse input_decks/paper/six_folded_sheets.dat --expect exact": 3}
 
@@ -37,6 +37,7 @@ def test_every_verb_has_examples(verb: str) -> None:
     assert all(f"flexact {verb}" in words for words in examples)
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize("verb", [verb for verb in VERBS if verb not in NOT_RUN])
 def test_examples_run_as_they_stand(
     verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -134,8 +135,9 @@ def test_the_version_with_what_is_built_in(
     assert said["flexact"] == flexact.__version__
     assert said["Python"].startswith(platform.python_version())
     assert said["numpy"] == np.__version__
-    assert re.match(r"SuiteSparse|not built in", said["sparse method"])
-    assert re.match(r"FLINT|not built in", said["proofs"])
+    assert re.match(r"SuiteSparse|own factorisation|not built in", said["sparse method"])
+    assert re.match(r"FLINT|own arithmetic|not built in", said["proofs"])
+    assert "(GPL-3.0 + GCC exception)" in said["linked with"]
     assert {"matplotlib", "vtk", "pyarrow", "distributed", "pandas", "PyYAML"} <= set(said)
     assert os.sep not in out, "no path of a machine unless it is asked for"
 
@@ -182,6 +184,7 @@ def test_old_names_of_options_work_and_say_the_new(
 # A pipe that nobody reads to its end
 
 
+@pytest.mark.posix
 def test_a_closed_pipe_ends_quietly(tmp_path: Path) -> None:
     for k in range(30):
         write(tmp_path / f"{k}.dat", DECKS["over"])

@@ -1,14 +1,11 @@
 """How the command speaks: as wide as the terminal, in colour where it is wanted, quiet, verbose."""
 
-import fcntl
 import itertools
 import os
-import pty
 import re
 import struct
 import subprocess
 import sys
-import termios
 import unicodedata
 from pathlib import Path
 
@@ -92,6 +89,10 @@ def test_data_is_never_broken() -> None:
 
 def on_a_terminal(words: list[str], width: int, **environment: str) -> str:
     """What the command says on a terminal of this width."""
+    import fcntl
+    import pty
+    import termios
+
     ours, its = pty.openpty()
     fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
     kept = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "COLUMNS", "FORCE_COLOR")}
@@ -117,6 +118,7 @@ def on_a_terminal(words: list[str], width: int, **environment: str) -> str:
     return told.decode().replace("\r\n", "\n")
 
 
+@pytest.mark.posix
 def test_a_terminal_has_its_width_and_colour() -> None:
     told = on_a_terminal(["analyse", SIX], 50)
     assert "\x1b[1;31mOver-constrained by 1" in told

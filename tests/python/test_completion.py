@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import pty
 import re
 import select
 import shutil
@@ -24,6 +23,8 @@ ASKED = {
     "flexact analyse --met": ["--method"],
     "flexact analyse --method j": ["jacobi"],
     "flexact analyse --expect ": ["both", "exact", "over", "under"],
+    "flexact check --format ": ["github", "sarif", "text"],
+    "flexact analyse --format g": ["github"],
     "flexact analyse dec": ["decks/"],
     "flexact analyse decks/g": ["decks/guide.dat"],
     "flexact report decks/guide.dat -o de": ["decks/"],
@@ -96,6 +97,7 @@ def test_fish_completes(place: Path, capsys: pytest.CaptureFixture[str]) -> None
         assert made[: len(found)] == found if line.endswith("/g") else sorted(made) == found, line
 
 
+@pytest.mark.posix
 def test_zsh_completes(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     shell = Zsh(needed("zsh"), script("zsh", capsys, place), place)
     try:
@@ -113,6 +115,8 @@ class Zsh:
     """A shell at a terminal, at which a person types and presses the tabulator."""
 
     def __init__(self, program: str, path: Path, folder: Path) -> None:
+        import pty
+
         child, self.terminal = pty.fork()
         if child == 0:
             os.chdir(folder)

@@ -183,6 +183,7 @@ def failure(path: str | os.PathLike[str]) -> tuple[str, str]:
     return item.code, item.message
 
 
+@pytest.mark.posix
 def test_what_is_not_a_deck(tmp_path: Path) -> None:
     assert failure(tmp_path / "none.dat")[0] == "no-such-file"
     assert failure(tmp_path)[0] == "is-a-folder"

@@ -73,11 +73,11 @@ def test_a_problem_stands_where_its_word_stands(before: str, line: int) -> None:
     assert document.bare[start.line][start.character : end.character] == "1..0"
 
 
-def test_lines_of_the_core_need_not_be_those_of_the_editor() -> None:
-    """A CR alone ends a line of the editor; for the core it does only where there is no LF."""
+def test_lines_of_the_core_are_those_of_the_editor() -> None:
+    """A CR alone ends a line of both, also among lines that end with LF."""
     mixed = Document.of("TRUSS 1 1 2\rX 2 1..0 0 0\n")
     found = {one.code: one.range.start for one in problems_of(Deck(mixed))}
-    assert found["surplus-operand"] == (1, 0)
+    assert found == {"bad-number": (1, 4)}
     old = Document.of("TRUSS 1 1 2\rX 2 1..0 0 0\r")
     (problem,) = problems_of(Deck(old))
     assert problem.range.start == (1, 4)

@@ -295,6 +295,7 @@ def test_whatever_is_typed_the_server_goes_on(start: Callable[..., Client]) -> N
     assert client.end() == (0, "")
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize("how", ["end of file", "interrupt"])
 def test_an_editor_may_leave_without_a_word(start: Callable[..., Client], how: str) -> None:
     """Nothing is left running, and nothing is complained about."""

@@ -112,6 +112,7 @@ def answers(command: list[str]) -> dict[str, str]:
     return found
 
 
+@pytest.mark.posix
 def test_neovim(folder: Path) -> None:
     neovim = shutil.which("nvim")
     if neovim is None:
@@ -124,6 +125,7 @@ def test_neovim(folder: Path) -> None:
     assert {what: found.get(what) for what in asked} == dict.fromkeys(asked, "true")
 
 
+@pytest.mark.posix
 def test_emacs(folder: Path) -> None:
     emacs = shutil.which("emacs")
     if emacs is None:

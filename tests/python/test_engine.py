@@ -10,7 +10,6 @@ import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -101,6 +100,7 @@ def test_chunks_take_about_as_long_as_they_should() -> None:
     assert chunk is not None and len(chunk.items) == 1 and not source.are_short
 
 
+@pytest.mark.posix
 @FORKS
 def test_over_a_dead_worker_no_item_is_lost() -> None:
     """What kills its worker twice is a failure; what was beside it, or kills once, is done."""
@@ -269,9 +269,9 @@ for done in results_of(work, range(100), workers=2):
 """
 
 
-@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_no_worker_outlives_its_master(number: int) -> None:
+@pytest.mark.posix("linux")
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGKILL"])
+def test_no_worker_outlives_its_master(name: str) -> None:
     """Even one that is in the middle of something long."""
     master = subprocess.Popen(
         [sys.executable, "-c", SCRIPT], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -279,7 +279,7 @@ def test_no_worker_outlives_its_master(number: int) -> None:
     assert master.stdout is not None
     pids = [int(word) for word in master.stdout.readline().split()]
     assert len(pids) == 2 and all(map(is_alive, pids))
-    master.send_signal(number)
+    master.send_signal(getattr(signal, name))
     assert master.wait(10) != 0
     end = time.monotonic() + 10
     while any(map(is_alive, pids)) and time.monotonic() < end:

@@ -150,6 +150,7 @@ def test_a_broken_deck_exits_with_2(tmp_path: Path) -> None:
     assert files_in(tmp_path) == ["broken.dat"]
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize("suffix", [".vtu", ".vtp", ".pvd"])
 def test_the_deck_is_not_overwritten(
     suffix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -26,6 +26,7 @@ from verdicts import (
     DENSE,
     METHODS,
     Counts,
+    assert_all_right,
     assert_right,
     assert_right_or_nearly,
     never_wrong,
@@ -266,6 +267,21 @@ def test_random_removal_at_three_thousand_columns() -> None:
     analysis = analyse(case.model, method="sparse")
     assert_right_or_nearly(analysis, (case.columns - rank, case.rows - rank))
     assert max(residuals(analysis)) <= 1e-10
+
+
+def test_a_nearly_flat_framework() -> None:
+    """Narrow, and t must be raised where its pins then no longer suffice. The counts are those of
+    the decompositions of the whole matrix.
+    """
+    random = np.random.default_rng(1)
+    places = random.uniform(-1, 1, (34, 3)) * (1, 1, 1e-6)
+    model = Model()
+    nodes = [model.node(*place) for place in places]
+    pairs = [(i, j) for i in range(34) for j in range(i)]
+    for k in random.permutation(len(pairs))[: 3 * 34 - 6]:
+        model.truss(*(nodes[i] for i in pairs[k]))
+    model.fix(nodes[0])
+    assert_all_right(model, (9, 6))
 
 
 @pytest.mark.parametrize("letter", ["T", "O", "B", "C"])

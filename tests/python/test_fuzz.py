@@ -86,6 +86,7 @@ def test_a_process_that_dies_or_hangs_over_a_deck_does_not_end_the_fuzzing() -> 
         assert "in ends_badly" in found[text].words
 
 
+@pytest.mark.posix
 def test_the_core_goes_on_behind_a_deck_that_ends_it(tmp_path: Path) -> None:
     program = tmp_path / "program"
     program.write_text(

@@ -38,6 +38,7 @@ def test_a_folder_without_decks_is_kept_to_be_reported(tmp_path: Path) -> None:
     assert isinstance(deck.error, FolderError)
 
 
+@pytest.mark.posix
 def test_a_deck_is_found_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     deck = write(tmp_path / "in" / "x.dat", "")
     (tmp_path / "in" / "y.dat").symlink_to(deck)
@@ -76,6 +77,7 @@ def test_a_deck_is_not_overwritten(tmp_path: Path) -> None:
         plan_files([DeckFile(str(deck), Path("x"))], tmp_path, (".json",))
 
 
+@pytest.mark.posix
 def test_links_to_one_file_are_refused(tmp_path: Path) -> None:
     (tmp_path / "x.log").symlink_to(tmp_path / "x.json")
     with pytest.raises(OutputError, match=r"x\.log"):
@@ -97,8 +99,10 @@ def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
         plan_files([], file / "below", (".json",))
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may write everywhere")
+@pytest.mark.posix
 def test_a_folder_without_permission_is_refused(tmp_path: Path) -> None:
+    if os.geteuid() == 0:
+        pytest.skip("the superuser may write everywhere")
     tmp_path.chmod(0o500)
     try:
         with pytest.raises(OutputError, match=re.escape(str(tmp_path))):
@@ -119,6 +123,7 @@ def test_files_are_replaced(tmp_path: Path) -> None:
     assert (tmp_path / "x.json").read_bytes() == b"new"
 
 
+@pytest.mark.posix
 def test_a_link_stays_one(tmp_path: Path) -> None:
     there = write(tmp_path / "there" / "x.json", "old")
     for name, target in (("a.json", there), ("b.json", tmp_path / "new" / "y.json")):
@@ -129,6 +134,7 @@ def test_a_link_stays_one(tmp_path: Path) -> None:
     assert files_in(tmp_path) == ["a.json", "b.json", "new/y.json", "there/x.json"]
 
 
+@pytest.mark.posix
 def test_what_may_not_be_replaced_is_left(tmp_path: Path) -> None:
     write(tmp_path / "file", "old").chmod(0o444)
     os.mkfifo(tmp_path / "pipe")
@@ -155,6 +161,7 @@ def test_an_interruption_leaves_nothing(tmp_path: Path, monkeypatch: pytest.Monk
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.posix
 def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
     code = """
 import os, signal, sys
@@ -170,6 +177,7 @@ write_together({Path(sys.argv[1]) / "x.json": b"1", Path(sys.argv[1]) / "x.log":
     assert [path.name for path in tmp_path.iterdir()] == ["y.json"]
 
 
+@pytest.mark.posix
 def test_temporary_files_of_others_stay(tmp_path: Path) -> None:
     """Those of processes that live, of other systems, links, folders, and what only looks so."""
     ours = temporary_name()
@@ -197,6 +205,7 @@ def test_temporary_files_of_others_stay(tmp_path: Path) -> None:
     assert set(tmp_path.iterdir()) == before
 
 
+@pytest.mark.posix
 def test_an_interruption_waits_until_all_files_are_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

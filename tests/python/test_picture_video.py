@@ -145,6 +145,7 @@ def test_a_shape_moves_in_a_video() -> None:
     assert flexact.shape(state).picture(".mp4", size=(160, 120))[4:8] == b"ftyp"
 
 
+@pytest.mark.posix
 def test_the_command_writes_a_video_whole_or_not_at_all(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -26,7 +26,7 @@ def test_stages_are_told_while_the_work_goes_on() -> None:
     def work(stage: IntArray) -> int:
         for number in range(len(STAGES)):
             noticed.clear()
-            stage[:] = number, 50
+            stage[:2] = number, 50
             assert noticed.wait(20.0)
         return 7
 
@@ -47,7 +47,7 @@ def test_numbers_beyond_the_stages_do_no_harm(
     noticed = threading.Event()
 
     def work(stage: IntArray) -> bool:
-        stage[:] = given
+        stage[:2] = given
         return noticed.wait(20.0)
 
     def progress(*what: object) -> None:
@@ -116,7 +116,7 @@ def seen_on_a_terminal(large: int, *arguments: str) -> str:
         os.close(reader)
 
 
-@pytest.mark.skipif(os.name != "posix", reason="terminals of POSIX")
+@pytest.mark.posix
 def test_a_bar_tells_the_stage_of_a_large_deck(decks: Path, tmp_path: Path) -> None:
     pytest.importorskip("tqdm")
     deck = str(decks / "over.dat")

@@ -48,7 +48,7 @@ def test_paths_of_every_kind(path: Path) -> None:
         assert flexact.analyse(given).name == str(path)
 
 
-@pytest.mark.skipif(os.name != "posix", reason="names of bytes")
+@pytest.mark.posix
 def test_a_path_that_is_no_text(path: Path) -> None:
     odd = os.path.join(os.fsencode(path.parent), b"d\xff.dat")
     try:

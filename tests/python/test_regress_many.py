@@ -132,6 +132,7 @@ def test_where_junit_cannot_be_written_nothing_is_begun(folder: Path, capsys: An
     assert Path("decks/d/same.dat").read_text() == RAISED and answers() == before
 
 
+@pytest.mark.posix
 @pytest.mark.skipif(not local_pool.FORKS, reason="processes are not forked here")
 def test_a_deck_that_kills_its_worker_fails_alone(
     folder: Path, capsys: Any, monkeypatch: pytest.MonkeyPatch

@@ -82,6 +82,7 @@ def test_nothing_is_left_where_a_file_cannot_be(trusses: flexact.Analysis, tmp_p
     assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
 
 
+@pytest.mark.posix
 def test_a_deck_is_never_written_over(tmp_path: Path) -> None:
     deck = tmp_path / "deck.png"
     deck.write_text(text_of("paper/twelve_trusses"))

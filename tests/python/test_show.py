@@ -101,6 +101,7 @@ def test_a_browser_that_fails_is_no_error(tmp_path: Path) -> None:
         assert "The page is" in done.stdout
 
 
+@pytest.mark.posix
 def test_a_browser_that_stays_holds_nobody_up(tmp_path: Path) -> None:
     script = tmp_path / "browser.sh"
     script.write_text(f"#!/bin/sh\necho $$ > {tmp_path}/pid\nexec sleep 60 > /dev/null 2>&1\n")

@@ -86,6 +86,7 @@ def test_every_verb_that_reads_a_deck_reads_stdin(
     assert not (tmp_path / "-").exists()
 
 
+@pytest.mark.posix
 def test_a_closed_stdin_is_told() -> None:
     line = f"exec {sys.executable} -m flexact analyse - <&-"
     done = subprocess.run(["sh", "-c", line], capture_output=True, text=True, check=False)

@@ -540,6 +540,7 @@ def test_a_model_of_a_program_is_written_as_a_deck(tmp_path: Path) -> None:
     assert session.told()["save"] == "guide_edited_2.dat"
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize(
     "name",
     [

@@ -106,7 +106,7 @@ def test_rows_that_fail_leave_what_was_there(suffix: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is full")
+@pytest.mark.posix("linux")
 def test_a_full_disk_leaves_what_was_there(
     suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -188,6 +188,7 @@ def test_who_is_not_meant_is_refused(served: tuple[Path, Watched]) -> None:
     assert "connect-src &#x27;self&#x27;" in ask(address)[1]
 
 
+@pytest.mark.posix("linux")
 def test_it_is_reached_from_this_machine_only(served: tuple[Path, Watched]) -> None:
     _, watched = served
     rows = Path("/proc/net/tcp").read_text().splitlines()[1:]
@@ -196,8 +197,10 @@ def test_it_is_reached_from_this_machine_only(served: tuple[Path, Watched]) -> N
     assert "00000000" not in {each.split(":")[0] for each in mine}
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
-def test_a_signal_ends_it_quietly_with_its_processes(deck: Path, state: Path, number: int) -> None:
+@pytest.mark.posix
+@pytest.mark.parametrize("name", ["SIGINT", "SIGHUP"])
+def test_a_signal_ends_it_quietly_with_its_processes(deck: Path, state: Path, name: str) -> None:
+    number = getattr(signal, name)
     with watching(deck, state) as watched:
         events = Events(watched.address)
         until(lambda: len(watched.out) > 1)
@@ -209,6 +212,7 @@ def test_a_signal_ends_it_quietly_with_its_processes(deck: Path, state: Path, nu
         events.close()
 
 
+@pytest.mark.posix
 def test_no_process_outlives_one_that_is_killed(deck: Path, state: Path) -> None:
     with watching(deck, state) as watched:
         until(lambda: len(watched.out) > 1)
@@ -217,6 +221,7 @@ def test_no_process_outlives_one_that_is_killed(deck: Path, state: Path) -> None
         until(lambda: not any(map(is_running, children)))
 
 
+@pytest.mark.posix
 def test_the_address_is_the_same_the_next_time(deck: Path, state: Path) -> None:
     with watching(deck, state) as watched:
         first = watched.address
@@ -362,6 +367,7 @@ def test_a_script_without_end_is_stopped_when_it_is_saved(tmp_path: Path, state:
         events.close()
 
 
+@pytest.mark.posix
 def test_nothing_is_said_into_a_pipe_that_nobody_reads(deck: Path, state: Path) -> None:
     watch = f"{sys.executable} -m flexact watch {deck} --no-browser"
     done = subprocess.run(

@@ -248,7 +248,7 @@ def test_messages(
 def test_messages_of_failed_analyses(as_stored: AsStored, monkeypatch: pytest.MonkeyPatch) -> None:
     raw = analyse(ring(3)).raw
     said = []
-    for error in ("convergence", "memory", "library", "not found"):
+    for error in ("convergence", "memory", "interrupted", "not found"):
         failed = raw._replace(error=error, bytes_needed=3.5e9)
         monkeypatch.setattr(calls, "analyse_model", lambda *_, failed=failed, **__: failed)
         said.append(said_by(lambda: analyse(ring(3))))
@@ -261,6 +261,7 @@ def test_messages_of_failed_analyses(as_stored: AsStored, monkeypatch: pytest.Mo
     as_stored("\n".join(said), GOLDEN / "messages" / "failed_analyses.txt")
 
 
+@pytest.mark.posix
 def test_messages_of_files(as_stored: AsStored, tmp_path: Path) -> None:
     """What stands in the way of files of results, and what is no stored answer."""
     folder, file = tmp_path / "folder", write(tmp_path / "file", "")
@@ -321,9 +322,13 @@ COMMANDS = (
     "chek exact.dat",
     "analyse",
     "analyse exact.dat --expect three",
-    "analyse exact.dat --format vtk",
+    "analyse exact.dat --mesh vtk",
     "analyse exact.dat -o out --format nonsense",
-    "analyse exact.dat -o out --format stl",
+    "analyse exact.dat -o out --mesh nonsense",
+    "analyse exact.dat -o out --mesh stl",
+    "analyse over.dat under.dat --format github --expect exact",
+    "check broken.dat missing.dat --format github",
+    "check broken.dat --json",
     "analyse exact.dat --method cholesky",
     "analyse exact.dat --tolerance -1",
     "analyse exact.dat -o exact.dat",
