@@ -10,7 +10,6 @@ module flexact_multifrontal
    use flexact_error, only: error_t, fail, error_memory, error_not_definite, error_interrupted
    use flexact_front, only: eliminate, add_to_panel, add_to_square, pack_triangle
    use flexact_kinds, only: wp, long
-   use flexact_pages, only: use_large_pages
    use flexact_progress, only: progress_t
    use flexact_supernodal_pattern, only: supernodal_t, columns_in, rows_in
    use flexact_supernodal_tasks, only: update_size, work_of
@@ -82,22 +81,16 @@ contains
 
       info = 0
       associate (pattern => factor%pattern, tasks => factor%tasks)
-         if (.not. allocated(factor%value)) then
+         if (.not. allocated(factor%value)) &
             allocate (factor%value(pattern%panel(pattern%supernodes + 1) - 1), stat=info)
-            if (info == 0) call use_large_pages(factor%value)
-         end if
          if (info == 0) allocate (job%worker(factor%threads), job%kept(tasks%kept), job%at(pattern%supernodes), &
                                   job%failed(0:tasks%count), stat=info)
          if (info /= 0) return
          job%failed = 0
-         call use_large_pages(job%kept)
          do i = 1, factor%threads
             if (info == 0) allocate (job%worker(i)%place_in(factor%n), job%worker(i)%map(factor%widest), stat=info)
             if (info == 0) allocate (job%worker(i)%square(most(tasks%square, i)), &
                                      job%worker(i)%stack(most(tasks%stack, i)), stat=info)
-            if (info /= 0) cycle
-            call use_large_pages(job%worker(i)%square)
-            call use_large_pages(job%worker(i)%stack)
          end do
          if (tasks%count > 0) job%at(tasks%root(1)) = 1
          do t = 2, tasks%count

@@ -24,7 +24,7 @@ module flexact_lanczos
    integer, parameter :: narrowest = 3, narrowest_large = 6
    !> Relative error of the smallest value that ends the process, and of a value to be given
    !> beside it: estimates, before the last step makes both much smaller.
-   real(wp), parameter :: converged = 1.0e-11_wp, converged_large = 1.0e-7_wp
+   real(wp), parameter :: converged = 1.0e-11_wp, converged_large = 1.0e-6_wp
    !> Vectors beside those that are wanted, of which the lowest are taken.
    integer, parameter :: spare = 2
 

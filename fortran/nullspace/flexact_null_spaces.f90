@@ -58,7 +58,7 @@ contains
       rows = a%by_column%rows
       is_zero = low%values <= low%decision%tolerance
       is_held = [(k <= low%pins .and. low%values(k) <= low_end*pinned%least, k=1, size(is_zero))]
-      known = pack([(k, k=1, size(is_zero))], .not. is_zero)
+      known = pack([(k, k=1, size(is_zero))],.not. is_zero)
       ! Of what counts as zero though no pin holds it, the images are the left vectors.
       images = pack([(k, k=1, size(is_zero))], is_zero .and. .not. is_held)
       wanted = rows - a%by_column%columns + low%local%vectors + count(is_held .and. is_zero)
