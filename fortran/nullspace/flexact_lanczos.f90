@@ -23,8 +23,9 @@ module flexact_lanczos
    integer, parameter :: most_steps = 24, most_steps_large = 12
    integer, parameter :: narrowest = 3, narrowest_large = 6
    !> Relative error of the smallest value that ends the process, and of a value to be given
-   !> beside it: estimates, before the last step makes both much smaller.
-   real(wp), parameter :: converged = 1.0e-11_wp, converged_large = 1.0e-6_wp
+   !> beside it: estimates, before the last step makes both much smaller. Of large matrices
+   !> each step saved is a twentieth of the analysis, and six digits of the value are left.
+   real(wp), parameter :: converged = 1.0e-11_wp, converged_large = 1.0e-4_wp
    !> Vectors beside those that are wanted, of which the lowest are taken.
    integer, parameter :: spare = 2
 
