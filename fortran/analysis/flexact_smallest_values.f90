@@ -33,12 +33,18 @@ contains
       real(wp), allocatable, intent(inout) :: columns(:, :)
       integer, intent(in) :: place(:), order(:)
       real(wp), intent(in) :: entries(:)
-      real(wp), allocatable :: wider(:, :)
+      real(wp), allocatable :: kept(:, :)
+      integer :: k
 
-      allocate (wider(size(columns, 1), size(columns, 2) + 1))
-      wider(:, :size(columns, 2)) = columns
-      wider(:, size(wider, 2)) = 0.0_wp
-      wider(place, size(wider, 2)) = entries
-      columns = wider(:, order)
+      allocate (kept(size(columns, 1), size(order)))
+      do k = 1, size(order)
+         if (order(k) <= size(columns, 2)) then
+            kept(:, k) = columns(:, order(k))
+         else
+            kept(:, k) = 0.0_wp
+            kept(place, k) = entries
+         end if
+      end do
+      call move_alloc(kept, columns)
    end subroutine append
 end module flexact_smallest_values

@@ -136,23 +136,21 @@ contains
       type(jacobian_t), intent(in) :: jacobian
       real(wp), intent(in) :: row_length(:)
       type(scaling_t), intent(inout) :: scaling
-      real(wp) :: value(jacobian%entries), squares(partition%count%rows)
-      integer :: row(jacobian%entries), entry
+      real(wp) :: squares(partition%count%rows), value
+      integer :: entry, row
 
       squares = 0.0_wp
       do entry = 1, jacobian%entries
-         row(entry) = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
-         value(entry) = jacobian%value(entry)
-         if (row(entry) == 0) cycle
-         if (is_rotation(model, jacobian%column(1, entry))) value(entry) = value(entry)/row_length(row(entry))
-         squares(row(entry)) = squares(row(entry)) + value(entry)**2
+         call take_entry(model, partition, jacobian, row_length, entry, row, value)
+         if (row > 0) squares(row) = squares(row) + value**2
       end do
       scaling%row = sqrt(squares)
       if (any(squares > 0 .and. squares < least_square) .or. any(.not. squares < 1/least_square)) then
          ! Unlike a sum of squares, this neither overflows nor vanishes.
          scaling%row = 0.0_wp
          do entry = 1, jacobian%entries
-            if (row(entry) > 0) scaling%row(row(entry)) = hypot(scaling%row(row(entry)), value(entry))
+            call take_entry(model, partition, jacobian, row_length, entry, row, value)
+            if (row > 0) scaling%row(row) = hypot(scaling%row(row), value)
          end do
       end if
       where (scaling%row > 0)
@@ -161,6 +159,22 @@ contains
          scaling%row = 1.0_wp
       end where
    end subroutine scale_rows
+
+   !> The row of an entry, or 0, and its value without the unit of length: by a rotation over the length of the row.
+   pure subroutine take_entry(model, partition, jacobian, row_length, entry, row, value)
+      type(model_t), intent(in) :: model
+      type(partition_t), intent(in) :: partition
+      type(jacobian_t), intent(in) :: jacobian
+      real(wp), intent(in) :: row_length(:)
+      integer, intent(in) :: entry
+      integer, intent(out) :: row
+      real(wp), intent(out) :: value
+
+      row = partition%row_of(jacobian%row(2, entry), jacobian%row(1, entry))
+      value = jacobian%value(entry)
+      if (row == 0) return
+      if (is_rotation(model, jacobian%column(1, entry))) value = value/row_length(row)
+   end subroutine take_entry
 
    !> The largest extent of the model along a global axis [m].
    pure real(wp) function extent_of(model) result(extent)

@@ -38,10 +38,11 @@ contains
       growth = k*unit/(1 - k*unit)
    end function growth
 
-   !> For A'A with ones or less added to its diagonal. largest: entry of that.
-   pure real(wp) function error_of_gram(a, largest) result(bound)
+   !> For A'A with ones or less added to its diagonal. largest: entry of that. enough: no
+   !> better bound than this is sought.
+   pure real(wp) function error_of_gram(a, largest, enough) result(bound)
       type(operator_t), intent(in) :: a
-      real(wp), intent(in) :: largest
+      real(wp), intent(in) :: largest, enough
       real(wp) :: w(a%by_column%columns), x(a%by_column%columns), z(a%by_column%columns), y(a%by_column%rows)
       integer :: j, round
 
@@ -61,13 +62,16 @@ contains
             end associate
          end do
          bound = min(bound, maxval(z/x))
+         if (bound <= enough) exit
          x = z + max(tiny(1.0_wp), epsilon(1.0_wp)*maxval(z))
       end do
       bound = bound + growth(extra)*(1 + largest)
    end function error_of_gram
 
-   pure real(wp) function error_of_skyline(l) result(bound)
+   !> enough: no better bound than this is sought.
+   pure real(wp) function error_of_skyline(l, enough) result(bound)
       type(skyline_t), intent(in) :: l
+      real(wp), intent(in) :: enough
       real(wp) :: w(l%n), x(l%n), y(l%n), z(l%n)
       integer :: i, round
 
@@ -85,6 +89,7 @@ contains
             z(i) = w(i)*dot_product(abs(l%value(l%base(i) + l%first(i):l%base(i) + i)), y(l%first(i):i))
          end do
          bound = min(bound, maxval(z/x))
+         if (bound <= enough) exit
          x = z
       end do
    end function error_of_skyline

@@ -90,7 +90,7 @@ contains
       pinned%n = a%by_column%columns
       pinned%progress = progress
       largest = largest_diagonal(a%by_column)
-      pinned%error_of_gram = error_of_gram(a, largest)
+      pinned%error_of_gram = error_of_gram(a, largest, little*least_square*largest)
       pinned%least = sqrt(max(least_square*largest, raised*pinned%error_of_gram))
       call breadth_first_order(a, order)
       allocate (pinned%place_of(pinned%n))
@@ -135,7 +135,7 @@ contains
       type(pinned_t), intent(inout) :: pinned
 
       if (pinned%is_narrow) then
-         pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline)
+         pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline, little*pinned%least**2)
       else
          pinned%rounding = pinned%error_of_gram + error_of_factor(pinned%factor, little*pinned%least**2)
       end if

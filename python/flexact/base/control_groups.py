@@ -42,8 +42,8 @@ def processors(root: Path) -> float:
 
 def _left(is_first_version: bool, folder: Path) -> float:
     """Swap is not counted, as little as in `MemAvailable`: an analysis in it has no end."""
-    told = _table(folder / "memory.stat")
     if is_first_version:
+        told = _table(folder / "memory.stat")
         # The second counts groups round it as well, also those that cannot be seen.
         most = min(
             _number(folder / "memory.limit_in_bytes"), _read(told, "hierarchical_memory_limit")
@@ -52,6 +52,9 @@ def _left(is_first_version: bool, folder: Path) -> float:
     else:
         # Above `high` the processes are held up until they hardly go on.
         most = min(_number(folder / "memory.max"), _number(folder / "memory.high"))
+        if most == math.inf:
+            return most
+        told = _table(folder / "memory.stat")
         used, cached = folder / "memory.current", "inactive_file"
     # Files that are kept in memory while nobody else wants it.
     given_back = _read(told, cached, 0.0)
