@@ -14,14 +14,12 @@
 !> x, for any positive x (Collatz, Math. Z. 48, 1942); theory.md (32) and (33), with what
 !> they leave out.
 module flexact_backward_error
-   use flexact_cholesky, only: cholesky_t
-   use flexact_kinds, only: wp, long
+   use flexact_kinds, only: wp
    use flexact_skyline, only: skyline_t
    use flexact_sparse, only: operator_t
-   use flexact_supernodal_pattern, only: columns_in, rows_in
    implicit none
    private
-   public :: error_of_gram, error_of_skyline, error_of_cholesky, unit, extra
+   public :: error_of_gram, error_of_skyline, unit, extra, rounds
 
    real(wp), parameter :: unit = 0.5_wp*epsilon(1.0_wp)
    !> Roundings of an entry beside those of its products: a division as a product
@@ -93,104 +91,4 @@ contains
          x = z
       end do
    end function error_of_skyline
-
-   !> Infinite where memory does not suffice. enough: no better bound than this is sought.
-   real(wp) function error_of_cholesky(factor, enough) result(bound)
-      type(cholesky_t), intent(in) :: factor
-      real(wp), intent(in) :: enough
-      real(wp), allocatable :: w(:), x(:), z(:), from(:), to(:)
-      integer :: round, info
-
-      bound = huge(bound)
-      if (factor%n == 0) bound = 0.0_wp
-      if (factor%n == 0) return
-      allocate (w(factor%n), x(factor%n), z(factor%n), from(factor%widest), to(factor%widest), stat=info)
-      if (info /= 0) return
-      call count_in_rows(factor, w)
-      w = (w + extra)*unit
-      w = w/(1 - w)
-      x = sqrt(w)
-      do round = 1, rounds
-         call multiply_twice(factor, x, from, to, z)
-         z = w*z
-         bound = min(bound, maxval(z/x))
-         if (.not. all(z <= huge(bound))) bound = huge(bound)
-         if (bound <= enough) exit
-         x = z
-      end do
-   end function error_of_cholesky
-
-   !> Entries of L in each of its rows, zeros that pad a supernode with them.
-   pure subroutine count_in_rows(factor, count)
-      type(cholesky_t), intent(in) :: factor
-      real(wp), intent(out) :: count(:)
-      integer :: s, i
-
-      count = 0.0_wp
-      associate (pattern => factor%pattern)
-         do s = 1, pattern%supernodes
-            do i = 1, rows_in(pattern, s)
-               associate (row => pattern%row(pattern%rows_from(s) + i - 1))
-                  count(row) = count(row) + min(i, columns_in(pattern, s))
-               end associate
-            end do
-         end do
-      end associate
-   end subroutine count_in_rows
-
-   !> z = |L| |L'| x.
-   pure subroutine multiply_twice(factor, x, from, to, z)
-      type(cholesky_t), intent(in) :: factor
-      real(wp), intent(in) :: x(:)
-      real(wp), intent(inout) :: from(:), to(:)
-      real(wp), intent(out) :: z(:)
-      integer :: s, i, rows
-
-      z = 0.0_wp
-      associate (pattern => factor%pattern)
-         do s = 1, pattern%supernodes
-            rows = rows_in(pattern, s)
-            associate (row => pattern%row(pattern%rows_from(s):pattern%rows_from(s + 1) - 1))
-               do i = 1, rows
-                  from(i) = x(row(i))
-               end do
-               call multiply_panel(rows, columns_in(pattern, s), factor%value(pattern%panel(s)), from, to)
-               do i = 1, rows
-                  z(row(i)) = z(row(i)) + to(i)
-               end do
-            end associate
-         end do
-      end associate
-   end subroutine multiply_twice
-
-   pure subroutine multiply_panel(rows, columns, panel, from, to)
-      integer, intent(in) :: rows, columns
-      real(wp), intent(in) :: panel(rows, columns), from(rows)
-      real(wp), intent(out) :: to(rows)
-      real(wp) :: total
-      integer :: j
-
-      to = 0.0_wp
-      do j = 1, columns
-         total = sum_of_products(rows - j + 1, panel(j:, j), from(j:))
-         to(j:) = to(j:) + abs(panel(j:, j))*total
-      end do
-   end subroutine multiply_panel
-
-   !> Four sums side by side, which the processor adds at once.
-   pure real(wp) function sum_of_products(n, a, x) result(total)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: a(n), x(n)
-      real(wp) :: part(4)
-      integer :: i
-
-      part = 0.0_wp
-      do i = 1, n - 3, 4
-         part = part + abs(a(i:i + 3))*x(i:i + 3)
-      end do
-      total = sum(part)
-      do i = n - mod(n, 4) + 1, n
-         total = total + abs(a(i))*x(i)
-      end do
-   end function sum_of_products
 end module flexact_backward_error

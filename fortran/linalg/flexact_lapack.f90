@@ -5,7 +5,7 @@ module flexact_lapack
    implicit none
    private
    public :: dgesdd, dgejsv, dgeqrf, dgeqp3, dorgqr, dtzrzf, dormrz, dgels, dtrtrs
-   public :: dsyrk, dpotrf, dtrsm, dgemm, dsyevd, dsygv
+   public :: dsyrk, dpotrf, dtrsm, dgemm, dgemv, dsyevd, dsygv
 
    interface
       !> Singular value decomposition by divide and conquer; a is destroyed.
@@ -136,6 +136,15 @@ module flexact_lapack
          real(wp), intent(in) :: alpha, beta, a(lda, *), b(ldb, *)
          real(wp), intent(inout) :: c(ldc, *)
       end subroutine dgemm
+
+      !> y := alpha op(a) x + beta y, op by 'N' as it is, by 'T' transposed.
+      pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
+         character, intent(in) :: trans
+         integer, intent(in) :: m, n, lda, incx, incy
+         real(wp), intent(in) :: alpha, beta, a(lda, *), x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine dgemv
 
       !> Eigenvalues w of a symmetric a, ascending, and eigenvectors in its place.
       pure subroutine dsyevd(jobz, uplo, n, a, lda, w, work, lwork, iwork, liwork, info)

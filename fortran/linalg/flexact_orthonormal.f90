@@ -10,7 +10,7 @@ module flexact_orthonormal
    use flexact_sparse_basis, only: sparse_basis_t
    implicit none
    private
-   public :: orthonormalise, deflate, extend, fill_at_random
+   public :: orthonormalise, deflate, extend, take_out, fill_at_random
 
    !> Part of a vector's length below which what is left of it is nothing new: half
    !> the digits are lost then, which a second round restores; of fewer it would not.

@@ -9,7 +9,7 @@ module flexact_supernodal_tasks
    public :: tasks_t, make_tasks, update_size, work_of
 
    !> By how much one worker may have more to do than the mean, and tasks at most.
-   real(wp), parameter :: uneven = 1.1_wp
+   real(wp), parameter :: uneven = 1.03_wp
    integer, parameter :: most_tasks = 128
 
    type :: tasks_t

@@ -4,6 +4,7 @@
 module flexact_lanczos
    use flexact_eigenpairs, only: symmetric_eigenpairs
    use flexact_error, only: error_t, fail, error_not_found
+   use flexact_first_block, only: first_block_t, make_first_block, large
    use flexact_kinds, only: wp
    use flexact_lapack, only: dgemm
    use flexact_orthonormal, only: extend, orthonormalise, fill_at_random
@@ -13,15 +14,10 @@ module flexact_lanczos
    use flexact_sparse_basis, only: sparse_basis_t
    implicit none
    private
-   public :: next_space, first_block
+   public :: next_space
 
-   !> Of matrices with more columns each step costs more: a factor that does not fit the
-   !> caches is read twice, for however many vectors.
-   integer, parameter :: large = 20000
-   !> Steps of the process, and the least width of its blocks. The limits guard
-   !> against values so close together that they do not converge.
+   !> Steps of the process: guards against values so close together that they do not converge.
    integer, parameter :: most_steps = 24, most_steps_large = 12
-   integer, parameter :: narrowest = 3, narrowest_large = 6
    !> Relative error of the smallest value that ends the process, and of a value to be given
    !> beside it: estimates, before the last step makes both much smaller. Of large matrices
    !> each step saved is a twentieth of the analysis, and six digits of the value are left.
@@ -38,21 +34,10 @@ module flexact_lanczos
 
 contains
 
-   !> Random vectors to begin with, for `start`: as many as a block has.
-   subroutine first_block(columns, rest, wanted, careful, block)
-      integer, intent(in) :: columns, rest, wanted
-      logical, intent(in) :: careful
-      real(wp), allocatable, intent(out) :: block(:, :)
-
-      allocate (block(columns, min(rest, max((wanted + 1)/2, merge(narrowest_large, narrowest, careful .and. columns > large)))))
-      call fill_at_random(1, block)
-   end subroutine first_block
-
    !> Up to `wanted` of the smallest values beyond those of `deflated` and of `lowest`,
    !> orthonormal vectors (columns, k), and their vectors, by the block Lanczos
    !> process for the inverse of A'A: those that have converged when the smallest
-   !> has, or mere estimates from above. start: inverse(F) times the first block, if it is
-   !> there already.
+   !> has, or mere estimates from above. start: the first block, if it is there already.
    subroutine next_space(a, pinned, deflated, lowest, wanted, careful, start, vectors, values, error)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
@@ -60,7 +45,7 @@ contains
       real(wp), intent(in), contiguous :: lowest(:, :)
       integer, intent(in) :: wanted
       logical, intent(in) :: careful
-      real(wp), allocatable, intent(inout) :: start(:, :)
+      type(first_block_t), intent(inout) :: start
       real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
       type(error_t), allocatable, intent(out) :: error
       type(process_t) :: process
@@ -70,21 +55,18 @@ contains
       allocate (vectors(a%by_column%columns, wanted), values(wanted))
       if (wanted == 0) return
       rest = a%by_column%columns - deflated%vectors - size(lowest, 2)
-      if (allocated(start)) then
-         call move_alloc(start, block)
-      else
-         call first_block(a%by_column%columns, rest, wanted, careful, block)
-         call apply_inverse(pinned, block, error)
+      if (.not. allocated(start%vectors)) then
+         call make_first_block(a%by_column%columns, rest, wanted, careful, start%vectors)
+         call apply_inverse(pinned, start%vectors, error)
          if (allocated(error)) return
       end if
       steps = 2
       if (careful) steps = merge(most_steps, most_steps_large, a%by_column%columns <= large)
-      room = min(rest, size(block, 2)*steps)
+      room = min(rest, size(start%vectors, 2)*steps)
       allocate (process%space(a%by_column%columns, room), process%products(room, room), errors(0))
-      call grow(deflated, lowest, wanted, block, process)
+      call begin(deflated, lowest, wanted, start, process)
       do step = 2, steps
-         block = process%space(:, process%used - process%fresh + 1:process%used)
-         call apply_inverse(pinned, block, error)
+         call take_applied(pinned, process, start, block, error)
          if (allocated(error)) return
          call grow(deflated, lowest, wanted, block, process)
          if (process%used == rest .or. process%fresh == 0) exit
@@ -106,6 +88,42 @@ contains
          values = values(:steps)
       end if
    end subroutine next_space
+
+   !> The first vectors of the space; those of `start` are lost.
+   subroutine begin(deflated, lowest, wanted, start, process)
+      type(sparse_basis_t), intent(in) :: deflated
+      real(wp), intent(in), contiguous :: lowest(:, :)
+      integer, intent(in) :: wanted
+      type(first_block_t), intent(inout) :: start
+      type(process_t), intent(inout) :: process
+      real(wp), allocatable :: block(:, :)
+
+      if (allocated(start%applied)) call start%follow(lowest)
+      call move_alloc(start%vectors, block)
+      if (allocated(start%applied)) then
+         process%used = size(block, 2)
+         process%fresh = process%used
+         process%space(:, :process%used) = block
+      else
+         call grow(deflated, lowest, wanted, block, process)
+      end if
+   end subroutine begin
+
+   !> inverse(F) times the latest vectors, which may be there already.
+   subroutine take_applied(pinned, process, start, block, error)
+      type(pinned_t), intent(in) :: pinned
+      type(process_t), intent(in) :: process
+      type(first_block_t), intent(inout) :: start
+      real(wp), allocatable, intent(out) :: block(:, :)
+      type(error_t), allocatable, intent(out) :: error
+
+      if (allocated(start%applied)) then
+         call move_alloc(start%applied, block)
+      else
+         block = process%space(:, process%used - process%fresh + 1:process%used)
+         call apply_inverse(pinned, block, error)
+      end if
+   end subroutine take_applied
 
    !> Extend the space by what inverse(F) has made of the latest vectors.
    subroutine grow(deflated, lowest, wanted, block, process)

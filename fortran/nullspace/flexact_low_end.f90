@@ -9,8 +9,9 @@
 module flexact_low_end
    use flexact_decomposition, only: singular_values
    use flexact_error, only: error_t, is_kind, error_not_definite, error_not_found
+   use flexact_first_block, only: first_block_t, make_first_block
    use flexact_kinds, only: wp
-   use flexact_lanczos, only: next_space, first_block
+   use flexact_lanczos, only: next_space
    use flexact_local_vectors, only: find_local_vectors
    use flexact_pin_search, only: seek_pins, repin, low_end
    use flexact_pinned, only: pinned_t, make_pinned, assure, shift_and_mark
@@ -126,7 +127,8 @@ contains
       type(pinned_t), intent(inout) :: pinned
       type(low_end_t), intent(inout) :: low
       type(error_t), allocatable, intent(out) :: error
-      real(wp), allocatable :: spanned(:, :), next(:, :), in_pins(:), beyond(:), start(:, :)
+      real(wp), allocatable :: spanned(:, :), next(:, :), in_pins(:), beyond(:)
+      type(first_block_t) :: start
       integer, allocatable :: pin(:)
       logical :: is_shown
 
@@ -134,13 +136,13 @@ contains
       call split_pins(a, pinned, low, pin, error)
       if (allocated(error)) return
       associate (rest => pinned%n - low%local%vectors - size(pin))
-         call first_block(pinned%n, rest, min(rest, request%values), request%values > 1, start)
+         call make_first_block(pinned%n, rest, min(rest, request%values), request%values > 1, start%vectors)
       end associate
       call pinned_space(a, pinned, pin, low%deflated, spanned, in_pins, error, start)
       if (allocated(error)) return
       if (.not. (pinned%is_shifted .or. request%values_only)) then
          if (any(in_pins > low_end*pinned%least) .or. is_weak(spanned(pin, :))) &
-            call unpin(a, in_pins, spanned, pin, pinned, error)
+            call unpin(a, in_pins, spanned, pin, pinned, start, error)
          if (allocated(error)) return
       end if
       if (pinned%n >= large) call request%progress%report(stage_values)
@@ -165,7 +167,7 @@ contains
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(in) :: in_pins(:)
       real(wp), intent(in), contiguous :: spanned(:, :)
-      real(wp), allocatable, intent(inout) :: start(:, :)
+      type(first_block_t), intent(inout) :: start
       type(low_end_t), intent(inout) :: low
       real(wp), allocatable, intent(out) :: next(:, :), beyond(:)
       type(error_t), allocatable, intent(out) :: error
@@ -216,16 +218,18 @@ contains
    end function is_weak
 
    !> Let go of pins that hold more than vectors of tiny values, since they would hide
-   !> the others, and pin where the vectors are largest.
-   subroutine unpin(a, values, vectors, pin, pinned, error)
+   !> the others, and pin where the vectors are largest. start: what was made of it is so no more.
+   subroutine unpin(a, values, vectors, pin, pinned, start, error)
       type(operator_t), intent(in) :: a
       real(wp), intent(in) :: values(:), vectors(:, :)
       integer, intent(in) :: pin(:)
       type(pinned_t), intent(inout) :: pinned
+      type(first_block_t), intent(inout) :: start
       type(error_t), allocatable, intent(out) :: error
       logical :: is_other(size(pinned%pin))
       integer :: k, low
 
+      if (allocated(start%applied)) deallocate (start%applied)
       is_other = [(all(pin /= pinned%pin(k)), k=1, size(pinned%pin))]
       low = count(values <= low_end*pinned%least)
       call repin(a, vectors(:, :low), pack(pinned%pin, is_other), pinned, error)

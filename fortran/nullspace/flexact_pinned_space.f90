@@ -3,6 +3,7 @@
 !> and (36).
 module flexact_pinned_space
    use flexact_error, only: error_t
+   use flexact_first_block, only: first_block_t
    use flexact_kinds, only: wp
    use flexact_orthonormal, only: orthonormalise, extend
    use flexact_pinned, only: pinned_t, apply_inverse
@@ -28,8 +29,8 @@ module flexact_pinned_space
 contains
 
    !> Orthonormal vectors (columns, k) whose span, with that of `deflated`, holds the
-   !> null space, for k of the pins, and their values, ascending. beside: vectors (columns, l)
-   !> that inverse(F) is applied to as well, as it takes little longer for a few more.
+   !> null space, for k of the pins, and their values, ascending. beside: random vectors, for
+   !> which the first steps of another search are taken.
    subroutine pinned_space(a, pinned, pin, deflated, vectors, values, error, beside)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
@@ -37,7 +38,7 @@ contains
       type(sparse_basis_t), intent(in) :: deflated
       real(wp), allocatable, intent(out) :: vectors(:, :), values(:)
       type(error_t), allocatable, intent(out) :: error
-      real(wp), intent(inout), optional :: beside(:, :)
+      type(first_block_t), intent(inout), optional :: beside
       real(wp), allocatable :: before(:)
       real(wp) :: zero
       integer :: round
@@ -55,7 +56,7 @@ contains
       do round = 1, merge(few_rounds, most_rounds, pinned%is_shifted)
          if (allocated(error) .or. all(values <= zero)) return
          before = values
-         call improve(a, pinned, deflated, vectors, values, error)
+         call improve(a, pinned, deflated, vectors, values, error, beside)
          if (all(abs(before - values) <= converged*values)) return
       end do
    end subroutine pinned_space
@@ -66,8 +67,7 @@ contains
       integer, intent(in) :: pin(:)
       real(wp), intent(out), contiguous :: vectors(:, :)
       type(error_t), allocatable, intent(out) :: error
-      real(wp), intent(inout), optional :: beside(:, :)
-      real(wp), allocatable :: all(:, :)
+      type(first_block_t), intent(inout), optional :: beside
       integer :: k
 
       vectors = 0.0_wp
@@ -75,37 +75,56 @@ contains
          vectors(pin(k), k) = 1.0_wp
       end do
       if (present(beside)) then
-         allocate (all(size(vectors, 1), size(pin) + size(beside, 2)))
-         all(:, :size(pin)) = vectors
-         all(:, size(pin) + 1:) = beside
-         call apply_inverse(pinned, all, error)
-         vectors = all(:, :size(pin))
-         beside = all(:, size(pin) + 1:)
+         call apply_to_both(pinned, vectors, beside%vectors, error)
       else
          call apply_inverse(pinned, vectors, error)
       end if
    end subroutine solve_for_pins
 
+   subroutine apply_to_both(pinned, x, y, error)
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(inout) :: x(:, :), y(:, :)
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: both(size(x, 1), size(x, 2) + size(y, 2))
+
+      both(:, :size(x, 2)) = x
+      both(:, size(x, 2) + 1:) = y
+      call apply_inverse(pinned, both, error)
+      x = both(:, :size(x, 2))
+      y = both(:, size(x, 2) + 1:)
+   end subroutine apply_to_both
+
    !> The lowest in the space of all vectors and of inverse(F) times their residuals:
    !> the vectors are off by rounding, and, where their values are not zero, because
-   !> the pins hold them.
-   subroutine improve(a, pinned, deflated, vectors, values, error)
+   !> the pins hold them. beside: taken a step further, the first time.
+   subroutine improve(a, pinned, deflated, vectors, values, error, beside)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
       type(sparse_basis_t), intent(in) :: deflated
       real(wp), intent(inout), contiguous :: vectors(:, :)
       real(wp), intent(inout) :: values(:)
       type(error_t), allocatable, intent(out) :: error
+      type(first_block_t), intent(inout), optional :: beside
       real(wp) :: image(a%by_column%rows, size(values)), residual(size(vectors, 1), size(values))
       real(wp) :: space(size(vectors, 1), min(2*size(values), size(vectors, 1) - deflated%vectors)), none(size(vectors, 1), 0)
       integer :: k, used, fresh
+      logical :: takes_beside
 
+      takes_beside = present(beside)
+      if (takes_beside) takes_beside = allocated(beside%vectors) .and. .not. allocated(beside%applied)
       call times_transposed(a%by_row, vectors, image)
       call times_transposed(a%by_column, image, residual)
       do k = 1, size(values)
          residual(:, k) = residual(:, k) - values(k)**2*vectors(:, k)
       end do
-      call apply_inverse(pinned, residual, error)
+      if (takes_beside) call beside%make_orthonormal(deflated, vectors)
+      if (takes_beside) takes_beside = allocated(beside%vectors)
+      if (takes_beside) then
+         beside%applied = beside%vectors
+         call apply_to_both(pinned, residual, beside%applied, error)
+      else
+         call apply_inverse(pinned, residual, error)
+      end if
       if (allocated(error)) return
       used = size(values)
       space(:, :used) = vectors

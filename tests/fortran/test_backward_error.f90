@@ -60,7 +60,7 @@ contains
             made(j, gram%place(entry) + 1) = gram%value(entry)
          end do
       end do
-      bound = error_of_gram(a, maxval(sum(dense**2, 1)))
+      bound = error_of_gram(a, maxval(sum(dense**2, 1)), 0.0_wp)
       call tally%check(off_by(made, matmul(transpose(real(dense, qp)), real(dense, qp))) <= bound, 'A''A: within the bound')
       call tally%check(bound <= epsilon(bound)*(m + 4)*sum(dense**2) + 5*epsilon(bound), 'A''A: which is no larger than need be')
    end subroutine a_gram_matrix
@@ -94,10 +94,10 @@ contains
       do i = 1, n
          exact(i, i) = exact(i, i) - 1.0e-3_wp
       end do
-      bound = error_of_skyline(matrix) + error_of_gram(a, maxval(sum(dense**2, 1)))
+      bound = error_of_skyline(matrix, 0.0_wp) + error_of_gram(a, maxval(sum(dense**2, 1)), 0.0_wp)
       call tally%check(sqrt(real(sum((matmul(real(l, qp), real(transpose(l), qp)) - exact)**2), wp)) <= bound, &
                        'skyline: within the bound')
-      call tally%check(error_of_skyline(matrix) <= epsilon(bound)*(n + 4)*sum(l**2), 'skyline: no larger than need be')
+      call tally%check(error_of_skyline(matrix, 0.0_wp) <= epsilon(bound)*(n + 4)*sum(l**2), 'skyline: no larger than need be')
    end subroutine a_skyline
 
    !> Rows of the factor have two entries each: the bound does not grow with the size.
@@ -118,7 +118,7 @@ contains
       real(wp) :: zero(2, 3)
 
       zero = 0.0_wp
-      call tally%check(error_of_gram(operator_of(sparse_of(zero)), 1.0_wp) <= 10*epsilon(1.0_wp), 'nothing')
+      call tally%check(error_of_gram(operator_of(sparse_of(zero)), 1.0_wp, 0.0_wp) <= 10*epsilon(1.0_wp), 'nothing')
    end subroutine of_nothing
 
    !> What the sparse factor tells agrees with the skyline of the same matrix as far as
@@ -140,7 +140,7 @@ contains
          call skyline_size(a%by_row, [(j, j=1, n**2)], first, entries)
          call fill_skyline(a%by_row, [(j, j=1, n**2)], first, 0.0_wp, matrix)
          call factorise(matrix, tiny(1.0_wp), pins, found)
-         other = error_of_skyline(matrix)
+         other = error_of_skyline(matrix, 0.0_wp)
          call tally%check(error_of_factor(pinned%factor, 0.0_wp) < 5*other, 'grid: as by the skyline')
          call tally%check(error_of_factor(pinned%factor, 0.0_wp) > 0.02_wp*other, 'grid: and not far below')
       end if

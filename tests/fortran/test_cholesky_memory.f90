@@ -3,7 +3,7 @@
 !> each time an error is told, and the next attempt goes well.
 program test_cholesky_memory
    use, intrinsic :: iso_c_binding, only: c_int
-   use flexact_backward_error, only: error_of_cholesky
+   use flexact_cholesky_error, only: error_of_cholesky
    use flexact_cholesky, only: cholesky_t, get_pivots
    use flexact_cholesky_oracle, only: lower_t, lower_of, analyse_for, factorise_by, nested_grid
    use flexact_error, only: error_t, is_kind, error_memory

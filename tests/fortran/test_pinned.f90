@@ -4,6 +4,7 @@
 !> are known. Some are narrow, the others are factorised by supernodes.
 program test_pinned
    use flexact_error, only: error_t, is_kind, error_memory, error_not_definite
+   use flexact_first_block, only: first_block_t, make_first_block
    use flexact_kinds, only: wp
    use flexact_lanczos, only: next_space
    use flexact_left_null_space, only: left_null_space
@@ -100,16 +101,20 @@ contains
       call tally%check(all(abs(product_with(a%by_row, vectors)) <= 1.0e-13_wp), name//': what A'' leaves')
    end subroutine check_left
 
-   !> The smallest values beyond the pins are these.
-   subroutine check_next(a, pinned, lowest, expected, tolerance, name)
+   !> The smallest values beyond the pins are these. beside: the block that was taken along when
+   !> the lowest were found.
+   subroutine check_next(a, pinned, lowest, expected, tolerance, name, beside)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
       real(wp), intent(in) :: lowest(:, :), expected(:), tolerance
       character(len=*), intent(in) :: name
+      type(first_block_t), intent(in), optional :: beside
       type(sparse_basis_t) :: deflated
-      real(wp), allocatable :: vectors(:, :), values(:), start(:, :)
+      type(first_block_t) :: start
+      real(wp), allocatable :: vectors(:, :), values(:)
       type(error_t), allocatable :: error
 
+      if (present(beside)) start = beside
       call new_sparse_basis(deflated)
       call next_space(a, pinned, deflated, lowest, size(expected), .true., start, vectors, values, error)
       call tally%check(.not. allocated(error), name//': next values')
@@ -213,6 +218,7 @@ contains
       real(wp), allocatable :: vectors(:, :), left(:, :)
       type(operator_t) :: a
       type(pinned_t) :: pinned
+      type(first_block_t) :: beside
       integer :: zeros, high, k
 
       high = n - size(low)
@@ -224,11 +230,16 @@ contains
       a = operator_of(sparse_of(matmul(u(:, :n)*spread(s, 1, m), transpose(v))))
       call prove(a, size(low), pinned, name)
       call tally%check(pinned%is_narrow .eqv. n < 80, name//': the factorisation meant')
-      call find_low(a, pinned, vectors, found)
+      call find_low(a, pinned, vectors, found, beside)
       call tally%near(found, low(size(low):1:-1), 1.0e-14_wp, name//': low values')
+      call check_beside(pinned, beside, vectors, name)
       call check_singular(a, vectors, found, name)
       call tally%check(all(abs(matmul(transpose(v(:, :high)), vectors)) <= 1.0e-12_wp), name//': their space')
-      if (high > 0) call check_next(a, pinned, vectors, s(high:max(1, high - 2):-1), 1.0e-12_wp, name)
+      if (high > 0) then
+         call check_next(a, pinned, vectors, s(high:max(1, high - 2):-1), 1.0e-12_wp, name)
+         call check_next(a, pinned, vectors, s(high:max(1, high - 2):-1), 1.0e-12_wp, name//', beside', beside)
+         call check_misled(a, pinned, beside, vectors, s(high), name)
+      end if
       associate (held => high + [(k, k=1, size(low) - zeros)])
          call find_left(a, pinned, u(:, held), m - n + zeros, left, name)
       end associate
@@ -260,20 +271,55 @@ contains
       call tally%check(pinned%pins == pins .and. size(pinned%pin) == pins, name//': no more than that are low')
    end subroutine prove
 
-   subroutine find_low(a, pinned, vectors, values)
+   subroutine find_low(a, pinned, vectors, values, beside)
       type(operator_t), intent(in) :: a
       type(pinned_t), intent(in) :: pinned
       real(wp), allocatable, intent(out) :: vectors(:, :)
       real(wp), intent(out) :: values(:)
+      type(first_block_t), intent(out) :: beside
       type(sparse_basis_t) :: deflated
       real(wp), allocatable :: found(:)
       type(error_t), allocatable :: error
 
       call new_sparse_basis(deflated)
-      call pinned_space(a, pinned, pinned%pin, deflated, vectors, found, error)
+      call make_first_block(pinned%n, pinned%n - pinned%pins, min(3, pinned%n - pinned%pins), .true., beside%vectors)
+      call pinned_space(a, pinned, pinned%pin, deflated, vectors, found, error, beside)
       call tally%check(.not. allocated(error) .and. size(found) == size(values), 'vectors of the pins')
       values = found
    end subroutine find_low
+
+   !> Where a step was taken with the block beside, it is orthonormal, and of it inverse(F) is known.
+   subroutine check_beside(pinned, beside, lowest, name)
+      type(pinned_t), intent(in) :: pinned
+      type(first_block_t), intent(in) :: beside
+      real(wp), intent(in) :: lowest(:, :)
+      character(len=*), intent(in) :: name
+      real(wp), allocatable :: applied(:, :)
+      type(error_t), allocatable :: error
+
+      if (.not. allocated(beside%applied)) return
+      call check_orthonormal(beside%vectors, 1.0e-13_wp, name//': beside, orthonormal')
+      call tally%check(all(abs(matmul(transpose(lowest), beside%vectors)) <= 1.0e-6_wp), name//': beside, apart from the lowest')
+      applied = beside%vectors
+      call apply_inverse(pinned, applied, error)
+      call tally%check(all(abs(applied - beside%applied) <= 1.0e-10_wp*maxval(abs(applied))), name//': beside, applied')
+   end subroutine check_beside
+
+   !> What was made of vectors that are far from orthogonal to the lowest is not used.
+   subroutine check_misled(a, pinned, beside, lowest, expected, name)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      type(first_block_t), intent(in) :: beside
+      real(wp), intent(in) :: lowest(:, :), expected
+      character(len=*), intent(in) :: name
+      type(first_block_t) :: wrong
+
+      if (.not. allocated(beside%applied) .or. size(lowest, 2) == 0) return
+      wrong = beside
+      wrong%vectors(:, 1) = 0.6_wp*wrong%vectors(:, 1) + 0.8_wp*lowest(:, 1)
+      wrong%applied = 0.0_wp
+      call check_next(a, pinned, lowest, [expected], 1.0e-12_wp, name//', misled', wrong)
+   end subroutine check_misled
 
    !> Beside what the pins hold though it is no zero.
    subroutine find_left(a, pinned, held, wanted, left, name)
@@ -371,13 +417,14 @@ contains
       integer, parameter :: n = 50
       type(operator_t) :: a
       type(pinned_t) :: pinned
+      type(first_block_t) :: beside
       real(wp), allocatable :: vectors(:, :), left(:, :)
       real(wp) :: values(1)
 
       a = operator_of(grid(n, .true.))
       call prove(a, 1, pinned, 'torus')
       call tally%check(.not. pinned%is_narrow, 'torus: wide')
-      call find_low(a, pinned, vectors, values)
+      call find_low(a, pinned, vectors, values, beside)
       call tally%near(values, [0.0_wp], 1.0e-13_wp, 'torus: one zero')
       call tally%near(vectors(:, 1)/vectors(1, 1), spread(1.0_wp, 1, n**2), 1.0e-11_wp, 'torus: its vector')
       call check_next(a, pinned, vectors, spread(2*sin(pi/n), 1, 4), 1.0e-10_wp, 'torus')

@@ -2,7 +2,7 @@
 !> What is wrong with the factor of a random matrix, if anything is.
 module flexact_pattern_checks
    use, intrinsic :: iso_fortran_env, only: int64
-   use flexact_backward_error, only: error_of_cholesky
+   use flexact_cholesky_error, only: error_of_cholesky
    use flexact_cholesky, only: cholesky_t, get_pivots
    use flexact_cholesky_oracle, only: lower_t, entries_of, fill_of, failing, failing_t
    use flexact_error, only: error_t

@@ -8,7 +8,8 @@
 program test_second_opinion
    use, intrinsic :: iso_c_binding, only: c_ptr, c_associated
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use flexact_backward_error, only: error_of_cholesky, error_of_gram, unit, extra
+   use flexact_backward_error, only: error_of_gram, unit, extra
+   use flexact_cholesky_error, only: error_of_cholesky
    use flexact_cholesky, only: cholesky_t, get_pivots
    use flexact_cholesky_oracle, only: lower_t, analyse_for, factorise_by, entries_of, fill_of, permuted, failing, &
                                       failing_t
@@ -71,7 +72,7 @@ contains
       a = operator_of(sparse_of(dense))
       call make_gram(a, huge(bytes), gram, bytes)
       largest = maxval(gram%value(gram%diagonal))
-      square = max(1.0e-13_wp*largest, 1.5_wp*error_of_gram(a, largest))
+      square = max(1.0e-13_wp*largest, 1.5_wp*error_of_gram(a, largest, 0.0_wp))
       allocate (added(n))
       order = some_order(n, modulo(k, 3))
       lower = lower_t(n, gram%start, gram%place, gram%value)

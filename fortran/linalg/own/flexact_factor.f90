@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The sparse Cholesky factorisation that is built in: our own (-Dsparse=own).
 module flexact_factor
-   use flexact_backward_error, only: error_of_factor => error_of_cholesky
+   use flexact_cholesky_error, only: error_of_factor => error_of_cholesky
    use flexact_cholesky, only: factor_t => cholesky_t, analyse, get_pivots
    use flexact_multifrontal, only: factorise
    use flexact_supernodal_solve, only: solve
