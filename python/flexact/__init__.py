@@ -40,8 +40,8 @@ if TYPE_CHECKING:
     from .model.model import Model
     from .notebook.output import viewer
     from .notebook.results import Results
-    from .result.decompose import AnalysisError
     from .result.exact import ExactBases
+    from .result.failing import AnalysisError
     from .result.modes import Motion, SelfStress
     from .result.verdict import (
         Alternative,
@@ -93,7 +93,7 @@ _HOMES = {
     "model.model": ("Model",),
     "notebook.output": ("viewer",),
     "notebook.results": ("Results",),
-    "result.decompose": ("AnalysisError",),
+    "result.failing": ("AnalysisError",),
     "result.exact": ("ExactBases",),
     "result.modes": ("Motion", "SelfStress"),
     "result.verdict": (

@@ -21,7 +21,8 @@ from .model.jacobian import jacobian
 from .model.model import Model
 from .page import broken_page, page
 from .result.accuracy import AccuracyGiven
-from .result.decompose import AnalysisError, asked_for
+from .result.decompose import asked_for
+from .result.failing import AnalysisError
 from .result.result import Result, result_of
 from .saving import as_bytes, save
 from .text.describe import MOST_MODES, describe

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The choice of a method and of a tolerance: what is taken, what is refused, what is given."""
 
+import math
 import re
 from typing import Any
 
@@ -98,6 +99,34 @@ def test_what_is_not_worth_a_look_may_always_be_used(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(memory, "available", lambda: 0.0)
     assert memory.allowance() == 2**26
     assert analyse(ring(3)).rank == 9
+
+
+def joints_apart(count: int = 20) -> Model:
+    """Joints on seven bars each, and as many on one: parts with more rows, or more columns."""
+    model = Model()
+    for k in range(2 * count):
+        joint = model.node(10.0 * k, 0.0, 0.0)
+        for bar in range(7 if k < count else 1):
+            foot = model.node(10.0 * k + math.cos(bar), math.sin(bar), 1.0 + 0.1 * bar)
+            model.fix(foot)
+            model.truss(joint, foot)
+    return model
+
+
+def test_no_decomposition_asks_for_more_than_it_may_need() -> None:
+    for model in (twelve_trusses(), ring(3), ring(30), folded_sheet(False, 40), joints_apart()):
+        raw = analyse(model, method="svd").raw
+        needed = raw.bytes_needed
+        assert 0 < needed <= memory.dense_needed(raw.row_scale.size, raw.column_scale.size)
+
+
+def test_singular_values_without_room_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    analysis = analyse(ring(3), method="svd")
+    monkeypatch.setattr(memory, "allowance", lambda most=0.0: 1.0)
+    with pytest.raises(flexact.AnalysisError):
+        _ = analysis.singular_values
+    monkeypatch.undo()
+    assert analysis.singular_values.size == 9
 
 
 @pytest.mark.skipif(CAN_PROVE, reason="proofs are at hand")

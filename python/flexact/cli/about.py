@@ -23,7 +23,8 @@ from flexact.base.version import VERSION
 from flexact.core import calls
 from flexact.deck.reading import read_bytes
 from flexact.engine.processors import processors
-from flexact.result.decompose import AnalysisError, asked_for
+from flexact.result.decompose import asked_for
+from flexact.result.failing import AnalysisError
 from flexact.result.result import Result, result_of
 
 #: Extras that users have no need of.

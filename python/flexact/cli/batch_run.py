@@ -23,7 +23,7 @@ from flexact.diagnostics.errors import DeckError
 from flexact.engine.running import results_of
 from flexact.files.decks import DeckFile, FolderError
 from flexact.files.outputs import OutputError
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 from flexact.variants.batches.deck_rows import first_error
 from flexact.variants.batches.journal import Journal
 from flexact.variants.writing import Cell, write_table

@@ -23,7 +23,7 @@ from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import plan_file, require_replaceable, write_together
 from flexact.page import Pair, before_and_after, changes_part, compare_page
 from flexact.picture import has_packages, picture_bytes
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 from flexact.result.result import Result
 from flexact.saving import PAGES, as_bytes, small_picture
 from flexact.text.comparing import (

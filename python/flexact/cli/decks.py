@@ -14,7 +14,7 @@ from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.terminal import complain, end_progress, say, show_progress
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import SUFFIX, DeckFile, FolderError
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 
 REMARKS = {
     ExitCode.OTHER: "failed",

@@ -30,7 +30,7 @@ from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
 from flexact.model.data import ModelData
 from flexact.regress.one_deck import Finding, Question, State, answer_place, case_of
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 
 
 def fill(parser: argparse.ArgumentParser) -> None:

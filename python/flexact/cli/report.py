@@ -24,7 +24,7 @@ from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
 from flexact.page import Entry, index_page
 from flexact.picture import has_packages
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 from flexact.result.result import Result
 from flexact.saving import PAGES, as_bytes
 from flexact.text.margin import verdict_word

@@ -20,7 +20,7 @@ from flexact.cli.summary_table import Cells, SummaryTable
 from flexact.cli.terminal import end_progress, say, show_progress
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, FolderError
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 from flexact.result.result import Result
 from flexact.result.verdict import Certainty, Verdict
 from flexact.text.decision import certainty_word

@@ -20,7 +20,7 @@ from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import plan_file
 from flexact.page import page
-from flexact.result.decompose import AnalysisError
+from flexact.result.failing import AnalysisError
 from flexact.saving import as_bytes, page_bytes
 from flexact.text.margin import verdict_word
 from flexact.watching.browser import opens

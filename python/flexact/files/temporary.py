@@ -9,10 +9,8 @@ import re
 import sys
 import time
 from functools import cache
-from hashlib import sha256
 from itertools import count
 from pathlib import Path
-from socket import gethostname
 
 from ..base.loading import load
 
@@ -68,9 +66,11 @@ def _is_alive(process: int) -> bool:
 @cache
 def _system() -> str:
     """Within what process numbers have a meaning: a run of a machine, and a container in it."""
-    parts = [gethostname()]
+    # Loaded where a file is written, for they take a tenth of the time of the first word.
+    parts: list[str] = [load("socket").gethostname()]
     with contextlib.suppress(OSError):
         parts.append(Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii"))
     with contextlib.suppress(OSError):
         parts.append(os.readlink("/proc/self/ns/pid"))
-    return sha256("\n".join(parts).encode()).hexdigest()[:12]
+    found: str = load("hashlib").sha256("\n".join(parts).encode()).hexdigest()
+    return found[:12]

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 
 from ..base import memory
-from ..base.errors import FlexactError
 from ..base.plain_text import in_short
 from ..core import calls
 from ..core.arrays import IntArray
@@ -14,18 +13,9 @@ from ..core.progress import Progress, reported
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from .accuracy import Accuracy, AccuracyGiven
+from .failing import completed
 from .outcome import Asked
 
-
-class AnalysisError(FlexactError):
-    """A sound model that could not be analysed: too large, or no convergence."""
-
-
-#: How the core may fail, in words.
-_FAILURES = {
-    "convergence": "the decomposition of D(c) did not converge",
-    "interrupted": "the analysis was stopped",
-}
 #: Methods that were there once, and what serves instead.
 _REMOVED = {"qr": "use svd, or auto"}
 
@@ -99,20 +89,4 @@ def decompose(data: ModelData, asked: Asked, progress: Progress | None = None) -
             as_stored=data.has_long_numbers,
         )
 
-    try:
-        raw = work(None) if progress is None else reported(work, progress)
-    except MemoryError:
-        raise AnalysisError(_too_large(data, None)) from None
-    if raw.error == "memory":
-        raise AnalysisError(_too_large(data, raw.bytes_needed))
-    if raw.error != "none":
-        raise AnalysisError(_FAILURES.get(raw.error, f"the core failed ({raw.error})"))
-    return raw
-
-
-def _too_large(data: ModelData, needed: float | None) -> str:
-    size = "" if needed is None else f"about {needed / 1e9:.3g} GB of memory, "
-    return (
-        f"D(c) has {data.count.rows} rows and {data.count.columns} columns; its decomposition "
-        f"needs {size}more {'' if size else 'memory '}than there is"
-    )
+    return completed(data, lambda: work(None) if progress is None else reported(work, progress))

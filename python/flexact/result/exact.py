@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from ..core import calls
 from ..core.raw import RawEchelon
-from .decompose import AnalysisError
+from .failing import AnalysisError
 from .outcome import Outcome
 
 Vector = tuple[Fraction, ...]

@@ -21,6 +21,7 @@ from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Parts
 from .accuracy import Accuracy
 from .carriers import Carriers
+from .failing import completed
 from .screws import ROUNDING
 from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
 
@@ -129,11 +130,18 @@ class Outcome(Frozen):
 
         All min(m, n) of them, after the method sparse the smallest, computed when they are
         first asked for; see `singular_values_given`.
+
+        Raises:
+            AnalysisError: there is no longer the memory for them.
         """
         room = memory.allowance(memory.dense_needed(self.rows, self.columns))
-        values = calls.analyse_model(
-            self.data.packed, self.method, memory=room, only_plain_values=True
-        ).scaled_values
+
+        def work() -> RawAnalysis:
+            return calls.analyse_model(
+                self.data.packed, self.method, memory=room, only_plain_values=True
+            )
+
+        values = completed(self.data, work).scaled_values
         values.flags.writeable = False
         return values
 

@@ -16,7 +16,7 @@ from ..advice.ways import (
     on_self_stresses,
 )
 from ..core.elements import keywords_of
-from ..result.decompose import AnalysisError
+from ..result.failing import AnalysisError
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..result.verdict import Margin

@@ -12,7 +12,8 @@ from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import render_problems
 from ..model.data import ModelData
 from ..page.content import broken_content, content_of
-from ..result.decompose import AnalysisError, asked_for
+from ..result.decompose import asked_for
+from ..result.failing import AnalysisError
 from ..result.result import Result, result_of
 from ..text.margin import verdict_word
 from .errors_part import errors_part

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from ...model.data import ModelData
 from ...model.parts.condensing import as_given
-from ...result.decompose import AnalysisError, decompose
+from ...result.decompose import decompose
+from ...result.failing import AnalysisError
 from ...result.outcome import Asked
 from ...result.result import Result
 from ..change import Change

@@ -12,7 +12,7 @@ from ...core.progress import Progress
 from ...deck.reading import read_bytes
 from ...diagnostics.errors import DeckError, ProblemsError
 from ...files.decks import FolderError
-from ...result.decompose import AnalysisError
+from ...result.failing import AnalysisError
 from ...result.outcome import Asked
 from ...result.result import Result, result_of
 from ..columns import ERROR, Column, columns_of

@@ -16,7 +16,7 @@ from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.data import ModelData
 from ...model.parts.condensing import condensed
-from ...result.decompose import AnalysisError
+from ...result.failing import AnalysisError
 
 #: Entries of D(c), as it is held in full, over all coordinates.
 MOST_ENTRIES = 16_000_000

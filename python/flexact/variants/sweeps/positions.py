@@ -25,7 +25,7 @@ from ...model.data import ModelData
 from ...model.parts.chains import perhaps_condensed
 from ...model.variation import classes_held, varied
 from ...result.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
-from ...result.decompose import AnalysisError
+from ...result.failing import AnalysisError
 from ...result.margin import NOTHING, least_misalignments
 from ...result.outcome import Asked
 from ...result.result import result_of

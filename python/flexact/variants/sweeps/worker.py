@@ -11,7 +11,7 @@ import numpy as np
 from ...core.arrays import BoolArray, FloatArray
 from ...model.data import ModelData
 from ...model.variation import varied
-from ...result.decompose import AnalysisError
+from ...result.failing import AnalysisError
 from ...result.outcome import Asked
 from ...result.result import Result, result_of
 from ..modes import MotionArrays, StressArrays, modes_of
