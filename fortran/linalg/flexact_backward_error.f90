@@ -25,7 +25,8 @@ module flexact_backward_error
    !> Roundings of an entry beside those of its products: a division as a product
    !> with the inverse, a root, what was added, and one for the bound itself.
    integer, parameter :: extra = 4
-   !> Products with x: the first is with a guess, the second nearly as good as many.
+   !> Products with x: the first is with a guess, which is w, for rows with many entries meet
+   !> others such; the second is nearly as good as many.
    integer, parameter :: rounds = 2
 
 contains
@@ -45,7 +46,7 @@ contains
       integer :: j, round
 
       w = growth(a%by_column%start(2:) - a%by_column%start(:a%by_column%columns) + extra)
-      x = sqrt(w)
+      x = w
       bound = huge(bound)
       do round = 1, rounds
          y = 0.0_wp
@@ -74,7 +75,7 @@ contains
       integer :: i, round
 
       w = growth([(i - l%first(i) + 1 + extra, i=1, l%n)])
-      x = sqrt(w)
+      x = w
       bound = huge(bound)
       do round = 1, rounds
          y = 0.0_wp

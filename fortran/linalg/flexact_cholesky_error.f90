@@ -49,7 +49,7 @@ contains
       call count_in_rows(factor, w)
       w = (w + extra)*unit
       w = w/(1 - w)
-      job%x = sqrt(w)
+      job%x = w
       do round = 1, rounds
          call multiply_twice(job, z)
          z = w*z

@@ -31,11 +31,12 @@ module flexact_pinned
    !> rounding, below which t is raised, and to which.
    real(wp), parameter :: least_square = 1.0e-13_wp
    real(wp), parameter :: safe = 1.25_wp, raised = 1.5_wp
-   !> A bound of the rounding below this part of t**2 is as good as any.
-   real(wp), parameter :: little = 0.1_wp
+   !> Bounds below these parts of t**2 are as good as any, that of A'A and that of all rounding:
+   !> t is not raised.
+   real(wp), parameter :: little = 0.1_wp, enough = 0.75_wp
    !> t**2 over the largest diagonal entry for each entry of the longest column of the
    !> factor: above what bounds come out at, so that t need not be raised later.
-   real(wp), parameter :: expected = 3.0e-15_wp
+   real(wp), parameter :: expected = 4.5e-15_wp
    !> Pivots below this many times t**2, which the shift adds to them, are pinned. To pin
    !> one too many does no harm: so a thousand times that where nothing is shown anyway.
    real(wp), parameter :: small_pivot = 10.0_wp
@@ -135,9 +136,9 @@ contains
       type(pinned_t), intent(inout) :: pinned
 
       if (pinned%is_narrow) then
-         pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline, little*pinned%least**2)
+         pinned%rounding = pinned%error_of_gram + error_of_skyline(pinned%skyline, enough*pinned%least**2 - pinned%error_of_gram)
       else
-         pinned%rounding = pinned%error_of_gram + error_of_factor(pinned%factor, little*pinned%least**2)
+         pinned%rounding = pinned%error_of_gram + error_of_factor(pinned%factor, enough*pinned%least**2 - pinned%error_of_gram)
       end if
       pinned%bound = 0.0_wp
       if (pinned%rounding < pinned%least**2) pinned%bound = sqrt(pinned%least**2 - pinned%rounding)
