@@ -17,7 +17,10 @@ module flexact_supernodal_solve
    !> Right-hand sides that are taken together, and multiplications in a supernode from which BLAS
    !> is quicker than plain loops.
    integer, parameter :: together = 16
-   integer, parameter :: worth_blas = 4000
+   integer, parameter :: worth_blas = 2000
+   !> Columns of a panel that are taken together; and multiplications up to which some BLAS do not
+   !> copy matrices before they multiply them: half the time goes into reading the factor.
+   integer, parameter :: abreast = 16, narrowest = 8, at_once = 900000
 
    !> The rows of one supernode (rows, k); and where the rows above a task stand among those that
    !> it leaves something for.
@@ -81,7 +84,8 @@ contains
       associate (factor => job%factor)
          allocate (job%all(int(factor%n, long)*k), job%worker(factor%threads), job%left(factor%tasks%count), stat=info)
          do i = 1, factor%threads
-            if (info == 0) allocate (job%worker(i)%some(int(factor%widest, long)*k), job%worker(i)%place(factor%n), stat=info)
+            if (info == 0) allocate (job%worker(i)%some(int(factor%widest, long)*together), &
+                                     job%worker(i)%place(factor%n), stat=info)
          end do
          do t = 1, factor%tasks%count
             root = factor%tasks%root(t)
@@ -207,24 +211,13 @@ contains
       integer, intent(in) :: s, last, rows, columns, k, place(:)
       real(wp), intent(in) :: panel(rows, columns)
       real(wp), intent(inout) :: some(rows, k), all(k, *), left(k, *)
-      integer :: i, j, r, row
+      integer :: i, row
 
       do i = 1, columns
          some(i, :) = all(:, pattern%first(s) + i - 1)
       end do
       some(columns + 1:, :) = 0.0_wp
-      if (real(rows, wp)*columns*k < worth_blas) then
-         do j = 1, columns
-            do r = 1, k
-               some(j, r) = some(j, r)/panel(j, j)
-               some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
-            end do
-         end do
-      else
-         call dtrsm('L', 'L', 'N', 'N', columns, k, 1.0_wp, panel, rows, some, rows)
-         if (rows > columns) call dgemm('N', 'N', rows - columns, k, columns, -1.0_wp, panel(columns + 1, 1), rows, &
-                                        some, rows, 0.0_wp, some(columns + 1, 1), rows)
-      end if
+      call divide(rows, columns, k, panel, some)
       do i = 1, columns
          all(:, pattern%first(s) + i - 1) = some(i, :)
       end do
@@ -238,8 +231,48 @@ contains
       end do
    end subroutine forward
 
+   !> Divide the first rows by the diagonal block, and take their part from the others.
+   pure recursive subroutine divide(rows, columns, k, panel, some)
+      integer, intent(in) :: rows, columns, k
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(rows, k)
+      integer :: i, j, r, c, step
+
+      if (.not. is_worth_blas(rows, columns, k)) then
+         do j = 1, columns
+            do r = 1, k
+               some(j, r) = some(j, r)/panel(j, j)
+               some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
+            end do
+         end do
+         return
+      end if
+      do j = 1, columns, abreast
+         c = min(abreast, columns - j + 1)
+         call dtrsm('L', 'L', 'N', 'N', c, k, 1.0_wp, panel(j, j), rows, some(j, 1), rows)
+         step = at_once/(k*c)
+         do i = j + c, rows, step
+            call dgemm('N', 'N', min(step, rows - i + 1), k, c, -1.0_wp, panel(i, j), rows, some(j, 1), rows, &
+                       1.0_wp, some(i, 1), rows)
+         end do
+      end do
+   end subroutine divide
+
    !> Take the part of the rows below from the places of supernode s, and divide by the transpose.
    pure recursive subroutine backward(pattern, s, rows, columns, k, panel, some, all)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, rows, columns, k
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(*), all(k, *)
+
+      if (is_worth_blas(rows, columns, k)) then
+         call backward_by_blas(pattern, s, rows, columns, k, merge(together, k, k > together/2), panel, some, all)
+      else
+         call backward_by_loops(pattern, s, rows, columns, k, panel, some, all)
+      end if
+   end subroutine backward
+
+   pure recursive subroutine backward_by_loops(pattern, s, rows, columns, k, panel, some, all)
       type(supernodal_t), intent(in) :: pattern
       integer, intent(in) :: s, rows, columns, k
       real(wp), intent(in) :: panel(rows, columns)
@@ -249,19 +282,44 @@ contains
       do i = 1, rows
          some(i, :) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
       end do
-      if (real(rows, wp)*columns*k < worth_blas) then
-         do j = columns, 1, -1
-            do r = 1, k
-               some(j, r) = (some(j, r) - dot_product(panel(j + 1:, j), some(j + 1:, r)))/panel(j, j)
-            end do
+      do j = columns, 1, -1
+         do r = 1, k
+            some(j, r) = (some(j, r) - dot_product(panel(j + 1:, j), some(j + 1:, r)))/panel(j, j)
          end do
-      else
-         if (rows > columns) call dgemm('T', 'N', columns, k, rows - columns, -1.0_wp, panel(columns + 1, 1), rows, &
-                                        some(columns + 1, 1), rows, 1.0_wp, some, rows)
-         call dtrsm('L', 'L', 'T', 'N', columns, k, 1.0_wp, panel, rows, some, rows)
-      end if
+      end do
       do i = 1, columns
          all(:, pattern%first(s) + i - 1) = some(i, :)
       end do
-   end subroutine backward
+   end subroutine backward_by_loops
+
+   !> filled: right-hand sides with zeros that fill up, with which BLAS is quicker than without.
+   pure recursive subroutine backward_by_blas(pattern, s, rows, columns, k, filled, panel, some, all)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, rows, columns, k, filled
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(filled, rows), all(k, *)
+      integer :: i, j, c, last
+
+      do i = 1, rows
+         some(:k, i) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
+         some(k + 1:, i) = 0.0_wp
+      end do
+      last = columns
+      do while (last > 0)
+         c = min(last, max(narrowest, min(2*abreast, at_once/(filled*(rows - last + 1)))))
+         j = last - c + 1
+         if (rows > last) call dgemm('N', 'N', filled, c, rows - last, -1.0_wp, some(1, last + 1), filled, &
+                                     panel(last + 1, j), rows, 1.0_wp, some(1, j), filled)
+         call dtrsm('R', 'L', 'N', 'N', filled, c, 1.0_wp, panel(j, j), rows, some(1, j), filled)
+         last = j - 1
+      end do
+      do i = 1, columns
+         all(:, pattern%first(s) + i - 1) = some(:k, i)
+      end do
+   end subroutine backward_by_blas
+
+   pure recursive logical function is_worth_blas(rows, columns, k)
+      integer, intent(in) :: rows, columns, k
+      is_worth_blas = real(rows, wp)*columns*k >= worth_blas
+   end function is_worth_blas
 end module flexact_supernodal_solve

@@ -25,6 +25,8 @@ program test_pinned
    call a_fixed_path()
    call a_ring()
    call thousands_of_equal_values()
+   call values_just_above()
+   call nothing_but_the_null_space()
    call planted_values('narrow', 20, 12, [1.0e-9_wp, 0.0_wp, 0.0_wp])
    call planted_values('narrow', 12, 12, [0.0_wp])
    call planted_values('narrow', 12, 12, [real(wp) ::])
@@ -207,6 +209,51 @@ contains
       end associate
       call release(pinned)
    end subroutine thousands_of_equal_values
+
+   !> Values of four times t and more are not low, but a projection leaves a tenth of what is along
+   !> them: the left null space is that of the known vectors even so.
+   subroutine values_just_above()
+      integer, parameter :: n = 300
+      real(wp), allocatable :: values(:), lefts(:, :), rights(:, :), left(:, :)
+      integer, allocatable :: zero(:)
+      type(sparse_t) :: matrix
+      type(operator_t) :: a
+      type(pinned_t) :: pinned
+      type(error_t), allocatable :: error
+      integer :: k
+
+      allocate (values(n), source=1.0_wp)
+      values(20::40) = [(1.1e-6_wp*1.2_wp**k, k=1, 7)]
+      values([90, 210]) = 0.0_wp
+      zero = pack([(k, k=1, n)], values <= 0)
+      call banded(values, matrix, lefts, rights)
+      a = operator_of(matrix)
+      call factorise(a, pinned, error)
+      call tally%check(.not. allocated(error) .and. pinned%pins >= size(zero), 'just above: pinned')
+      call tally%check(minval(values, values > 0) > 3*pinned%least, 'just above: not low')
+      call check_left(a, pinned, size(zero), 'just above', left)
+      left = left - matmul(lefts(:, zero), matmul(transpose(lefts(:, zero)), left))
+      call tally%check(all(abs(left) <= 1.0e-11_wp), 'just above: the left null space')
+      call release(pinned)
+   end subroutine values_just_above
+
+   !> Where all other directions are known, nothing is left to be projected but rounding.
+   subroutine nothing_but_the_null_space()
+      real(wp), parameter :: matrix(3, 2) = reshape([1.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 1.0_wp], [3, 2])
+      real(wp), parameter :: known(3, 2) = reshape([[1.0_wp, 1.0_wp, 0.0_wp]/sqrt(2.0_wp), &
+                                                    [-1.0_wp, 1.0_wp, 2.0_wp]/sqrt(6.0_wp)], [3, 2])
+      real(wp), allocatable :: left(:, :)
+      type(operator_t) :: a
+      type(pinned_t) :: pinned
+      type(error_t), allocatable :: error
+
+      a = operator_of(sparse_of(matrix))
+      call factorise(a, pinned, error)
+      call tally%check(.not. allocated(error), 'nothing else: pinned')
+      call find_left(a, pinned, known, 1, left, 'nothing else')
+      call tally%near(left(:, 1)/left(1, 1), [1.0_wp, -1.0_wp, 1.0_wp], 1.0e-13_wp, 'nothing else: the third direction')
+      call release(pinned)
+   end subroutine nothing_but_the_null_space
 
    !> U diag(.05 .. 1, low) V' with random U (m, m) and V (n, n), which is dense: the
    !> count is proven, and the low values with both null spaces are found.
