@@ -8,7 +8,7 @@ module flexact_multifrontal
    use flexact_blas, only: blas_share, blas_unshare
    use flexact_cholesky, only: cholesky_t
    use flexact_error, only: error_t, fail, error_memory, error_not_definite, error_interrupted
-   use flexact_front, only: eliminate, add_to_panel, add_to_square, pack_triangle
+   use flexact_front, only: front_t, take_entries, eliminate, add_to_panel, add_to_square, pack_update
    use flexact_kinds, only: wp, long
    use flexact_progress, only: progress_t
    use flexact_supernodal_pattern, only: supernodal_t, columns_in, rows_in
@@ -31,7 +31,7 @@ module flexact_multifrontal
 
    type :: job_t
       type(cholesky_t), pointer :: factor => null()
-      real(wp), pointer :: matrix(:) => null()
+      real(wp), pointer, contiguous :: matrix(:) => null()
       type(progress_t) :: progress
       type(worker_t), allocatable :: worker(:)
       !> Updates of whole tasks; and where that of each supernode begins, here or on its stack.
@@ -47,7 +47,7 @@ contains
    !> definite, the first in the order of elimination, or 0.
    subroutine factorise(factor, matrix, progress, failed, error)
       type(cholesky_t), intent(inout), target :: factor
-      real(wp), intent(in), target :: matrix(:)
+      real(wp), intent(in), target, contiguous :: matrix(:)
       type(progress_t), intent(in) :: progress
       integer, intent(out) :: failed
       type(error_t), allocatable, intent(out) :: error
@@ -160,84 +160,87 @@ contains
       integer, intent(in) :: s, task
       type(job_t), intent(inout), target :: job
       type(worker_t), intent(inout), target :: worker
-      real(wp), pointer, contiguous :: panel(:), update(:)
-      integer :: rows, columns, failed
+      type(front_t) :: front
+      integer :: failed
 
-      associate (pattern => job%factor%pattern)
-         rows = rows_in(pattern, s)
-         columns = columns_in(pattern, s)
-         panel => job%factor%value(pattern%panel(s):pattern%panel(s + 1) - 1)
-         call take_entries(pattern, s, rows, job%matrix, worker%place_in, panel)
-         call take_updates(s, task, job, worker, rows, columns, panel)
-         call eliminate(rows, columns, panel, worker%square, failed)
+      call begin_front(s, task, job, worker, front)
+      call take_entries(front)
+      call take_updates(task, job, worker, front)
+      associate (rows => front%rows, columns => front%columns)
+         call eliminate(rows, columns, front%panel, worker%square, failed)
          if (failed /= 0) then
-            job%failed(task) = pattern%first(s) + failed - 1
+            job%failed(task) = front%pattern%first(s) + failed - 1
             return
          end if
-         call pass_updates(s, task, job, worker, columns, rows - columns)
+         call pass_updates(task, job, worker, front)
          worker%done = worker%done + work_of(rows, columns)
          if (rows == columns) return
-         if (.not. is_kept(s, task, job)) then
-            job%at(s) = worker%filled + 1
-            worker%filled = worker%filled + update_size(pattern, s)
-         end if
-         update => update_of(s, task, job, worker)
-         call pack_triangle(rows - columns, worker%square, update)
       end associate
+      if (.not. is_kept(s, task, job)) then
+         job%at(s) = worker%filled + 1
+         worker%filled = worker%filled + update_size(front%pattern, s)
+      end if
+      front%update => update_of(s, task, job, worker)
+      call pack_update(front)
    end subroutine work_on
 
-   !> The entries of the matrix in the columns of supernode s.
-   pure recursive subroutine take_entries(pattern, s, rows, matrix, place_in, panel)
-      type(supernodal_t), intent(in) :: pattern
-      integer, intent(in) :: s, rows
-      real(wp), intent(in) :: matrix(:)
-      integer, intent(inout) :: place_in(:)
-      real(wp), intent(inout) :: panel(rows, *)
-      integer :: i, j, e
-
-      do i = 1, rows
-         place_in(pattern%row(pattern%rows_from(s) + i - 1)) = i
-      end do
-      do j = 1, columns_in(pattern, s)
-         panel(j:rows, j) = 0.0_wp
-         do e = pattern%entry_from(pattern%first(s) + j - 1), pattern%entry_from(pattern%first(s) + j) - 1
-            panel(place_in(pattern%entry_row(e)), j) = matrix(pattern%entry(e))
-         end do
-      end do
-   end subroutine take_entries
-
-   !> Add what the supernodes below left for the columns of s.
-   recursive subroutine take_updates(s, task, job, worker, rows, columns, panel)
-      integer, intent(in) :: s, task, rows, columns
+   recursive subroutine begin_front(s, task, job, worker, front)
+      integer, intent(in) :: s, task
       type(job_t), intent(inout), target :: job
       type(worker_t), intent(inout), target :: worker
-      real(wp), intent(inout), contiguous :: panel(:)
-      integer :: c, below
+      type(front_t), intent(out) :: front
+      integer :: i
 
-      c = job%factor%tasks%child(s)
+      front%s = s
+      front%pattern => job%factor%pattern
+      front%matrix => job%matrix
+      if (task == 0) front%threads = size(job%worker)
+      associate (pattern => front%pattern)
+         front%rows = rows_in(pattern, s)
+         front%columns = columns_in(pattern, s)
+         front%panel => job%factor%value(pattern%panel(s):pattern%panel(s + 1) - 1)
+         front%square => worker%square
+         front%place_in => worker%place_in
+         front%map => worker%map
+         do i = 1, front%rows
+            worker%place_in(pattern%row(pattern%rows_from(s) + i - 1)) = i
+         end do
+      end associate
+   end subroutine begin_front
+
+   !> Add what the supernodes below left for the columns of a front.
+   recursive subroutine take_updates(task, job, worker, front)
+      integer, intent(in) :: task
+      type(job_t), intent(inout), target :: job
+      type(worker_t), intent(inout), target :: worker
+      type(front_t), intent(inout) :: front
+      integer :: c
+
+      c = job%factor%tasks%child(front%s)
       do while (c /= 0)
-         call find_map(job%factor%pattern, c, worker, below)
-         call add_to_panel(below, update_of(c, task, job, worker), worker%map, rows, columns, panel)
+         call find_map(job%factor%pattern, c, worker, front%below)
+         front%update => update_of(c, task, job, worker)
+         call add_to_panel(front)
          c = job%factor%tasks%sibling(c)
       end do
    end subroutine take_updates
 
-   !> Add what they left for rows below those of s to its own update, and drop them.
-   recursive subroutine pass_updates(s, task, job, worker, columns, below)
-      integer, intent(in) :: s, task, columns, below
+   !> Add what they left for rows below the front to its own update, and drop them.
+   recursive subroutine pass_updates(task, job, worker, front)
+      integer, intent(in) :: task
       type(job_t), intent(inout), target :: job
       type(worker_t), intent(inout), target :: worker
-      integer :: c, side
+      type(front_t), intent(inout) :: front
+      integer :: c
 
-      associate (tasks => job%factor%tasks)
-         c = tasks%child(s)
-         do while (c /= 0)
-            call find_map(job%factor%pattern, c, worker, side)
-            call add_to_square(side, update_of(c, task, job, worker), worker%map, columns, below, worker%square)
-            if (.not. is_kept(c, task, job)) worker%filled = worker%filled - update_size(job%factor%pattern, c)
-            c = tasks%sibling(c)
-         end do
-      end associate
+      c = job%factor%tasks%child(front%s)
+      do while (c /= 0)
+         call find_map(job%factor%pattern, c, worker, front%below)
+         front%update => update_of(c, task, job, worker)
+         call add_to_square(front)
+         if (.not. is_kept(c, task, job)) worker%filled = worker%filled - update_size(job%factor%pattern, c)
+         c = job%factor%tasks%sibling(c)
+      end do
    end subroutine pass_updates
 
    !> Where the rows of the update of c stand in the panel at work.

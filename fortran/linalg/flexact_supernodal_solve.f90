@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Solutions with a sparse Cholesky factor, several right-hand sides side by side. Subtrees are
-!> worked on side by side; what stands above them is left to the threads of BLAS.
+!> worked on side by side; what stands above them panel by panel, large ones by all threads.
 module flexact_supernodal_solve
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
    use flexact_blas, only: blas_share, blas_unshare
    use flexact_cholesky, only: cholesky_t
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp, long
-   use flexact_lapack, only: dgemm, dtrsm
+   use flexact_panel_solve, only: panel_t, divide, divide_by_transpose
    use flexact_supernodal_pattern, only: supernodal_t, columns_in, rows_in
    use flexact_threads, only: run_tasks
    implicit none
@@ -18,9 +18,6 @@ module flexact_supernodal_solve
    !> is quicker than plain loops.
    integer, parameter :: together = 16
    integer, parameter :: worth_blas = 2000
-   !> Columns of a panel that are taken together; and multiplications up to which some BLAS do not
-   !> copy matrices before they multiply them: half the time goes into reading the factor.
-   integer, parameter :: abreast = 16, narrowest = 8, at_once = 900000
 
    !> The rows of one supernode (rows, k); and where the rows above a task stand among those that
    !> it leaves something for.
@@ -125,8 +122,7 @@ contains
             own%place(pattern%row(pattern%rows_from(root + 1) - size(left, 2) + i - 1)) = i
          end do
          do s = job%factor%tasks%from(task), root
-            call forward(pattern, s, last, rows_in(pattern, s), columns_in(pattern, s), job%k, &
-                         job%factor%value(pattern%panel(s)), own%place, own%some, job%all, left)
+            call forward(pattern, s, last, job%k, 1, job%factor%value, own%place, own%some, job%all, left)
          end do
       end associate
    end subroutine forward_in
@@ -140,8 +136,7 @@ contains
       call c_f_pointer(data, job)
       associate (pattern => job%factor%pattern)
          do s = job%factor%tasks%root(task), job%factor%tasks%from(task), -1
-            call backward(pattern, s, rows_in(pattern, s), columns_in(pattern, s), job%k, &
-                          job%factor%value(pattern%panel(s)), job%worker(worker)%some, job%all)
+            call backward(pattern, s, job%k, 1, job%factor%value, job%worker(worker)%some, job%all)
          end do
       end associate
    end subroutine backward_in
@@ -157,13 +152,12 @@ contains
          end do
          do s = 1, pattern%supernodes
             if (tasks%of_supernode(s) == 0) &
-               call forward(pattern, s, job%factor%n, rows_in(pattern, s), columns_in(pattern, s), job%k, &
-                            job%factor%value(pattern%panel(s)), own%place, own%some, job%all, job%left(1)%value)
+               call forward(pattern, s, job%factor%n, job%k, job%factor%threads, job%factor%value, &
+                            own%place, own%some, job%all, job%left(1)%value)
          end do
          do s = pattern%supernodes, 1, -1
             if (tasks%of_supernode(s) == 0) &
-               call backward(pattern, s, rows_in(pattern, s), columns_in(pattern, s), job%k, &
-                             job%factor%value(pattern%panel(s)), own%some, job%all)
+               call backward(pattern, s, job%k, job%factor%threads, job%factor%value, own%some, job%all)
          end do
       end associate
    end subroutine work_above
@@ -206,18 +200,52 @@ contains
 
    !> Divide the places of supernode s by its diagonal block, and take its part from the rows below,
    !> those after `last` among what is left for them.
-   pure recursive subroutine forward(pattern, s, last, rows, columns, k, panel, place, some, all, left)
+   recursive subroutine forward(pattern, s, last, k, threads, value, place, some, all, left)
       type(supernodal_t), intent(in) :: pattern
-      integer, intent(in) :: s, last, rows, columns, k, place(:)
-      real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(rows, k), all(k, *), left(k, *)
-      integer :: i, row
+      integer, intent(in) :: s, last, k, threads, place(:)
+      real(wp), intent(in), target, contiguous :: value(:)
+      real(wp), intent(inout), target, contiguous :: some(:)
+      real(wp), intent(inout) :: all(k, *), left(k, *)
+
+      associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
+         call take_some(pattern, s, rows, columns, k, all, some)
+         if (is_worth_blas(rows, columns, k)) then
+            call divide(panel_t(rows, columns, k, threads, panel_of(pattern, s, value), some))
+         else
+            call divide_by_loops(rows, columns, k, panel_of(pattern, s, value), some)
+         end if
+         call give_some(pattern, s, last, rows, columns, k, place, some, all, left)
+      end associate
+   end subroutine forward
+
+   recursive function panel_of(pattern, s, value) result(panel)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s
+      real(wp), intent(in), target, contiguous :: value(:)
+      real(wp), pointer, contiguous :: panel(:)
+      panel => value(pattern%panel(s):pattern%panel(s + 1) - 1)
+   end function panel_of
+
+   pure recursive subroutine take_some(pattern, s, rows, columns, k, all, some)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, rows, columns, k
+      real(wp), intent(in) :: all(k, *)
+      real(wp), intent(inout) :: some(rows, k)
+      integer :: i
 
       do i = 1, columns
          some(i, :) = all(:, pattern%first(s) + i - 1)
       end do
       some(columns + 1:, :) = 0.0_wp
-      call divide(rows, columns, k, panel, some)
+   end subroutine take_some
+
+   pure recursive subroutine give_some(pattern, s, last, rows, columns, k, place, some, all, left)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, last, rows, columns, k, place(:)
+      real(wp), intent(in) :: some(rows, k)
+      real(wp), intent(inout) :: all(k, *), left(k, *)
+      integer :: i, row
+
       do i = 1, columns
          all(:, pattern%first(s) + i - 1) = some(i, :)
       end do
@@ -229,48 +257,68 @@ contains
             left(:, place(row)) = left(:, place(row)) + some(i, :)
          end if
       end do
-   end subroutine forward
+   end subroutine give_some
 
-   !> Divide the first rows by the diagonal block, and take their part from the others.
-   pure recursive subroutine divide(rows, columns, k, panel, some)
+   pure recursive subroutine divide_by_loops(rows, columns, k, panel, some)
       integer, intent(in) :: rows, columns, k
       real(wp), intent(in) :: panel(rows, columns)
       real(wp), intent(inout) :: some(rows, k)
-      integer :: i, j, r, c, step
+      integer :: j, r
 
-      if (.not. is_worth_blas(rows, columns, k)) then
-         do j = 1, columns
-            do r = 1, k
-               some(j, r) = some(j, r)/panel(j, j)
-               some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
-            end do
-         end do
-         return
-      end if
-      do j = 1, columns, abreast
-         c = min(abreast, columns - j + 1)
-         call dtrsm('L', 'L', 'N', 'N', c, k, 1.0_wp, panel(j, j), rows, some(j, 1), rows)
-         step = at_once/(k*c)
-         do i = j + c, rows, step
-            call dgemm('N', 'N', min(step, rows - i + 1), k, c, -1.0_wp, panel(i, j), rows, some(j, 1), rows, &
-                       1.0_wp, some(i, 1), rows)
+      do j = 1, columns
+         do r = 1, k
+            some(j, r) = some(j, r)/panel(j, j)
+            some(j + 1:, r) = some(j + 1:, r) - some(j, r)*panel(j + 1:, j)
          end do
       end do
-   end subroutine divide
+   end subroutine divide_by_loops
 
    !> Take the part of the rows below from the places of supernode s, and divide by the transpose.
-   pure recursive subroutine backward(pattern, s, rows, columns, k, panel, some, all)
+   recursive subroutine backward(pattern, s, k, threads, value, some, all)
       type(supernodal_t), intent(in) :: pattern
-      integer, intent(in) :: s, rows, columns, k
-      real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(*), all(k, *)
+      integer, intent(in) :: s, k, threads
+      real(wp), intent(in), target, contiguous :: value(:)
+      real(wp), intent(inout), target, contiguous :: some(:)
+      real(wp), intent(inout) :: all(k, *)
+      integer :: filled
 
-      if (is_worth_blas(rows, columns, k)) then
-         call backward_by_blas(pattern, s, rows, columns, k, merge(together, k, k > together/2), panel, some, all)
-      else
-         call backward_by_loops(pattern, s, rows, columns, k, panel, some, all)
-      end if
+      associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
+         if (is_worth_blas(rows, columns, k)) then
+            ! BLAS is quicker with zeros that fill up than without.
+            filled = merge(together, k, k > together/2)
+            call take_all(pattern, s, rows, k, filled, all, some)
+            call divide_by_transpose(panel_t(rows, columns, filled, threads, panel_of(pattern, s, value), some))
+            call give_first(pattern, s, columns, k, filled, some, all)
+         else
+            call backward_by_loops(pattern, s, rows, columns, k, panel_of(pattern, s, value), some, all)
+         end if
+      end associate
    end subroutine backward
+
+   pure recursive subroutine take_all(pattern, s, rows, k, filled, all, some)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, rows, k, filled
+      real(wp), intent(in) :: all(k, *)
+      real(wp), intent(inout) :: some(filled, rows)
+      integer :: i
+
+      do i = 1, rows
+         some(:k, i) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
+         some(k + 1:, i) = 0.0_wp
+      end do
+   end subroutine take_all
+
+   pure recursive subroutine give_first(pattern, s, columns, k, filled, some, all)
+      type(supernodal_t), intent(in) :: pattern
+      integer, intent(in) :: s, columns, k, filled
+      real(wp), intent(in) :: some(filled, *)
+      real(wp), intent(inout) :: all(k, *)
+      integer :: i
+
+      do i = 1, columns
+         all(:, pattern%first(s) + i - 1) = some(:k, i)
+      end do
+   end subroutine give_first
 
    pure recursive subroutine backward_by_loops(pattern, s, rows, columns, k, panel, some, all)
       type(supernodal_t), intent(in) :: pattern
@@ -291,32 +339,6 @@ contains
          all(:, pattern%first(s) + i - 1) = some(i, :)
       end do
    end subroutine backward_by_loops
-
-   !> filled: right-hand sides with zeros that fill up, with which BLAS is quicker than without.
-   pure recursive subroutine backward_by_blas(pattern, s, rows, columns, k, filled, panel, some, all)
-      type(supernodal_t), intent(in) :: pattern
-      integer, intent(in) :: s, rows, columns, k, filled
-      real(wp), intent(in) :: panel(rows, columns)
-      real(wp), intent(inout) :: some(filled, rows), all(k, *)
-      integer :: i, j, c, last
-
-      do i = 1, rows
-         some(:k, i) = all(:, pattern%row(pattern%rows_from(s) + i - 1))
-         some(k + 1:, i) = 0.0_wp
-      end do
-      last = columns
-      do while (last > 0)
-         c = min(last, max(narrowest, min(2*abreast, at_once/(filled*(rows - last + 1)))))
-         j = last - c + 1
-         if (rows > last) call dgemm('N', 'N', filled, c, rows - last, -1.0_wp, some(1, last + 1), filled, &
-                                     panel(last + 1, j), rows, 1.0_wp, some(1, j), filled)
-         call dtrsm('R', 'L', 'N', 'N', filled, c, 1.0_wp, panel(j, j), rows, some(1, j), filled)
-         last = j - 1
-      end do
-      do i = 1, columns
-         all(:, pattern%first(s) + i - 1) = some(:k, i)
-      end do
-   end subroutine backward_by_blas
 
    pure recursive logical function is_worth_blas(rows, columns, k)
       integer, intent(in) :: rows, columns, k

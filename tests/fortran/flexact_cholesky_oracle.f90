@@ -71,7 +71,7 @@ contains
    subroutine factorise_by(threads, factor, value, failed, error)
       integer, intent(in) :: threads
       type(cholesky_t), intent(inout) :: factor
-      real(wp), intent(in) :: value(:)
+      real(wp), intent(in), contiguous :: value(:)
       integer, intent(out) :: failed
       type(error_t), allocatable, intent(out) :: error
 

@@ -1,0 +1,157 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Solutions with one panel of a supernodal Cholesky factor, several right-hand sides side by side.
+!> Half the time goes into reading the panel; so a large one is read by all threads, where they are
+!> at hand, and is not copied first, as BLAS does with large matrices.
+module flexact_panel_solve
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+   use flexact_blas, only: blas_share, blas_unshare
+   use flexact_kinds, only: wp, long
+   use flexact_lapack, only: dgemm, dtrsm
+   use flexact_threads, only: run_tasks
+   implicit none
+   private
+   public :: panel_t, divide, divide_by_transpose
+
+   !> Columns of a panel that are taken together; and multiplications up to which some BLAS do not
+   !> copy matrices before they multiply them.
+   integer, parameter :: abreast = 16, narrowest = 8, at_once = 900000
+   !> Entries from which threads are worth their start.
+   real(wp), parameter :: worth_threads = 5.0e5_wp
+
+   !> A panel (rows, columns), and the right-hand sides of its rows: (rows, k), or transposed.
+   type :: panel_t
+      integer :: rows = 0, columns = 0, k = 0, threads = 1
+      real(wp), pointer, contiguous :: value(:) => null(), some(:) => null()
+   end type panel_t
+
+contains
+
+   !> Divide the first rows (rows, k) by the diagonal block, and take their part from the others.
+   recursive subroutine divide(panel)
+      type(panel_t), intent(in), target :: panel
+
+      call divide_first(panel%rows, panel%columns, panel%k, panel%value, panel%some)
+      if (are_threads_worth(panel)) then
+         call blas_share()
+         call run_tasks(int(panel%threads, c_int), int(panel%threads, c_int), c_funloc(take_piece), c_loc(panel))
+         call blas_unshare()
+      else
+         call take_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, panel%columns + 1, panel%rows)
+      end if
+   end subroutine divide
+
+   !> Take the part of the other columns (k, rows) from the first, and divide those by the transpose
+   !> of the diagonal block.
+   recursive subroutine divide_by_transpose(panel)
+      type(panel_t), intent(in), target :: panel
+
+      if (are_threads_worth(panel)) then
+         call blas_share()
+         call run_tasks(int(panel%threads, c_int), int(panel%threads, c_int), c_funloc(give_piece), c_loc(panel))
+         call blas_unshare()
+      else
+         call take_from_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, 1, panel%columns)
+      end if
+      call divide_last(panel%rows, panel%columns, panel%k, panel%value, panel%some)
+   end subroutine divide_by_transpose
+
+   pure recursive logical function are_threads_worth(panel)
+      type(panel_t), intent(in) :: panel
+      are_threads_worth = panel%threads > 1 .and. real(panel%rows - panel%columns, wp)*panel%columns > worth_threads
+   end function are_threads_worth
+
+   recursive subroutine take_piece(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(panel_t), pointer :: panel
+      integer :: ends(2)
+
+      call c_f_pointer(data, panel)
+      if (worker < 1) return
+      ends = panel%columns + piece(panel%rows - panel%columns, int(task), panel%threads)
+      call take_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, ends(1), ends(2))
+   end subroutine take_piece
+
+   recursive subroutine give_piece(task, worker, data) bind(c)
+      integer(c_int), value :: task, worker
+      type(c_ptr), value :: data
+      type(panel_t), pointer :: panel
+      integer :: ends(2)
+
+      call c_f_pointer(data, panel)
+      if (worker < 1) return
+      ends = piece(panel%columns, int(task), panel%threads)
+      call take_from_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, ends(1), ends(2))
+   end subroutine give_piece
+
+   pure recursive function piece(count, part, parts) result(ends)
+      integer, intent(in) :: count, part, parts
+      integer :: ends(2)
+      ends = int([(part - 1)*int(count, long)/parts + 1, part*int(count, long)/parts])
+   end function piece
+
+   pure recursive subroutine divide_first(rows, columns, k, panel, some)
+      integer, intent(in) :: rows, columns, k
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(rows, k)
+      integer :: j, c, next
+
+      do j = 1, columns, abreast
+         c = min(abreast, columns - j + 1)
+         next = j + c
+         call dtrsm('L', 'L', 'N', 'N', c, k, 1.0_wp, panel(j, j), rows, some(j, 1), rows)
+         if (next <= columns) call dgemm('N', 'N', columns - next + 1, k, c, -1.0_wp, panel(next, j), rows, some(j, 1), rows, &
+                                         1.0_wp, some(next, 1), rows)
+      end do
+   end subroutine divide_first
+
+   !> Of rows first to last.
+   pure recursive subroutine take_below(rows, columns, k, panel, some, first, last)
+      integer, intent(in) :: rows, columns, k, first, last
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(rows, k)
+      integer :: i, j, c, step
+
+      do j = 1, columns, abreast
+         c = min(abreast, columns - j + 1)
+         step = at_once/(k*c)
+         do i = first, last, step
+            call dgemm('N', 'N', min(step, last - i + 1), k, c, -1.0_wp, panel(i, j), rows, some(j, 1), rows, &
+                       1.0_wp, some(i, 1), rows)
+         end do
+      end do
+   end subroutine take_below
+
+   !> From columns first to last.
+   pure recursive subroutine take_from_below(rows, columns, k, panel, some, first, last)
+      integer, intent(in) :: rows, columns, k, first, last
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(k, rows)
+      integer :: j, c, below
+
+      below = rows - columns
+      if (below == 0) return
+      c = max(narrowest, min(2*abreast, at_once/(k*below)))
+      do j = first, last, c
+         call dgemm('N', 'N', k, min(c, last - j + 1), below, -1.0_wp, some(1, columns + 1), k, panel(columns + 1, j), rows, &
+                    1.0_wp, some(1, j), k)
+      end do
+   end subroutine take_from_below
+
+   pure recursive subroutine divide_last(rows, columns, k, panel, some)
+      integer, intent(in) :: rows, columns, k
+      real(wp), intent(in) :: panel(rows, columns)
+      real(wp), intent(inout) :: some(k, rows)
+      integer :: j, c, last
+
+      last = columns
+      do while (last > 0)
+         c = min(last, max(narrowest, min(2*abreast, at_once/(k*(columns - last + 1)))))
+         j = last - c + 1
+         if (last < columns) call dgemm('N', 'N', k, c, columns - last, -1.0_wp, some(1, last + 1), k, panel(last + 1, j), &
+                                        rows, 1.0_wp, some(1, j), k)
+         call dtrsm('R', 'L', 'N', 'N', k, c, 1.0_wp, panel(j, j), rows, some(1, j), k)
+         last = j - 1
+      end do
+   end subroutine divide_last
+end module flexact_panel_solve
