@@ -46,6 +46,7 @@ program test_cholesky
    call a_grid(24, 1)
    call a_grid(24, 2)
    call a_large_grid(60)
+   call large_fronts()
    do i = 1, 40
       call not_definite(2 + i)
    end do
@@ -360,6 +361,94 @@ contains
       call tally%check(abs(factor(1)%entries - factor(2)%entries) <= 0, 'large grid: the same entries')
       call tally%check(all(abs(pivot(:, 2) - pivot(:, 1)) <= 1.0e-13_wp), 'large grid: the same pivots')
    end subroutine a_large_grid
+
+   !> Two parts that hang on a third and on the last, as the third and a fourth do: the third and the
+   !> last are worked on by all threads, in pieces. Right-hand sides are more than are filled up, and
+   !> one.
+   subroutine large_fronts()
+      integer, parameter :: part(5) = [150, 150, 600, 150, 1400], n = sum(part)
+      type(lower_t) :: a
+      type(cholesky_t) :: factor(3)
+      type(error_t), allocatable :: error
+      real(wp) :: x(n, 11), b(n, 11), pivot(n, 3)
+      integer :: failed, t, k
+
+      a = parts(part)
+      call random_number(x)
+      b = product_with(a, x)
+      do t = 1, 3
+         call analyse_for(t, a, [(k, k=0, n - 1)], factor(t), error)
+         call tally%check(t == 1 .or. count(factor(t)%tasks%of_supernode == 0) > 1, 'large fronts: some above the tasks')
+         call factorise_by(t, factor(t), a%value, failed, error)
+         call tally%check(.not. allocated(error) .and. failed == 0, 'large fronts: factorised')
+         call get_pivots(factor(t), pivot(:, t))
+         call tally%check(all(abs(pivot(:, t) - pivot(:, 1)) <= 1.0e-12_wp*pivot(:, 1)), 'large fronts: the same pivots')
+         associate (many => solved(factor(t), b), one => solved(factor(t), b(:, :1)))
+            call tally%check(all(abs(many - x) <= 1.0e-12_wp), 'large fronts: solved')
+            call tally%check(all(abs(one - x(:, :1)) <= 1.0e-12_wp), 'large fronts: solved, one')
+         end associate
+      end do
+   end subroutine large_fronts
+
+   function solved(factor, b) result(x)
+      type(cholesky_t), intent(in) :: factor
+      real(wp), intent(in) :: b(:, :)
+      real(wp), allocatable :: x(:, :)
+      type(error_t), allocatable :: error
+
+      allocate (x, source=b)
+      call solve(factor, x, error)
+      call tally%check(.not. allocated(error), 'solved without an error')
+   end function solved
+
+   !> Random entries, and a diagonal that dominates, where two columns are of one part, or else the
+   !> later one is among the last of its part, or for the first part among the first of the third.
+   function parts(part) result(a)
+      integer, intent(in) :: part(5)
+      type(lower_t) :: a
+      logical :: is_there(5, sum(part))
+      integer :: i, j, k, entry, of(sum(part))
+
+      of = [(spread(k, 1, part(k)), k=1, 5)]
+      is_there = .false.
+      is_there(:4, sum(part) - 399:) = .true.
+      is_there(:3, sum(part) - 999:) = .true.
+      is_there(1, 301:500) = .true.
+      is_there(2, 701:900) = .true.
+      a%n = sum(part)
+      allocate (a%start(a%n + 1), source=0)
+      allocate (a%place(a%n*(a%n + 1)/2), source=0)
+      allocate (a%value(a%n*(a%n + 1)/2), source=0.0_wp)
+      call random_number(a%value)
+      entry = 0
+      do j = 1, a%n
+         do i = j, a%n
+            if (.not. (of(i) == of(j) .or. is_there(of(j), i))) cycle
+            entry = entry + 1
+            a%place(entry) = i - 1
+            if (i == j) a%value(entry) = a%value(entry) + a%n
+         end do
+         a%start(j + 1) = entry
+      end do
+      a%place = a%place(:entry)
+      a%value = a%value(:entry)
+   end function parts
+
+   pure function product_with(a, x) result(b)
+      type(lower_t), intent(in) :: a
+      real(wp), intent(in) :: x(:, :)
+      real(wp) :: b(size(x, 1), size(x, 2))
+      integer :: j, e, i
+
+      b = 0.0_wp
+      do j = 1, a%n
+         do e = a%start(j) + 1, a%start(j + 1)
+            i = a%place(e) + 1
+            b(i, :) = b(i, :) + a%value(e)*x(j, :)
+            if (i /= j) b(j, :) = b(j, :) + a%value(e)*x(i, :)
+         end do
+      end do
+   end function product_with
 
    pure function laplacian(n) result(a)
       integer, intent(in) :: n
