@@ -39,8 +39,7 @@ contains
       real(wp), allocatable, intent(out) :: vectors(:, :)
       type(error_t), allocatable, intent(out) :: error
       type(descent_t) :: descent
-      real(wp) :: left, least
-      integer :: round, in_vain
+      integer :: again
 
       allocate (vectors(a%by_column%rows, wanted))
       if (wanted == 0) return
@@ -48,6 +47,28 @@ contains
       call fill_at_random(1, vectors)
       call deflate(known, vectors)
       call make_long(descent, vectors)
+      ! Vectors that are nearly parallel lose digits when they are made orthonormal.
+      do again = 1, 2
+         call project(a, pinned, known, descent, vectors, error)
+         if (.not. allocated(error)) call orthonormalise(vectors, error)
+         if (allocated(error)) return
+      end do
+      call times_transposed(a%by_column, vectors, descent%image)
+      if (maxval(abs(descent%image)) > large_residual*norm_bound(a%by_column)) call fail(error_not_found, error)
+   end subroutine left_null_space
+
+   !> Until A' leaves nothing of vectors of unit length, or no less.
+   subroutine project(a, pinned, known, descent, vectors, error)
+      type(operator_t), intent(in) :: a
+      type(pinned_t), intent(in) :: pinned
+      real(wp), intent(in), contiguous :: known(:, :)
+      type(descent_t), intent(inout) :: descent
+      real(wp), intent(inout), contiguous :: vectors(:, :)
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: left, least
+      integer :: round, in_vain
+
+      descent%before = 0.0_wp
       in_vain = 0
       least = huge(least)
       do round = 1, most_projections
@@ -62,11 +83,7 @@ contains
          call descend(a, known, in_vain > 0, descent, vectors)
          if (round == 1) call make_long(descent, vectors)
       end do
-      call orthonormalise(vectors, error)
-      if (allocated(error)) return
-      call times_transposed(a%by_column, vectors, descent%image)
-      if (maxval(abs(descent%image)) > large_residual*norm_bound(a%by_column)) call fail(error_not_found, error)
-   end subroutine left_null_space
+   end subroutine project
 
    pure subroutine begin(a, wanted, descent)
       type(operator_t), intent(in) :: a

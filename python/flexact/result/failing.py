@@ -20,8 +20,15 @@ _FAILURES = {
 }
 
 
-def completed(data: ModelData, work: Callable[[], RawAnalysis]) -> RawAnalysis:
+def completed(
+    data: ModelData, work: Callable[[], RawAnalysis], forgiven: tuple[str, ...] = ()
+) -> RawAnalysis:
     """What the core gives for a model, where nothing failed.
+
+    Args:
+        data: The model.
+        work: The call of the core.
+        forgiven: Errors, by their names in `flexact.core.calls.ERRORS`, that leave it without.
 
     Raises:
         AnalysisError: the model is too large for the memory, or there was no convergence.
@@ -32,7 +39,7 @@ def completed(data: ModelData, work: Callable[[], RawAnalysis]) -> RawAnalysis:
         raise AnalysisError(_too_large(data, None)) from None
     if raw.error == "memory":
         raise AnalysisError(_too_large(data, raw.bytes_needed))
-    if raw.error != "none":
+    if raw.error not in ("none", *forgiven):
         raise AnalysisError(_FAILURES.get(raw.error, f"the core failed ({raw.error})"))
     return raw
 

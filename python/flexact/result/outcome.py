@@ -128,8 +128,9 @@ class Outcome(Frozen):
     def singular_values(self) -> FloatArray:
         """Singular values of D(c) in the model's units, descending, eq. (16).
 
-        All min(m, n) of them, after the method sparse the smallest, computed when they are
-        first asked for; see `singular_values_given`.
+        All min(m, n) of them, computed when they are first asked for; after the method sparse
+        the smallest, or none where lengths that are far from one hide them in these units. See
+        `singular_values_given`.
 
         Raises:
             AnalysisError: there is no longer the memory for them.
@@ -141,7 +142,8 @@ class Outcome(Frozen):
                 self.data.packed, self.method, memory=room, only_plain_values=True
             )
 
-        values = completed(self.data, work).scaled_values
+        forgiven = ("convergence",) if self.method == "sparse" else ()
+        values = completed(self.data, work, forgiven).scaled_values
         values.flags.writeable = False
         return values
 
