@@ -38,7 +38,7 @@ check: .venv/ready-to-test core-test
 	$(BIN)/ruff format --check .
 	$(PYTEST) $(QUICK:%=tests/python/test_%.py)
 
-# The core with run-time checks and sanitizers, and its unit tests.
+# The core with run-time checks and sanitizers, also of threads, and its unit tests.
 core-test: .venv/ready-to-test
 	PATH="$(CURDIR)/$(BIN):$$PATH" tools/test_core.sh
 

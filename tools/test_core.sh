@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Build the core with run-time checks and sanitizers and run its unit tests: those of
 # matrices where no mechanics is compiled, then the others, with which the program is
-# built that takes fuzzed decks through the core (tests/fuzz).
+# built that takes fuzzed decks through the core (tests/fuzz). What is worked on side by
+# side is run once more with the sanitizer of threads.
 # Usage: tools/test_core.sh [--build-only]
 set -eu
 cd "$(dirname "$0")/.."
@@ -17,17 +18,36 @@ echo end | gfortran -x f95 - -fsanitize=address,undefined -o /dev/null 2>/dev/nu
     sanitizers=
 }
 
+# Set up build/$1 with the options that follow, unless it is so already.
+configure() {
+    folder=build/$1
+    shift
+    options="--buildtype=debug -Dpython_package=false -Dcore_tests=true $*"
+    if [ ! -f "$folder/build.ninja" ] || [ meson.options -nt "$folder/build.ninja" ] || [ "$(cat "$folder/options" 2>/dev/null)" != "$options" ]; then
+        rm -rf "$folder"
+        # shellcheck disable=SC2086  # the options are words
+        meson setup "$folder" $options
+        echo "$options" >"$folder/options"
+    fi
+}
+
 for part in matrices mechanics; do
     only=$([ $part = matrices ] && echo true || echo false)
     fuzzing=$([ $part = mechanics ] && echo true || echo false)
-    options="--buildtype=debug -Dpython_package=false -Dcore_tests=true -Dcore_checks=true
-        -Dmatrices_only=$only -Dcore_fuzzing=$fuzzing $sanitizers"
-    if [ ! -f build/$part/build.ninja ] || [ meson.options -nt build/$part/build.ninja ] || [ "$(cat build/$part/options 2>/dev/null)" != "$options" ]; then
-        rm -rf build/$part
-        # shellcheck disable=SC2086  # the options are words
-        meson setup build/$part $options
-        echo "$options" >build/$part/options
-    fi
+    configure $part -Dcore_checks=true -Dmatrices_only="$only" -Dcore_fuzzing="$fuzzing" "$sanitizers"
     meson compile -C build/$part
     [ "${1:-}" = --build-only ] || meson test -C build/$part --print-errorlogs
 done
+[ "${1:-}" = --build-only ] && exit
+
+# Compilers before 14 have one that does not run on every kernel.
+mkdir -p build/threads
+if ! { echo end | gfortran -x f95 - -fsanitize=thread -o build/threads/probe && build/threads/probe; } >/dev/null 2>&1; then
+    echo "The sanitizer of threads does not run here: data races are not looked for." >&2
+    exit
+fi
+configure threads -Dmatrices_only=true -Db_sanitize=thread -Db_lundef=false
+meson compile -C build/threads tests/fortran/test_cholesky tests/fortran/test_pinned
+# Locks are those of the compiler's library; BLAS, which is not compiled for this, has no threads of its own.
+TSAN_OPTIONS=allocator_may_return_null=1:detect_deadlocks=0:halt_on_error=1 OPENBLAS_NUM_THREADS=1 \
+    meson test -C build/threads --no-rebuild --print-errorlogs cholesky pinned
