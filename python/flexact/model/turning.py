@@ -9,11 +9,10 @@ from collections.abc import Iterable
 from ..core.elements import AXES, Class, Role, element_kinds
 from ..core.elements import Vector as StatedVector
 from ..diagnostics.errors import model_error
-from .arguments import unit
+from .arguments import cross, unit
 from .draft import NO_VECTOR, Draft, Vector
 from .places import ROUNDING
 from .point_arguments import is_rigid
-from .sheet_geometry import normal_to
 from .transform import Transform
 
 
@@ -50,16 +49,17 @@ def check_axes(source: Draft, indices: Iterable[int], move: Transform) -> None:
         classes = dict(zip(kind.role, source.classes[index], strict=True))
         axis = source.vectors[index]
         alike = all(classes.get(a) == classes.get(b) for a, b in _ACROSS)
-        if (
-            alike
-            or normal_to(move.turned(_default(axis)), _default(move.turned(axis))) == NO_VECTOR
-        ):
+        if alike or _along(move.turned(_default(axis)), _default(move.turned(axis))):
             continue
         raise model_error(
             "turned-class",
             f"{source.element_words(index)} has classes across its axis that would not turn",
             "copy first and give the classes afterwards",
         )
+
+
+def _along(a: Vector, b: Vector) -> bool:
+    return math.hypot(*cross(unit(a), unit(b))) <= ROUNDING
 
 
 def check_classes(
