@@ -16,7 +16,7 @@ module flexact_dense_route
    use flexact_rank, only: rank_rule_t, decide_rank
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_scaled_basis, only: add_scaled, add_scaled_sparse
-   use flexact_smallest_values, only: offer_pair
+   use flexact_smallest_values, only: offer_pairs
    use flexact_sparse, only: sparse_t
    use flexact_sparse_basis, only: sparse_basis_t, new_sparse_basis
    implicit none
@@ -184,7 +184,7 @@ contains
       type(problem_t), intent(in) :: problem
       type(component_t), intent(in) :: component
       type(result_t), intent(inout) :: result
-      integer :: k
+      integer :: first, k
 
       associate (rank => component%rank, row => component%row, column => component%column, scaling => problem%scaling, &
                  u => component%u, vt => component%vt)
@@ -197,13 +197,14 @@ contains
             if (allocated(result%error)) return
             call add_left(u, rank, row, scaling%row(row), result%stresses, result%error)
          end if
-         do k = rank, max(1, rank - most_pairs + 1), -1
+         first = max(1, rank - most_pairs + 1)
+         associate (values => component%values(first:rank), left => u(:, first:rank), right => transpose(vt(first:rank, :)))
             if (component%is_transposed) then
-               call offer_pair(result, component%values(k), column, u(:, k), row, vt(k, :))
+               call offer_pairs(result, [(k, k=size(values), 1, -1)], values, column, left, row, right)
             else
-               call offer_pair(result, component%values(k), column, vt(k, :), row, u(:, k))
+               call offer_pairs(result, [(k, k=size(values), 1, -1)], values, column, right, row, left)
             end if
-         end do
+         end associate
       end associate
    end subroutine take_modes
 

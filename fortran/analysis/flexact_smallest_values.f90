@@ -6,33 +6,35 @@ module flexact_smallest_values
    use flexact_sorting, only: ascending
    implicit none
    private
-   public :: offer_pair
+   public :: offer_pairs
 
 contains
 
-   !> Keep a value with its vectors if it is among the smallest so far. Places
-   !> are those of the entries of motion and stress in columns and rows.
-   pure subroutine offer_pair(result, value, motion_place, motion, stress_place, stress)
+   !> Keep of some values, with their vectors, those that are among the smallest so far.
+   !> Places are those of the entries of motions and stresses in columns and rows; which: the
+   !> values that are offered, and the columns with their vectors.
+   pure subroutine offer_pairs(result, which, value, motion_place, motion, stress_place, stress)
       type(result_t), intent(inout) :: result
-      real(wp), intent(in) :: value
-      integer, intent(in) :: motion_place(:), stress_place(:)
-      real(wp), intent(in) :: motion(:), stress(:)
-      integer :: order(size(result%pair_value) + 1), kept
+      integer, intent(in) :: which(:), motion_place(:), stress_place(:)
+      real(wp), intent(in) :: value(:), motion(:, :), stress(:, :)
+      integer :: order(size(result%pair_value) + size(which)), kept
+      real(wp) :: known(size(order))
 
-      if (count(result%pair_value <= value) >= most_pairs) return
-      result%pair_value = [result%pair_value, value]
-      order = ascending(result%pair_value)
+      if (size(which) == 0) return
+      if (count(result%pair_value <= minval(value(which))) >= most_pairs) return
+      known = [result%pair_value, value(which)]
+      order = ascending(known)
       kept = min(size(order), most_pairs)
-      result%pair_value = result%pair_value(order(:kept))
-      call append(result%pair_motion, motion_place, motion, order(:kept))
-      call append(result%pair_stress, stress_place, stress, order(:kept))
-   end subroutine offer_pair
+      result%pair_value = known(order(:kept))
+      call take(result%pair_motion, motion_place, motion, which, order(:kept))
+      call take(result%pair_stress, stress_place, stress, which, order(:kept))
+   end subroutine offer_pairs
 
-   !> Append a column, and keep some in this order.
-   pure subroutine append(columns, place, entries, order)
+   !> Keep columns in this order, in which those that are offered stand behind the others.
+   pure subroutine take(columns, place, offered, which, order)
       real(wp), allocatable, intent(inout) :: columns(:, :)
-      integer, intent(in) :: place(:), order(:)
-      real(wp), intent(in) :: entries(:)
+      integer, intent(in) :: place(:), which(:), order(:)
+      real(wp), intent(in) :: offered(:, :)
       real(wp), allocatable :: kept(:, :)
       integer :: k
 
@@ -41,10 +43,10 @@ contains
          if (order(k) <= size(columns, 2)) then
             kept(:, k) = columns(:, order(k))
          else
-            kept(:, k) = 0.0_wp
-            kept(place, k) = entries
+            if (size(place) < size(kept, 1)) kept(:, k) = 0.0_wp
+            kept(place, k) = offered(:, which(order(k) - size(columns, 2)))
          end if
       end do
       call move_alloc(kept, columns)
-   end subroutine append
+   end subroutine take
 end module flexact_smallest_values

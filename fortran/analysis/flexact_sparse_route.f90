@@ -13,7 +13,7 @@ module flexact_sparse_route
    use flexact_rank, only: rank_rule_t
    use flexact_result, only: options_t, result_t, most_pairs
    use flexact_scaled_basis, only: add_scaled, add_scaled_sparse, append_dense
-   use flexact_smallest_values, only: offer_pair
+   use flexact_smallest_values, only: offer_pairs
    use flexact_sorting, only: ascending
    use flexact_sparse, only: sparse_t, operator_t, submatrix, transposed
    use flexact_sparse_basis, only: sparse_basis_t
@@ -259,17 +259,16 @@ contains
       type(component_t), intent(in) :: component
       type(low_end_t), intent(in) :: low
       type(result_t), intent(inout) :: result
+      integer, allocatable :: which(:)
       integer :: k
 
+      which = pack([(k, k=1, size(low%values))], low%values > low%decision%tolerance)
       associate (row => component%row, column => component%column)
-         do k = 1, size(low%values)
-            if (low%values(k) <= low%decision%tolerance) cycle
-            if (component%is_transposed) then
-               call offer_pair(result, low%values(k), row, low%images(:, k), column, low%vectors(:, k))
-            else
-               call offer_pair(result, low%values(k), column, low%vectors(:, k), row, low%images(:, k))
-            end if
-         end do
+         if (component%is_transposed) then
+            call offer_pairs(result, which, low%values, row, low%images, column, low%vectors)
+         else
+            call offer_pairs(result, which, low%values, column, low%vectors, row, low%images)
+         end if
       end associate
    end subroutine offer_all
 end module flexact_sparse_route

@@ -138,7 +138,7 @@ subroutine assemble(entries, nn, ne, nodes, places, elements, vectors, configura
 end subroutine assemble
 
 ! Rank, motions and self-stresses in the reference configuration; what comes back, and what
-! wishes are, as run_with_blas says. n: at least rows and columns. stage: work, per cent, not 0 to stop it.
+! wishes are, as run_with_blas says. n: rows and columns, at least 1. stage: work, per cent, not 0 to stop it.
 subroutine analyse_model(n, room, nn, ne, nodes, places, elements, vectors, wishes, stage, index, place, value, by_size, facts)
    use iso_c_binding
    use flexact_result_exchange, only: run

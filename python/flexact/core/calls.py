@@ -249,12 +249,12 @@ def analyse_model(
         prove: whether the rank is to be proven in exact arithmetic; None: where it costs little.
         as_stored: whether numbers are no decimals as typed, whatever they look like.
     """
+    _, m, n = count_model(model)
     # Memory is taken only where it is written to.
-    most = 3 * model.nodes.shape[1] + 6 * model.elements.shape[1]
-    index = np.empty((3, most + 1), np.int32, order="F")
-    by_size = np.empty((most, 8), order="F")
+    index = np.empty((3, m + n + 1), np.int32, order="F")
+    by_size = np.empty((max(1, m + n), 8), order="F")
     # Where the address space is limited, what is set aside counts as used.
-    room = max(1, min(most * most, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
+    room = max(1, min((m + n) ** 2, _MOST_ENTRIES, _part(memory, _PART_OF_VECTORS) // 12))
     place, value = np.empty(room, np.int32), np.empty(room)
     require_room_for(model)
     asked = -1.0 if tolerance is None else tolerance
@@ -274,25 +274,24 @@ def analyse_model(
         by_size,
     )
     named = dict(zip(_FACTS, facts.tolist(), strict=False))
-    m, n, pairs = int(named["rows"]), int(named["columns"]), int(named["pairs"])
-    motions, stresses = int(named["motions"]), int(named["self-stresses"])
-    start = index[2, : motions + stresses + 1].copy()
-    labels, block = index[:2, : m + n].copy(), by_size[: m + n].copy(order="F")
-    entries = slice(int(start[-1]) if start.size > 1 else 0)
+    pairs, motions, stresses = (int(named[what]) for what in ("pairs", "motions", "self-stresses"))
+    start = index[2, : motions + stresses + 1]
+    # Of the vectors far more is set aside than they take; given back where they stand.
+    for array in (place, value):
+        array.resize(int(start[-1]) if start.size > 1 else 0, refcheck=False)
     # Views of what cannot be written to cannot be written to either.
-    place, value = place[entries].copy(), value[entries].copy()
-    for array in (facts, start, labels, block, place, value):
+    for array in (facts, index, by_size, place, value):
         array.setflags(write=False)
     return RawAnalysis(
         counts=np.array(facts[4:12], np.int32).reshape(2, 4),
-        row_label=labels[:, :m],
-        column_label=labels[:, m:],
-        scaled_values=block[: int(named["scaled values"]), 1],
-        row_scale=block[:m, 0],
-        column_scale=block[m:, 0],
+        row_label=index[:2, :m],
+        column_label=index[:2, m : m + n],
+        scaled_values=by_size[: int(named["scaled values"]), 1],
+        row_scale=by_size[:m, 0],
+        column_scale=by_size[m : m + n, 0],
         pair_value=facts[len(_FACTS) : len(_FACTS) + pairs],
-        pair_motion=block[m:, 2 : 2 + pairs],
-        pair_stress=block[:m, 2 : 2 + pairs],
+        pair_motion=by_size[m : m + n, 2 : 2 + pairs],
+        pair_stress=by_size[:m, 2 : 2 + pairs],
         tolerance=named["tolerance"],
         characteristic_length=named["characteristic length"],
         noise=named["noise"],
