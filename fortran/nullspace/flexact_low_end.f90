@@ -190,9 +190,11 @@ contains
       end do
    end subroutine find_beyond
 
+   !> All vectors side by side, with their images; `spanned` and `next` are given up for them.
    subroutine gather(a, values, spanned, next, low)
       type(operator_t), intent(in) :: a
-      real(wp), intent(in) :: values(:), spanned(:, :), next(:, :)
+      real(wp), intent(in) :: values(:)
+      real(wp), allocatable, intent(inout) :: spanned(:, :), next(:, :)
       type(low_end_t), intent(inout) :: low
       integer :: k
 
@@ -200,6 +202,7 @@ contains
       allocate (low%vectors(a%by_column%columns, size(values)), low%images(a%by_column%rows, size(values)))
       low%vectors(:, :low%pins) = spanned
       low%vectors(:, low%pins + 1:) = next
+      deallocate (spanned, next)
       call times_transposed(a%by_row, low%vectors, low%images)
       do k = 1, size(values)
          if (values(k) > 0) low%images(:, k) = low%images(:, k)/values(k)

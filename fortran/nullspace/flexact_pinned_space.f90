@@ -105,16 +105,18 @@ contains
       real(wp), intent(inout) :: values(:)
       type(error_t), allocatable, intent(out) :: error
       type(first_block_t), intent(inout), optional :: beside
-      real(wp) :: image(a%by_column%rows, size(values)), residual(size(vectors, 1), size(values))
-      real(wp) :: space(size(vectors, 1), min(2*size(values), size(vectors, 1) - deflated%vectors)), none(size(vectors, 1), 0)
+      real(wp) :: image(a%by_column%rows, 1), none(size(vectors, 1), 0)
+      real(wp) :: space(size(vectors, 1), min(2*size(values), size(vectors, 1) - deflated%vectors))
+      real(wp), allocatable :: residual(:, :)
       integer :: k, used, fresh
       logical :: takes_beside
 
       takes_beside = present(beside)
       if (takes_beside) takes_beside = allocated(beside%vectors) .and. .not. allocated(beside%applied)
-      call times_transposed(a%by_row, vectors, image)
-      call times_transposed(a%by_column, image, residual)
+      allocate (residual(size(vectors, 1), size(values)))
       do k = 1, size(values)
+         call times_transposed(a%by_row, vectors(:, k:k), image)
+         call times_transposed(a%by_column, image, residual(:, k:k))
          residual(:, k) = residual(:, k) - values(k)**2*vectors(:, k)
       end do
       if (takes_beside) call beside%make_orthonormal(deflated, vectors)
@@ -129,6 +131,7 @@ contains
       used = size(values)
       space(:, :used) = vectors
       call extend(deflated, none, residual, space, used, fresh)
+      deallocate (residual)
       call take_lowest(a, space(:, :used), vectors, values, error)
    end subroutine improve
 

@@ -6,7 +6,7 @@ module flexact_rayleigh_ritz
    use flexact_decomposition, only: decompose
    use flexact_error, only: error_t
    use flexact_kinds, only: wp
-   use flexact_lapack, only: dgeqrf
+   use flexact_lapack, only: dgemm, dgeqrf
    use flexact_sparse, only: operator_t, sparse_t
    implicit none
    private
@@ -35,11 +35,12 @@ contains
    subroutine take_lowest(a, space, vectors, values, error)
       type(operator_t), intent(in) :: a
       real(wp), intent(in), contiguous :: space(:, :)
-      real(wp), intent(out) :: vectors(:, :), values(:)
+      real(wp), intent(out), contiguous :: vectors(:, :)
+      real(wp), intent(out) :: values(:)
       type(error_t), allocatable, intent(out) :: error
       real(wp), dimension(size(space, 2), size(space, 2)) :: r, u, vt
-      real(wp) :: lengths(size(space, 2))
-      integer :: k, wanted
+      real(wp) :: lengths(size(space, 2)), turned(size(space, 2), size(values))
+      integer :: k, n, wanted
 
       k = size(space, 2)
       wanted = size(values)
@@ -47,7 +48,9 @@ contains
       call decompose(r, lengths, u, vt, error)
       if (allocated(error)) return
       values = lengths(k:k - wanted + 1:-1)
-      vectors = matmul(space, transpose(vt(k:k - wanted + 1:-1, :)))
+      turned = transpose(vt(k:k - wanted + 1:-1, :))
+      n = max(1, size(space, 1))
+      call dgemm('N', 'N', size(space, 1), wanted, k, 1.0_wp, space, n, turned, max(1, k), 0.0_wp, vectors, n)
    end subroutine take_lowest
 
    !> The triangle R of the QR factorisation of the image of a space (columns, k), which is made
