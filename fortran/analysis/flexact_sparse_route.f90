@@ -26,7 +26,8 @@ module flexact_sparse_route
    !> rows, as at the hub of a star, that A'A would be full.
    type :: component_t
       logical :: is_transposed = .false.
-      type(operator_t) :: matrix
+      !> Not allocated where it is all of the problem's, as it stands there.
+      type(operator_t), allocatable :: matrix
       !> Where the rows and columns of the matrix stand in D(c), and which of its
       !> columns belong to one node (or element).
       integer, allocatable :: row(:), column(:), group(:)
@@ -91,20 +92,36 @@ contains
       real(wp), allocatable, intent(inout) :: zeros(:)
       real(wp), intent(out) :: estimate
       type(component_t) :: component
-      type(pinned_t) :: pinned
-      type(low_end_t) :: low
 
       estimate = huge(estimate)
       call make_component(problem, i, new_row, component)
       if (size(component%column) == 0) then
          if (first_time) call add_unit(component, result)
-         return
+      else if (allocated(component%matrix)) then
+         call take_matrix(component%matrix, problem, request, component, first_time, result, zeros, estimate)
+      else
+         call take_matrix(problem%matrix, problem, request, component, first_time, result, zeros, estimate)
       end if
-      call factorise_low_end(component%matrix, component%group, request, pinned, low, result%error)
+   end subroutine take_component
+
+   !> The same for its matrix, wherever that stands.
+   subroutine take_matrix(matrix, problem, request, component, first_time, result, zeros, estimate)
+      type(operator_t), intent(in) :: matrix
+      type(problem_t), intent(in) :: problem
+      type(request_t), intent(in) :: request
+      type(component_t), intent(in) :: component
+      logical, intent(in) :: first_time
+      type(result_t), intent(inout) :: result
+      real(wp), allocatable, intent(inout) :: zeros(:)
+      real(wp), intent(inout) :: estimate
+      type(pinned_t) :: pinned
+      type(low_end_t) :: low
+
+      call factorise_low_end(matrix, component%group, request, pinned, low, result%error)
       if (.not. allocated(result%error)) then
-         call find_low_end(component%matrix, request, pinned, low, result%error)
+         call find_low_end(matrix, request, pinned, low, result%error)
          if (.not. allocated(result%error) .and. first_time .and. .not. request%values_only) &
-            call add_null_spaces(problem, request, component, pinned, low, result)
+            call add_null_spaces(matrix, problem, request, component, pinned, low, result)
       end if
       result%confirmed = result%confirmed .and. low%confirmed
       result%bound = min(result%bound, low%bound)
@@ -118,7 +135,7 @@ contains
          if (any(values > tolerance)) estimate = minval(values, values > tolerance)
       end associate
       if (request%values > 1) call offer_all(component, low, result)
-   end subroutine take_component
+   end subroutine take_matrix
 
    subroutine count_zeros(component, low, result, zeros)
       type(component_t), intent(in) :: component
@@ -138,7 +155,7 @@ contains
       end associate
    end subroutine count_zeros
 
-   !> Cut component i out of the scaled matrix.
+   !> Cut component i out of the scaled matrix, unless it is the whole.
    pure subroutine make_component(problem, i, new_row, component)
       type(problem_t), intent(in) :: problem
       integer, intent(in) :: i
@@ -182,7 +199,9 @@ contains
       component%row = row
       component%column = column
       component%group = number_runs(label)
+      if (.not. component%is_transposed .and. size(row) == matrix%rows .and. size(column) == matrix%columns) return
       new_row(row) = [(j, j=1, size(row))]
+      allocate (component%matrix)
       call submatrix(matrix, size(row), column, new_row, component%matrix%by_column)
       call transposed(component%matrix%by_column, component%matrix%by_row)
    end subroutine cut
@@ -211,7 +230,8 @@ contains
    end subroutine add_unit
 
    !> Add the vectors of both null spaces to the result.
-   subroutine add_null_spaces(problem, request, component, pinned, low, result)
+   subroutine add_null_spaces(matrix, problem, request, component, pinned, low, result)
+      type(operator_t), intent(in) :: matrix
       type(problem_t), intent(in) :: problem
       type(request_t), intent(in) :: request
       type(component_t), intent(in) :: component
@@ -222,7 +242,7 @@ contains
       type(sparse_basis_t) :: many
 
       if (pinned%n >= large) call request%progress%report(stage_stresses)
-      call find_null_spaces(component%matrix, pinned, low, right, left, many, result%error)
+      call find_null_spaces(matrix, pinned, low, right, left, many, result%error)
       if (allocated(result%error)) return
       associate (row => component%row, column => component%column, scaling => problem%scaling)
          if (component%is_transposed) then
