@@ -16,6 +16,7 @@ const Switches = (() => {
       this.told = null;
       this.shown = null; // what the card is about
       this.target = null; // how it was asked for
+      this.saving = null; // the save that was asked for last
       this.focus = "";
       this.section = this.make();
       this.listening = (event) => this.hear(event);
@@ -314,7 +315,10 @@ const Switches = (() => {
     async save(over = false) {
       const name = this.part("name").value;
       this.part("over").hidden = true;
+      // Answers may come in another order than what they answer: the newest is told.
+      const asked = this.saving = {};
       const answer = await this.send({ do: "save", name, over });
+      if (this.saving !== asked) return;
       if (answer.status === 409) {
         this.part("over").hidden = false;
         this.part("there").textContent = `${capital(answer.error)}. Write over it?`;
