@@ -388,6 +388,25 @@ def test_a_new_deck_is_written_and_never_over_another_without_asking(
     made.unlink()
 
 
+def test_the_answer_of_the_newest_save_is_told(browser: Browser, watch: Watching) -> None:
+    page = Page(browser, watch("guide.dat", DECK))
+    page.find("sheet 1")
+    page.click(RELEASED)
+    page.settled(1)
+    browser.run("""
+        const send = switches.send;
+        window.answers = [];
+        switches.send = (request) => request.do !== "save" ? send(request) : new Promise(
+          (answer) => answers.push(() => answer({ error: `answer to ${request.name}` })));
+    """)
+    for name in ("first", "second"):
+        page.type("name", name)
+        page.click("save")
+    # That of the first comes last.
+    browser.run("answers.reverse().forEach((each) => each())")
+    assert page.sees("said", "Answer to") == "Answer to second"
+
+
 def test_a_script_is_edited_by_calls_in_its_own_words(browser: Browser, watch: Watching) -> None:
     watched = watch("guide.py", SCRIPT)
     page = Page(browser, watched)

@@ -277,8 +277,9 @@ def analyse_model(
     pairs, motions, stresses = (int(named[what]) for what in ("pairs", "motions", "self-stresses"))
     start = index[2, : motions + stresses + 1]
     # Of the vectors far more is set aside than they take; given back where they stand.
-    for array in (place, value):
-        array.resize(int(start[-1]) if start.size > 1 else 0, refcheck=False)
+    used = int(start[-1]) if start.size > 1 else 0
+    place.resize(used, refcheck=False)
+    value.resize(used, refcheck=False)
     # Views of what cannot be written to cannot be written to either.
     for array in (facts, index, by_size, place, value):
         array.setflags(write=False)
