@@ -10,7 +10,7 @@ module flexact_panel_solve
    use flexact_threads, only: run_tasks
    implicit none
    private
-   public :: panel_t, divide, divide_by_transpose
+   public :: panel_t, divide
 
    !> Columns of a panel that are taken together; and multiplications up to which some BLAS do not
    !> copy matrices before they multiply them.
@@ -18,71 +18,57 @@ module flexact_panel_solve
    !> Entries from which threads are worth their start.
    real(wp), parameter :: worth_threads = 5.0e5_wp
 
-   !> A panel (rows, columns), and the right-hand sides of its rows: (rows, k), or transposed.
+   !> A panel (rows, columns), and the right-hand sides of its rows: (rows, k), or for a division by
+   !> the transpose (k, rows).
    type :: panel_t
       integer :: rows = 0, columns = 0, k = 0, threads = 1
+      logical :: by_transpose = .false.
       real(wp), pointer, contiguous :: value(:) => null(), some(:) => null()
    end type panel_t
 
 contains
 
-   !> Divide the first rows (rows, k) by the diagonal block, and take their part from the others.
+   !> Divide the first rows by the diagonal block, and take their part from the others; by the
+   !> transpose: take the part of the others from the first, and divide those.
    recursive subroutine divide(panel)
       type(panel_t), intent(in), target :: panel
 
-      call divide_first(panel%rows, panel%columns, panel%k, panel%value, panel%some)
-      if (are_threads_worth(panel)) then
+      if (.not. panel%by_transpose) call divide_first(panel%rows, panel%columns, panel%k, panel%value, panel%some)
+      if (panel%threads > 1 .and. real(panel%rows - panel%columns, wp)*panel%columns > worth_threads) then
          call blas_share()
          call run_tasks(int(panel%threads, c_int), int(panel%threads, c_int), c_funloc(take_piece), c_loc(panel))
          call blas_unshare()
       else
-         call take_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, panel%columns + 1, panel%rows)
+         call take_part(panel, 1, 1)
       end if
+      if (panel%by_transpose) call divide_last(panel%rows, panel%columns, panel%k, panel%value, panel%some)
    end subroutine divide
-
-   !> Take the part of the other columns (k, rows) from the first, and divide those by the transpose
-   !> of the diagonal block.
-   recursive subroutine divide_by_transpose(panel)
-      type(panel_t), intent(in), target :: panel
-
-      if (are_threads_worth(panel)) then
-         call blas_share()
-         call run_tasks(int(panel%threads, c_int), int(panel%threads, c_int), c_funloc(give_piece), c_loc(panel))
-         call blas_unshare()
-      else
-         call take_from_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, 1, panel%columns)
-      end if
-      call divide_last(panel%rows, panel%columns, panel%k, panel%value, panel%some)
-   end subroutine divide_by_transpose
-
-   pure recursive logical function are_threads_worth(panel)
-      type(panel_t), intent(in) :: panel
-      are_threads_worth = panel%threads > 1 .and. real(panel%rows - panel%columns, wp)*panel%columns > worth_threads
-   end function are_threads_worth
 
    recursive subroutine take_piece(task, worker, data) bind(c)
       integer(c_int), value :: task, worker
       type(c_ptr), value :: data
       type(panel_t), pointer :: panel
-      integer :: ends(2)
 
       call c_f_pointer(data, panel)
-      if (worker < 1) return
-      ends = panel%columns + piece(panel%rows - panel%columns, int(task), panel%threads)
-      call take_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, ends(1), ends(2))
+      if (worker >= 1) call take_part(panel, int(task), panel%threads)
    end subroutine take_piece
 
-   recursive subroutine give_piece(task, worker, data) bind(c)
-      integer(c_int), value :: task, worker
-      type(c_ptr), value :: data
-      type(panel_t), pointer :: panel
+   !> One of so many parts of what is taken.
+   recursive subroutine take_part(panel, part, parts)
+      type(panel_t), intent(in) :: panel
+      integer, intent(in) :: part, parts
       integer :: ends(2)
 
-      call c_f_pointer(data, panel)
-      if (worker < 1) return
-      ends = piece(panel%columns, int(task), panel%threads)
-      call take_from_below(panel%rows, panel%columns, panel%k, panel%value, panel%some, ends(1), ends(2))
-   end subroutine give_piece
+      associate (rows => panel%rows, columns => panel%columns)
+         if (panel%by_transpose) then
+            ends = piece(columns, part, parts)
+            call take_from_below(rows, columns, panel%k, panel%value, panel%some, ends(1), ends(2))
+         else
+            ends = columns + piece(rows - columns, part, parts)
+            call take_below(rows, columns, panel%k, panel%value, panel%some, ends(1), ends(2))
+         end if
+      end associate
+   end subroutine take_part
 
    pure recursive function piece(count, part, parts) result(ends)
       integer, intent(in) :: count, part, parts

@@ -7,7 +7,7 @@ module flexact_supernodal_solve
    use flexact_cholesky, only: cholesky_t
    use flexact_error, only: error_t, fail, error_memory
    use flexact_kinds, only: wp, long
-   use flexact_panel_solve, only: panel_t, divide, divide_by_transpose
+   use flexact_panel_solve, only: panel_t, divide
    use flexact_supernodal_pattern, only: supernodal_t, columns_in, rows_in
    use flexact_threads, only: run_tasks
    implicit none
@@ -210,7 +210,7 @@ contains
       associate (rows => rows_in(pattern, s), columns => columns_in(pattern, s))
          call take_some(pattern, s, rows, columns, k, all, some)
          if (is_worth_blas(rows, columns, k)) then
-            call divide(panel_t(rows, columns, k, threads, panel_of(pattern, s, value), some))
+            call divide(panel_t(rows, columns, k, threads, .false., panel_of(pattern, s, value), some))
          else
             call divide_by_loops(rows, columns, k, panel_of(pattern, s, value), some)
          end if
@@ -287,7 +287,7 @@ contains
             ! BLAS is quicker with zeros that fill up than without.
             filled = merge(together, k, k > together/2)
             call take_all(pattern, s, rows, k, filled, all, some)
-            call divide_by_transpose(panel_t(rows, columns, filled, threads, panel_of(pattern, s, value), some))
+            call divide(panel_t(rows, columns, filled, threads, .true., panel_of(pattern, s, value), some))
             call give_first(pattern, s, columns, k, filled, some, all)
          else
             call backward_by_loops(pattern, s, rows, columns, k, panel_of(pattern, s, value), some, all)
