@@ -60,14 +60,14 @@ build_in() { # suite
     done
     ln -sf gcc "$root/usr/local/bin/cc"
     version=${headers##*/python}
-    mkdir -p "$inner/work/wheelhouse"
+    mkdir -p "$inner/building/wheelhouse"
     # shellcheck disable=SC2086
-    tools/wheelhouse.sh "$inner/work/wheelhouse" "$version" $needed
-    cp "$sdist" "$inner/work/"
+    tools/wheelhouse.sh "$inner/building/wheelhouse" "$version" $needed
+    cp "$sdist" "$inner/building/"
     chroot "$root" env -i PATH=/usr/local/bin:/usr/bin:/bin HOME=/root LC_ALL=C.UTF-8 sh -euc "
-        cd /old/work
+        cd /old/building
         python3 -m venv venv
-        export PATH=/old/work/venv/bin:\$PATH CC=gcc FC=gfortran AR=ar TMPDIR=/old/tmp
+        export PATH=/old/building/venv/bin:\$PATH CC=gcc FC=gfortran AR=ar TMPDIR=/old/tmp
         pip install --quiet --no-index --find-links wheelhouse \"\$@\"
         tar -xzf $(basename "$sdist")
         python -m build --wheel --no-isolation --skip-dependency-check $options --outdir made flexact-*/ >build.log 2>&1 ||
@@ -75,12 +75,12 @@ build_in() { # suite
     " sh $needed
     libraries=$work/libraries-$1
     mkdir -p "$libraries"
-    cp "$inner"/work/venv/lib/python3*/site-packages/scipy_openblas32/lib/*.so "$libraries"
+    cp "$inner"/building/venv/lib/python3*/site-packages/scipy_openblas32/lib/*.so "$libraries"
     for name in libgfortran.so.5 libquadmath.so.0 libmetis.so.5 libgcc_s.so.1; do
         found=$(find "$inner/usr/lib" "$inner/lib" -name "$name" | head -n 1)
         [ -z "$found" ] || cp -L "$found" "$libraries"
     done
-    repair "$inner/work/made" "$libraries"
+    repair "$inner/building/made" "$libraries"
 }
 
 if [ -z "$suites" ]; then

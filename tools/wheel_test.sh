@@ -15,9 +15,9 @@ test_with() { # root, version of Python, requirement of numpy
     echo "== Python $2 in a bare $(cut -d' ' -f1 "$1/made-of"), $3"
     tag=cp$(echo "$2" | tr -d .)
     wheel=$(ls dist/*-"$tag"-"$tag"-*.whl)
-    rm -rf "$1/work" && mkdir -p "$1/work/wheelhouse"
-    tools/wheelhouse.sh "$1/work/wheelhouse" "$2" "$wheel[pictures]" "$3"
-    cp -r input_decks tests/reference/known_answers.json tests/wheel/bare.py "$1/work"
+    rm -rf "$1/trial" && mkdir -p "$1/trial/wheelhouse"
+    tools/wheelhouse.sh "$1/trial/wheelhouse" "$2" "$wheel[pictures]" "$3"
+    cp -r input_decks tests/reference/known_answers.json tests/wheel/bare.py "$1/trial"
     # Without a network, where that can be had.
     alone=
     ! unshare --net true 2>/dev/null || alone="unshare --net"
@@ -26,7 +26,7 @@ test_with() { # root, version of Python, requirement of numpy
         found=$(find /usr/lib /lib -name "lib*blas*" -o -name "liblapack*" -o -name "libcholmod*" \
             -o -name "libmetis*" -o -name "libgfortran*" -o -name "libflint*")
         [ -z "$found" ] || { echo "This system is not bare: $found"; exit 1; }
-        cd /work
+        cd /trial
         python3 -m venv venv
         venv/bin/pip install --quiet --no-index --find-links wheelhouse "flexact[pictures]" "$1"
         venv/bin/python bare.py input_decks known_answers.json
