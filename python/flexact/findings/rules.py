@@ -81,6 +81,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "A statement needs more operands.",
         "Give all operands that the keyword takes.",
     ),
+    "nearly-equal-components": (
+        "A difference of rounding chooses the local y axis of an element.",
+        "Give the vector that the axis is towards.",
+    ),
     "negative-number": (
         "A quantity that is not negative as a rule is less than zero.",
         "Correct it, unless it is meant.",
