@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 from browser import browser, chromium  # noqa: F401
-from flexact.base.partial import STRICT
 from left_out import pytest_make_collect_report, pytest_runtest_makereport  # noqa: F401
 from small_decks import DECKS, write
 from wording import AsStored
+
+from flexact.base.partial import STRICT
 
 # Workers of xdist state a width that is no terminal's.
 os.environ.pop("COLUMNS", None)

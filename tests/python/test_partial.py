@@ -2,6 +2,7 @@
 """Outputs go on without a part that cannot be made, and say so; tests see mistakes all the same."""
 
 import pytest
+
 from flexact.base.errors import FlexactError
 from flexact.base.partial import STRICT, attempted
 
