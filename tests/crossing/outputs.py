@@ -233,7 +233,7 @@ def _results(deck: Path, folder: Path) -> str:
     if analysis is None:
         return ""
     told = [str(json.loads(analysis.to_json())["verdict"]), analysis.margin, analysis.warnings]
-    told += [(motion.bodies, motion.extent) for motion in analysis.motions[:2]]
+    told += [(motion.bodies, motion.displacement) for motion in analysis.motions[:2]]
     told += [(freedom.owner, freedom.motion is None) for freedom in analysis.freedoms[:2]]
     return "\n".join(map(str, told))
 

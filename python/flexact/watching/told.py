@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import islice
+from typing import TypeVar
 
+from ..base.partial import attempted
 from ..result.modes import Motion, SelfStress
 from ..result.result import Result
 from ..result.verdict import Certainty
@@ -16,6 +18,7 @@ from ..text.naming import counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
 from ..text.sentences import Pieces
 
+Mode = TypeVar("Mode", Motion, SelfStress)
 #: How many motions, and how many self-stresses, are compared.
 MOST_COMPARED = 12
 #: How many parts of each are compared.
@@ -61,9 +64,15 @@ def told_of(result: Result) -> Told:
         counts,
         margin_in_short(result),
         result.certainty is not Certainty.CERTAIN,
-        tuple(map(_motion, islice(result.motions, MOST_COMPARED))),
-        tuple(map(_stress, islice(result.self_stresses, MOST_COMPARED))),
+        _each(_motion, result.motions),
+        _each(_stress, result.self_stresses),
     )
+
+
+def _each(words: Callable[[Mode], str], modes: Iterable[Mode]) -> tuple[str, ...]:
+    """The first ones in words; none where that fails, as the verdict is told all the same."""
+    some = islice(modes, MOST_COMPARED)
+    return attempted("", lambda: tuple(map(words, some)), (), None)
 
 
 def _motion(motion: Motion) -> str:
