@@ -12,9 +12,8 @@ from ..base.partial import attempted
 from ..result.modes import Motion, SelfStress
 from ..result.result import Result
 from ..result.verdict import Certainty
-from ..text.margin import but_only, margin_in_short
+from ..text.margin import margin_in_short, verdict_in_short
 from ..text.motions import motion_in_parts
-from ..text.naming import counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
 from ..text.sentences import Pieces
 
@@ -60,7 +59,7 @@ def told_of(result: Result) -> Told:
         "self-stresses": result.over_constrained,
     }
     return Told(
-        counts_in_words(result.under_constrained, result.over_constrained) + but_only(result),
+        verdict_in_short(result),
         counts,
         margin_in_short(result),
         result.certainty is not Certainty.CERTAIN,
