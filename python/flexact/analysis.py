@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .base.loading import load
+from .base.partial import attempted
 from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.models import read
@@ -170,7 +171,8 @@ class Analysis(Result):
         words = describe(self, most=MOST_MODES)
         if self.over_constrained and self.given.properties is not None:
             # It takes a while to load.
-            words = load("flexact.costing.glance").with_glance(words, self)
+            glance, told = load("flexact.costing.glance"), words
+            words = attempted("", lambda: str(glance.with_glance(told, self)), words, None)
         return words
 
     def __repr__(self) -> str:

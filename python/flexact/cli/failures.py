@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import sys
 
+from flexact.base.errors import BatchError, FlexactError
 from flexact.base.loading import load
+from flexact.base.partial import why
 from flexact.base.plain_text import harmless
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.terminal import columns_of, complain, give
+from flexact.cli.terminal import ResultsError, columns_of, complain, give
 from flexact.diagnostics.diagnostic import Diagnostic, Problems, Severity
 from flexact.diagnostics.errors import DeckError
 from flexact.diagnostics.rendering import render_problems
@@ -20,6 +22,7 @@ CODES = {
     "OutputError": "not-written",
     "MeshFormatError": "not-written",
     "MemoryError": "out-of-memory",
+    "UnforeseenError": "unforeseen",
 }
 #: Codes of problems with a file that are not about what is stated in it.
 NOT_READ = {
@@ -30,6 +33,25 @@ NOT_READ = {
     "not-text",
     "too-large",
 }
+
+
+class UnforeseenError(BatchError):
+    """One deck over which this program stumbles, which shall not cost the others."""
+
+
+def foreseen(error: Exception) -> Exception:
+    """An error that is raised on purpose: itself, or what stands for a mistake of Flexact's own.
+
+    Raises:
+        BrokenPipeError: Nobody reads on, so that going on has no use.
+        ResultsError: Likewise.
+        Exception: A mistake of Flexact's own, in tests (`flexact.base.partial`).
+    """
+    if isinstance(error, (BrokenPipeError, ResultsError)):
+        raise error
+    if isinstance(error, (FlexactError, MemoryError)):
+        return error
+    return UnforeseenError(why(error))
 
 
 def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:

@@ -12,9 +12,9 @@ from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
 from .decision import decision
-from .margin import but_only, margin_line
+from .margin import margin_line, verdict_in_short
 from .motions import internal_in_words, motion_in_parts
-from .naming import counted, counts_in_words, in_words
+from .naming import counted, in_words
 from .self_stresses import conflict_in_words, stress_in_parts
 from .sentences import Line, Pieces, filled, sentence
 from .warnings import warnings_of
@@ -90,8 +90,8 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
-    start = counts_in_words(under, over).capitalize() + but_only(result)
-    return VerdictInWords(start, f"{'; '.join(reasons) or none}.")
+    start = verdict_in_short(result)
+    return VerdictInWords(f"{start[:1].upper()}{start[1:]}", f"{'; '.join(reasons) or none}.")
 
 
 def _verdict(result: Result) -> Iterator[Line]:

@@ -7,13 +7,13 @@ import pickle
 from collections.abc import Callable
 from dataclasses import replace
 
+from ..base.partial import why
 from ..deck.reading import read_file
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import render_problems
 from ..model.data import ModelData
 from ..page.content import broken_content, content_of
 from ..result.decompose import asked_for
-from ..result.failing import AnalysisError
 from ..result.result import Result, result_of
 from ..text.margin import verdict_word
 from .errors_part import errors_part
@@ -43,7 +43,7 @@ def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
         shown = shown_of(result, told, which, () if script is None else script.files())
         kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
         return replace(shown, result=kept, model=model)
-    except (ProblemsError, AnalysisError, MemoryError) as error:
+    except Exception as error:
         return _broken(error, job.path, () if script is None else script.files())
 
 
@@ -75,6 +75,6 @@ def shown_of(
 
 
 def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:
-    words = str(error) or "not enough memory"
+    words = str(error) if isinstance(error, ProblemsError) else why(error)
     body = broken_content(error, path).body
     return Broken("cannot be analysed", errors_part(error, path), body, words, files)

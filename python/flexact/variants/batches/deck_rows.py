@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+from ...base.partial import why
 from ...base.plain_text import harmless
 from ...core.arrays import ModelArrays
 from ...core.progress import Progress
@@ -73,8 +74,7 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
         made = failed_row(error, name, want)
     except Exception as error:
         # One deck over which this program stumbles shall not cost the others.
-        unforeseen = AnalysisError(f"unforeseen {type(error).__name__}: {error}")
-        made = failed_row(unforeseen, name, want)
+        made = failed_row(AnalysisError(why(error)), name, want)
     made.values["seconds"] = time.perf_counter() - start
     return made
 
