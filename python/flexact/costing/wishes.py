@@ -32,7 +32,8 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
         ModelError: there is no such clamp, or it does not hold this coordinate; all that are
             wrong are told.
     """
-    made, wrong = [], []
+    made: list[tuple[Misalignment, float]] = []
+    wrong: list[ModelError] = []
     for each in asked.misalign:
         try:
             clamp = places.clamp_of(places.node(each.clamp))
@@ -42,7 +43,11 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
                 words = f"node {clamp.node} does not hold {each.coordinate}"
                 raise model_error("not-held", words, what)
             about = None if each.about is None else _pivot(places, each.about)
-            made.append((Misalignment(clamp, each.coordinate, about), each.value))
+            misalignment = Misalignment(clamp, each.coordinate, about)
+            if any(misalignment == before for before, _ in made):
+                words = f"{each.coordinate} of node {clamp.node} is misaligned twice"
+                raise model_error("given-twice", words, "give it once, with their sum")
+            made.append((misalignment, each.value))
         except ModelError as error:
             wrong.append(error)
     if wrong:
