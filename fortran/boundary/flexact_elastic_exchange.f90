@@ -141,7 +141,7 @@ contains
       select case (nint(wishes(1)))
       case (1); call run_linear(elastic, base, given, answer, values, facts)
       case (2, 3); call run_modes(elastic, state, base, wishes, answer, values, facts)
-      case (4); call run_matrices(elastic, state, base, nint(given(1, :)), answer, facts)
+      case (4); call run_matrices(elastic, state, wishes(3:5), base, nint(given(1, :)), answer, facts)
       case (5); call run_errors(elastic, state, wishes(3:5), base, given, answer, facts)
       end select
       call blas_end(work)
@@ -197,16 +197,17 @@ contains
       facts(:4) = [k, modes%loose, modes%negative, merge(1, 0, modes%is_complete)]
    end subroutine run_modes
 
-   subroutine run_matrices(elastic, state, base, independent, answer, facts)
+   subroutine run_matrices(elastic, state, gravity, base, independent, answer, facts)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gravity(3)
       type(base_t), intent(inout) :: base
       integer, intent(in) :: independent(:)
       real(wp), intent(inout) :: answer(:, :), facts(:)
       type(matrices_t) :: matrices
       integer :: q
 
-      call find_matrices(elastic, state, base, independent, matrices)
+      call find_matrices(elastic, state, gravity, base, independent, matrices)
       q = size(independent)
       answer(:q, :q) = matrices%mass
       answer(:q, q + 1:2*q) = matrices%stiffness

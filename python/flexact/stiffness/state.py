@@ -116,8 +116,11 @@ class State(Response):
 
     @property
     def force(self) -> float:
-        """Force of the drive on the mechanism [N], or moment on its angle [N m]; signed.
+        """Force of the drive on the mechanism [N], or moment about the driven axis [N m]; signed.
 
+        The axis is that of the spin that changes the angle and nothing else: x, y or z while the
+        node turns about that alone. With a free drive compliance, stiffness and frequencies are
+        those at this constant force or moment.
         0 where the drive is free and no stroke was asked for.
 
         Raises:
