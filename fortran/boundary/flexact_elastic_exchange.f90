@@ -117,7 +117,7 @@ contains
    !> wishes: task, count, gravity (3). given, answer: columns of force (3 nodes), misfit (6
    !> elements) and shift (3 nodes), of displacement, stress and reaction; modes are
    !> displacements alone, and of matrices given(1, :) has the coordinates and answer(:q, :3q)
-   !> three matrices. For errors given(1, 1) has the square and the rows of misfits have stresses;
+   !> three matrices. For errors given(1, 1) has the square, given(2, :) lengths, and the rows of misfits have stresses;
    !> answer(:2, :) the errors below and above zero. Behind answers stand motions without
    !> stiffness, as many as there is room for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
    !> negative stiffnesses, 1 where coordinates determine all others or
@@ -228,7 +228,7 @@ contains
       first = size(elastic%scale)
       k = 6*elastic%model%elements
       call find_errors(elastic, state, gravity, base, given(1, 1), &
-                       reshape(given(first + 1:first + k, :), [6, k/6, size(given, 2)]), errors)
+                       reshape(given(first + 1:first + k, :), [6, k/6, size(given, 2)]), given(2, :), errors)
       facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. errors%failed)
       if (facts(5) > 0) return
       facts(:3) = [size(given, 2), errors%loose, errors%negative]

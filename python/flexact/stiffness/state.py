@@ -107,7 +107,7 @@ class State(Response):
             ElasticError: its section is not known.
         """
         e = self.model.points.element(element)
-        return float(self.best(lambda at: _peak(at, e)))
+        return float(self.best(lambda at: peak_of(at, e)))
 
     @property
     def energy(self) -> float:
@@ -209,7 +209,12 @@ class State(Response):
         return f"<State: {self.label}, {self.model.words}>"
 
 
-def _peak(at: Solution, element: int) -> float:
+def peak_of(at: Solution, element: int) -> float:
+    """The largest normal stress [Pa] in the pieces of an element, by its index.
+
+    Raises:
+        ElasticError: its section is not known.
+    """
     mesh = at.solver.mesh
     first, count = int(mesh.first[element]), int(mesh.pieces[element])
     every = [
