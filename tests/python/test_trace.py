@@ -330,7 +330,9 @@ def test_wrong_choices_are_told() -> None:
         with pytest.raises(ValueError, match="length"):
             trace(deck, length=wrong)
     with pytest.raises(TypeError, match="length"):
-        trace(deck, length="1")  # type: ignore[arg-type]
+        trace(deck, length=b"1")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="says its unit"):
+        trace(deck, length="1")
     with pytest.raises(ValueError, match="step"):
         trace(deck, steps=0)
     with pytest.raises(TypeError, match="steps"):

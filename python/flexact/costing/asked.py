@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from ..base.plain_text import in_short
+from ..base.quantities import NOTCH, measured
 from .asking import (
     AskedError,
     MisalignmentAsked,
@@ -164,7 +165,7 @@ def _pair(given: object) -> tuple[int, int]:
 
 
 def _stiffness(given: Any) -> float:
-    value = 0.0 if given is None else float(given)
+    value = 0.0 if given is None else measured(given, NOTCH)
     if not 0.0 <= value < float("inf"):
         raise AskedError(
             f"the stiffness of a notch is a finite number from 0, not {in_short(given)}"
@@ -179,15 +180,20 @@ def _stroke(given: object) -> StrokeAsked:
         return stroke_of(given)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
-        return StrokeAsked(point, *_named(name), float(start), float(stop))
+        name = _named(name)
+        return StrokeAsked(point, name, _measured(start, name), _measured(stop, name))
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
     )
 
 
-def _named(name: object) -> tuple[str]:
-    return (_one_of("a coordinate", name, ("x", "y", "z", "rx", "ry", "rz")),)
+def _named(name: object) -> str:
+    return _one_of("a coordinate", name, ("x", "y", "z", "rx", "ry", "rz"))
+
+
+def _measured(given: object, coordinate: str) -> float:
+    return measured(given, "rad" if coordinate.startswith("r") else "m")
 
 
 def _misalignments(given: object) -> tuple[MisalignmentAsked, ...]:
@@ -205,7 +211,8 @@ def _misalignment(given: object) -> MisalignmentAsked:
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
         clamp, name, value, *about = given
-        return MisalignmentAsked(clamp, *_named(name), float(value), *about)
+        name = _named(name)
+        return MisalignmentAsked(clamp, name, _measured(value, name), *about)
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity
 from ..diagnostics.errors import model_error
 from . import arguments
 from . import point_arguments as points
@@ -29,8 +30,8 @@ class BodyMethods(FlexureMethods):
         points: Iterable[Point],
         name: str = "",
         *,
-        mass: float | None = None,
-        inertia: float | Sequence[float] | None = None,
+        mass: Quantity | None = None,
+        inertia: Quantity | Sequence[Quantity] | None = None,
         section: Section | None = None,
     ) -> Body:
         """One rigid body through any points.
@@ -119,23 +120,25 @@ def _name_links(draft: Draft, links: list[Element], name: str) -> None:
         draft.name_element(index, name if alone else f"{part_name(name)}, {k}")
 
 
-def _mass(given: float | None) -> tuple[float, ...]:
+def _mass(given: Quantity | None) -> tuple[float, ...]:
     if given is None:
         return ()
-    (value,) = numbers_of_size(given, (1,), "a mass is one number")
+    (value,) = numbers_of_size(given, (1,), "a mass is one number", "kg")
     if value < 0.0:
         raise model_error("bad-size", "a mass is not negative", "give it in kg")
     return (value,)
 
 
-def _inertia(given: float | Sequence[float] | None, planar: bool) -> tuple[float, ...]:
+def _inertia(given: Quantity | Sequence[Quantity] | None, planar: bool) -> tuple[float, ...]:
     """Jxx, Jxy, Jxz, Jyy, Jyz, Jzz, or one J in the plane."""
     if given is None:
         return ()
     if planar:
-        return numbers_of_size(given, (1,), "the moment of inertia in a plane is one number")
+        return numbers_of_size(
+            given, (1,), "the moment of inertia in a plane is one number", "kg m2"
+        )
     what = "moments of inertia are Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy, Jyz, Jzz"
-    values = numbers_of_size(given, (3, 6), what)
+    values = numbers_of_size(given, (3, 6), what, "kg m2")
     if len(values) == 3:
         return values[0], 0.0, 0.0, values[1], 0.0, values[2]
     return values

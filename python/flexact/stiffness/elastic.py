@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
+from ..base.quantities import Quantity, without_units
 from ..core.elements import Class, NodeKind
 from ..deck.models import read
 from ..model.model import Model
@@ -57,7 +58,7 @@ class Elastic(Tolerated):
         )
         return State(self, f"equilibrium {under}", None, made)
 
-    def along(self, node: object, coordinate: str, values: Iterable[float]) -> tuple[State, ...]:
+    def along(self, node: object, coordinate: str, values: Iterable[Quantity]) -> tuple[State, ...]:
         """Equilibria along the stroke of a drive, without the deck's loads.
 
         Values that ascend or descend are driven to from the start outward, both ways; others
@@ -69,7 +70,7 @@ class Elastic(Tolerated):
             node: Of the coordinate, or its point.
             coordinate: "x", "y", "z", "rx", "ry" or "rz". An angle is twice the arcsine of its
                 Euler parameter.
-            values: Where it is driven to: absolute [m, rad].
+            values: Where it is driven to: absolute [m, rad], or texts such as "3 mm".
 
         Raises:
             UnknownError: there is no such coordinate.
@@ -82,8 +83,9 @@ class Elastic(Tolerated):
                 f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
             )
         given = list(values) if isinstance(values, (range, Iterator)) else values
-        turns = self.points.kinds[drive.node] == NodeKind.ORIENTATION
-        there = strokes_given(given, bool(turns))
+        kind = self.points.kinds[drive.node]
+        given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
+        there = strokes_given(given, bool(kind == NodeKind.ORIENTATION))
         ways = [
             paths.driven(at, self.points, drive, there, self.drive == "locked")
             for at in self._assembled()
@@ -95,14 +97,14 @@ class Elastic(Tolerated):
         )
 
     def misaligned(
-        self, node: object, coordinate: str, value: float, about: object = None
+        self, node: object, coordinate: str, value: Quantity, about: object = None
     ) -> State:
         """A clamp that is moved, or turned about an axis through a point.
 
         Args:
             node: Position or orientation node of the clamp.
             coordinate: "x", "y", "z" [m]; "rx", "ry", "rz" [rad], about a global axis.
-            value: By how much.
+            value: By how much [m, rad], or a text such as "50um".
             about: For a turn: a node, or (x, y, z) [m]; by default the clamp's own position.
 
         Raises:

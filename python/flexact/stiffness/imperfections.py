@@ -10,6 +10,7 @@ import numpy as np
 
 from ..base.frozen import Frozen
 from ..base.plain_text import in_short
+from ..base.quantities import without_units
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind, Role, role_table
 from ..model.data import ModelData
@@ -115,10 +116,10 @@ def misalignment(
         UnknownError: there is no such node or coordinate.
         ElasticError: the coordinate is not held, or the value is no finite number.
     """
-    size = number_given(value, "a misalignment")
     coordinate = points.coordinate(node, name)
     data = points.data
     is_turn = data.arrays.node_kind[coordinate.node] > NodeKind.POSITION
+    size = number_given(without_units(value, "rad" if is_turn else "m"), "a misalignment")
     point = points.of(node)
     nodes = _turned_nodes(points, node) if is_turn else [point.position]
     if is_turn and point.position >= 0:
