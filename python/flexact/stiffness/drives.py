@@ -47,7 +47,7 @@ def value_at(at: Solution, drive: Coordinate) -> float:
 
 
 def force_of(at: Solution, drive: Coordinate) -> float:
-    """Force of a drive on the mechanism [N], or moment on its angle [N m]."""
+    """Force of a drive on the mechanism [N], or moment [N m] about the axis of its spin."""
     node, axis = drive
     reaction = at.raw.reaction[:, node]
     if at.solver.mesh.own.arrays.node_kind[node] != NodeKind.ORIENTATION:
@@ -64,7 +64,7 @@ def reaction_of(at: Solution, held: Coordinate) -> float:
 
 
 def freed(at: Solution, held: Held, drive: Coordinate) -> Solution:
-    """The state with the drive free: its force stays as a dead load."""
+    """The state with the drive free: its force or moment stays constant."""
     raw = at.raw
     if at.is_whole(drive.node):
         reaction = raw.reaction.copy(order="F")

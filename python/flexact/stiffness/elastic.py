@@ -64,7 +64,7 @@ class Elastic(Tolerated):
         Values that ascend or descend are driven to from the start outward, both ways; others
         one after another as given, so that a snap-through shows its hysteresis.
         With drive "free" the driven coordinate may move in what is asked about a state, and the
-        force of the drive stays as a dead load; "locked" holds it.
+        force of the drive, or its moment about the driven axis, stays constant; "locked" holds it.
 
         Args:
             node: Of the coordinate, or its point.
