@@ -117,7 +117,7 @@ def _counts(result: Result) -> Iterator[_Told]:
 def _motions(result: Result, most: int | None) -> Iterator[Line]:
     told = result.motions[:most]
     internal = internal_in_words(result)
-    if internal:
+    if internal and result.with_internal_declared is not None:
         told = tuple(motion for motion in told if not motion.is_internal)
     modes = (Line((), motion_in_parts(motion, _PARTS)) for motion in told)
     kind = _Kind("motion", "s", "kinematically")

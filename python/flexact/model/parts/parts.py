@@ -260,6 +260,21 @@ class Parts:
                 made.setdefault(turned, place)
         return made
 
+    @cached_property
+    def orientations_at(self) -> dict[int, tuple[int, ...]]:
+        """The orientation nodes that stand at each position node, ascending."""
+        made: dict[int, list[int]] = {}
+        for node, place in sorted(self.position_of.items()):
+            made.setdefault(place, []).append(node)
+        return {place: tuple(nodes) for place, nodes in made.items()}
+
+    def is_shared(self, node: int) -> bool:
+        """Whether an orientation of no body stands where a body is, or another orientation."""
+        place = self.position_of.get(node)
+        if place is None or node in self.body_at:
+            return False
+        return place in self.body_at or len(self.orientations_at[place]) > 1
+
     def place_of(self, node: int) -> int | None:
         """The position node of a node: itself, or where an orientation stands."""
         if self.data.arrays.node_kind[node] <= NodeKind.POSITION:

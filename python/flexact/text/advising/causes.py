@@ -18,7 +18,7 @@ from ..naming import (
     named_element,
     named_node,
 )
-from ..places import end_words, listed, part_words, with_article
+from ..places import end_words, joint_words, listed, part_words
 from ..self_stresses import conflict_in_words
 from ..sentences import Named, Piece, Pieces
 from ..units import angle_in_words, length_in_words
@@ -96,20 +96,20 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
     if mend is not None and mend.stops is not None:
         on: Pieces = (hub_name(result, mend.end),)
         return (*held, ", while nothing stops ", *motion_of(mend.stops, on))
-    return (*held, *_free(result.motions[k]))
+    return (*held, *_free(result, result.motions[k]))
 
 
 def _is_special(cause: Cause) -> bool:
     return cause.kind is CauseKind.SPECIAL
 
 
-def _free(motion: Motion) -> Pieces:
+def _free(result: Result, motion: Motion) -> Pieces:
     """While nothing stops what: of many joints the motion's number."""
     first = next(iter(motion.bodies), None)
     if first is None or (first.is_joint and len(motion.bodies) > 1):
         return (f", while nothing stops motion {motion.index + 1}",)
     names = [part_words(part) for part in first.bodies] or [
-        with_article(str(joint)) for joint in first.joints
+        joint_words(result.parts, joint) for joint in first.joints
     ]
     return (", while nothing stops ", *motion_of(first.screw, (listed(names[:_MOST_NAMES]),)))
 

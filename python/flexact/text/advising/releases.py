@@ -94,7 +94,9 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
     inside: dict[Part, int] = {}
-    part_of = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    insides = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    own = {node for node, _ in outcome.carriers.own_ends}
+    part_of = {node: part for node, part in insides.items() if node not in own}
     shared = _of_several_points(outcome, change)
     for node, name, _ in change.coordinates:
         index = outcome.given.node_index[node]
