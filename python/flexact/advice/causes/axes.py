@@ -17,8 +17,9 @@ from .in_common import Common, in_common
 from .limbs import position_of_hinge
 from .lines import Line, Lines
 
-#: Of more axes no half-turn is looked for.
+#: Of more axes no half-turn is looked for, nor where they have one of these in common.
 _MOST_TURNED = 12
+_SIMPLE = (RelationKind.ONE_LINE, RelationKind.CONCURRENT)
 
 
 def of_axes(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, ...]]:
@@ -50,10 +51,11 @@ def of_axes(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, .
     if groups and sum(len(one.group) for one in groups) == len(lines):
         yield tuple(map(relation, groups))
     common = in_common(lines, planar=result.given.planar)
-    if common:
-        yield tuple(map(relation, common))
-    for one in _half_turns(lines):
+    is_simple = any(one.kind in _SIMPLE for one in common)
+    # By lines of one complex a motion only begins; by a symmetry it goes on.
+    for one in () if is_simple else _half_turns(lines):
         yield (relation(one),)
+    yield tuple(map(relation, common))
     yield tuple(map(relation, (*groups, *points)))
 
 

@@ -35,6 +35,8 @@ from .trials import Trials
 
 #: How many relations are told, and tried together; and of how many bars bodies are looked for.
 _MOST, _MOST_TRIED, _MOST_BARS = 4, 12, 120
+#: Of how many self-stresses lines of force are looked at.
+_MOST_STRESSES = 4
 #: Of self-stresses of more resultants together nothing is said.
 _MOST_ENTRIES = 600
 _SAME = 1.0e-6
@@ -95,11 +97,12 @@ class _Ladder:
 
     def _candidates(self) -> Iterator[tuple[Relation, ...]]:
         """Sets of relations that may be enough, the simplest first."""
-        result, stress = self.result, self.stresses[-1]
+        result = self.result
         yield from of_axes(result, self.parts)
         yield tuple(self._of_members())
         yield from of_sheets(result, self.stresses, self.limbs, self.motions)
-        yield tuple(of_forces(result, stress, self.limbs))
+        for stress in self.stresses[: -1 - _MOST_STRESSES : -1]:
+            yield tuple(of_forces(result, stress, self.limbs))
         yield tuple(self._of_clusters())
         yield tuple(self._of_joints())
         if self.are_bars:
