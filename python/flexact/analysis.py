@@ -148,7 +148,9 @@ class Analysis(Result):
         self.save(target)
         return open_page(target)
 
-    def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
+    def advice(
+        self, body: str | None = None, wanted: Sequence[str] = (), bodies: bool = False
+    ) -> Advice:
         """What is wrong and why, and steps that mend it, each analysed before it is shown.
 
         Args:
@@ -160,7 +162,7 @@ class Analysis(Result):
             ModelError: no body has this name, or a text is not understood.
         """
         # Few ask for it, and it takes a while to load.
-        made: Advice = load("flexact.advising").advice_of(self, body, wanted)
+        made: Advice = load("flexact.advising").advice_of(self, body, wanted, bodies)
         return made
 
     def describe(self) -> str:

@@ -50,7 +50,7 @@ def proven(result: Result) -> tuple[Candidate, ...]:
     if not result.over_constrained:
         return ()
     made = []
-    sets = releases_of(result, with_links=True).sets
+    sets = releases_of(result, with_bodies=True).sets
     of_members = [each for each in sets if not _releases_a_link(result, each.change)]
     for proposal in (of_members or sets)[:LOOKED_AT]:
         alike = tuple(_label(_released(result, change)) for change in proposal.alternatives)

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ...advice.causes.cause import Cause, CauseKind, Causes, Lift
 from ...advice.causes.driven import driven_against
 from ...advice.causes.mend import Mend
@@ -79,24 +81,47 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
     stresses = list(range(min(len(result.self_stresses), _MOST)))
     if not motions or not stresses or not result.is_told_by_parts:
         return ()
-    k = next((k for k in motions if _is_special(causes.motions[k])), motions[0])
-    special = next((j for j in stresses if causes.self_stresses[j].relations), None)
-    if special is not None:
-        found = causes.self_stresses[special].relations
-        held: Pieces = (
-            "a constraint is spent twice where ",
-            *relations_in_words(result, found, True),
-        )
-    else:
-        every = (conflict_in_words(result.self_stresses[j]) for j in stresses)
-        held = next((words for words in every if words), ())
-    if not held:
-        return ()
-    mend = next((one for one in causes.mends if isinstance(one, Mend) and one.stops), None)
-    if mend is not None and mend.stops is not None:
-        on: Pieces = (hub_name(result, mend.end),)
-        return (*held, ", while nothing stops ", *motion_of(mend.stops, on))
-    return (*held, *_free(result, result.motions[k]))
+    motions.sort(key=lambda k: not _is_special(causes.motions[k]))
+    stresses.sort(key=lambda j: not causes.self_stresses[j].relations)
+    pairs = ((j, k) for j in stresses for k in motions if _go_together(result, causes, j, k))
+    for j, k in pairs:
+        found = causes.self_stresses[j].relations
+        about = relations_in_words(result, found, True)
+        held = ("a constraint is spent twice where ", *about) if found else ()
+        held = held or conflict_in_words(result.self_stresses[j])
+        if not held:
+            continue
+        mend = next((one for one in causes.mends if isinstance(one, Mend) and one.stops), None)
+        if mend is not None and mend.stops is not None:
+            on: Pieces = (hub_name(result, mend.end),)
+            return (*held, ", while nothing stops ", *motion_of(mend.stops, on))
+        return (*held, *_free(result, result.motions[k]))
+    return ()
+
+
+def _go_together(result: Result, causes: Causes, j: int, k: int) -> bool:
+    """Whether a self-stress and a motion have to do with each other.
+
+    They have where both live on this geometry for one reason, or where the motion moves what is
+    stressed.
+    """
+    stress, motion = result.self_stresses[j], result.motions[k]
+    of_stress, of_motion = causes.self_stresses[j].relations, causes.motions[k].relations
+    own = {part for one in of_stress for part in one.parts}
+    if of_stress and of_motion:
+        return any(own >= set(one.parts) for one in of_motion)
+    ends = [end.position for one in stress.parts for end in one.ends if end.position is not None]
+    moved = np.linalg.norm(motion.displacement, axis=1)
+    turned = motion.rotation[[node for end in ends for node in _turning(result, end)]]
+    largest = max(float(moved.max(initial=0.0)), float(np.abs(motion.rotation).max(initial=0.0)))
+    moves = moved[ends].max(initial=0.0) > _STILL * largest
+    return bool(moves or np.abs(turned).max(initial=0.0) > _STILL * largest)
+
+
+def _turning(result: Result, position: int) -> list[int]:
+    """The orientation nodes of the body at a position node."""
+    body = result.parts.body_at.get(position)
+    return [] if body is None else list(result.parts.bodies[body].orientations)
 
 
 def _is_special(cause: Cause) -> bool:
@@ -116,6 +141,8 @@ def _free(result: Result, motion: Motion) -> Pieces:
 
 #: How many modes are looked through, and how many bodies are named.
 _MOST, _MOST_NAMES = 20, 3
+#: What moves by less than this part of the largest stands still.
+_STILL = 1.0e-6
 
 
 # Special ------------------------------------------------------------------------
