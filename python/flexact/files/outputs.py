@@ -17,7 +17,7 @@ from ..base.errors import BatchError, reason_of
 from ..base.interruption import undisturbed
 from ..base.loading import load
 from .decks import DeckFile
-from .temporary import remove_left, temporary_name
+from .temporary import new_file, remove_left, temporary_name
 
 #: What stands for standard output.
 STDOUT = Path("-")
@@ -130,7 +130,8 @@ def write_together(files: Mapping[Path, bytes]) -> None:
     """Write a set of files so that they appear together or not at all.
 
     Everything is written beside its place first, and moved there when all of it is written.
-    Folders are made where they are missing; a link stays one, and what it leads to is written.
+    Folders are made where they are missing; a link stays one, and what it leads to is written; a
+    file that is written over keeps its mode.
     What a killed process has left beside the places is removed.
 
     Raises:
@@ -148,7 +149,8 @@ def write_together(files: Mapping[Path, bytes]) -> None:
             remove_left(place.parent)
             temporary = place.with_name(temporary_name())
             waiting[temporary] = target
-            temporary.write_bytes(content)
+            with new_file(temporary, place) as file:
+                file.write(content)
         with undisturbed():
             for temporary, target in waiting.items():
                 _move(temporary, places[target])
@@ -176,7 +178,7 @@ def written_whole(target: Path) -> Iterator[BinaryIO]:
         place.parent.mkdir(parents=True, exist_ok=True)
         remove_left(place.parent)
         temporary = place.with_name(temporary_name())
-        with open(temporary, "wb") as file:
+        with new_file(temporary, place) as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
