@@ -31,6 +31,10 @@ class OutputError(BatchError):
     """A file of results cannot be written."""
 
 
+class TakenError(OutputError):
+    """A file came to be where none was to be."""
+
+
 def plan_files(
     decks: Sequence[DeckFile], folder: Path, suffixes: Sequence[str]
 ) -> dict[str, tuple[Path, ...]]:
@@ -163,14 +167,19 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 
 
 @contextlib.contextmanager
-def written_whole(target: Path) -> Iterator[BinaryIO]:
+def written_whole(target: Path, *, anew: bool = False) -> Iterator[BinaryIO]:
     """A file to write piece by piece, which is at its place when the block ends, or not at all.
 
     It is on the disk by then, so that a power cut cannot take it away. As `write_together`
     otherwise.
 
+    Args:
+        target: Its place.
+        anew: Whether no file may be there.
+
     Raises:
         OutputError: The file cannot be written; the one that was there has not changed then.
+        TakenError: Another one came to be there before this one was whole.
     """
     temporary: Path | None = None
     try:
@@ -183,7 +192,10 @@ def written_whole(target: Path) -> Iterator[BinaryIO]:
             file.flush()
             os.fsync(file.fileno())
         with undisturbed():
-            _move(temporary, place)
+            if anew:
+                _claim(temporary, place)
+            else:
+                _move(temporary, place)
             keep_names(place.parent)
     except OSError as error:
         raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
@@ -202,6 +214,25 @@ def _move(temporary: Path, place: Path) -> None:
         except PermissionError:
             time.sleep(pause)
     os.replace(temporary, place)
+
+
+def _claim(temporary: Path, place: Path) -> None:
+    """Move a file to a place where there is none.
+
+    Raises:
+        TakenError: There is one.
+    """
+    try:
+        try:
+            os.link(temporary, place)
+        except FileExistsError:
+            raise
+        except OSError:
+            # A file system without further names: an empty file takes the place first.
+            new_file(place).close()
+            _move(temporary, place)
+    except FileExistsError as error:
+        raise TakenError(f"{place} was written by another process meanwhile") from error
 
 
 def keep_names(folder: Path) -> None:
