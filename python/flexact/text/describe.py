@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import NamedTuple
@@ -22,6 +23,10 @@ from .warnings import warnings_of
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
 MOST_MODES = 12
 _PARTS = 6
+
+
+#: What services take for a command: two colons that begin a line, and ##[ anywhere.
+_COMMAND = re.compile(r"(?m)(^\s*:|#)(:|#\[)")
 
 
 class _Table(NamedTuple):
@@ -56,7 +61,9 @@ def describe(
         _notes(result, about_model),
     )
     blocks = ([_shown(told, width) for told in section] for section in sections)
-    return "\n\n".join("\n".join(block) for block in blocks if block)
+    text = "\n\n".join("\n".join(block) for block in blocks if block)
+    # In the log of a service that runs tests these would be commands, of whoever names a part.
+    return _COMMAND.sub(lambda found: f"{found[1]} {found[2]}", text)
 
 
 def _shown(told: _Told, width: int) -> str:
