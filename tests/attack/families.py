@@ -123,7 +123,9 @@ def case_of(family: str, seed: int, number: int) -> Case:
             end = chance.getstate()
             drawn = _without_hair(family, drawn, start)
             chance.setstate(end)
-        alike = tuple(_moved(drawn.shown, unit, chance) for unit in drawn.sketch.alike * lattices.UNITS)
+        alike = tuple(
+            _moved(drawn.shown, unit, chance) for unit in drawn.sketch.alike * lattices.UNITS
+        )
         return Case(name, text, counts_of(typed), _meant(drawn), drawn.style.digits, alike)
     raise RuntimeError(f"{name}: no deck that is sound")
 

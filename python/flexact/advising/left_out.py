@@ -44,3 +44,6 @@ def _of_sets(sets: Releases | Declarations, what: str, of: str) -> Iterator[str]
         yield f"sets of {what}, for so many {of}"
     elif sets.count is None:
         yield f"how many sets of {what} there are: too many to be counted"
+    elif sets.doubtful != 0:
+        more = "some sets" if sets.doubtful is None else counted(sets.doubtful, "set", "", "s")
+        yield f"from the count {more} of {what} more, which rounding leaves in doubt"
