@@ -189,6 +189,7 @@ _RULES: dict[str, tuple[str, str]] = {
     "more-problems": ("There are more problems.", "Mend those that are shown first."),
     "not-analysed": ("The deck could not be analysed.", "The message says what to do."),
     "out-of-memory": ("There is not enough memory.", "Analyse with --method sparse."),
+    "unforeseen": ("Flexact stumbles over the deck.", "Report it, with the deck."),
     "not-written": ("Results could not be written.", "Look at the folder that was named."),
     "failed": ("The deck could not be taken.", "The message says what to do."),
 }

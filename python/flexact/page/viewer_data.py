@@ -74,6 +74,7 @@ def _left_out(analysis: Result, data: dict[str, Any]) -> Iterator[str]:
         yield f"Of {analysis.under_constrained} motions the first {moved} can be shown."
     if (shown := len(data["stresses"])) < analysis.over_constrained:
         yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
-    freedom, free = analysis.degrees_of_freedom, kinds.count("freedom")
+    # Those inside of what is taken as one beam move nothing by themselves.
+    freedom, free = int(analysis.raw.counts[:, -1].sum()), kinds.count("freedom")
     if free + len(stuck_in(analysis)) < freedom:
         yield f"Of {freedom} declared degrees of freedom {free} can be shown."

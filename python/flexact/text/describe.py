@@ -12,7 +12,7 @@ from ..base.columns import TIE, USUAL, table
 from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
-from .decision import decision
+from .decision import decision, declared_in_words
 from .margin import margin_line, verdict_in_short
 from .motions import internal_in_words, motion_in_parts
 from .naming import counted, in_words
@@ -117,8 +117,7 @@ def _counts(result: Result) -> Iterator[_Told]:
             ("deformations", *map(str, counts.deformations)),
         )
     )
-    freedoms = counted(result.degrees_of_freedom, "degree", "", "s")
-    yield sentence(f"{freedoms} of freedom declared.")
+    yield sentence(f"{declared_in_words(result)}.")
 
 
 def _motions(result: Result, most: int | None) -> Iterator[Line]:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..base.errors import BatchError, FlexactError
+from ..base.partial import why
 from ..base.plain_text import harmless
 from ..diagnostics.errors import ProblemsError
 from ..page.markup import text
@@ -137,7 +138,7 @@ class Editor:
                         return
                     self._stage.judge(told)
                 shown: Answer = self._with_edits(now, told)
-            except (FlexactError, MemoryError) as error:
+            except Exception as error:
                 words = _in_short(error)
                 shown = Broken("cannot be drawn", text(words), text(words), words, ())
             with self._lock:
@@ -155,7 +156,7 @@ class Editor:
         return shown_of(now, told, which, self._file.files, is_edited=True)
 
 
-def _in_short(error: FlexactError | MemoryError) -> str:
+def _in_short(error: Exception) -> str:
     if isinstance(error, ProblemsError) and error.diagnostics:
         return harmless(error.diagnostics[0].message)
-    return harmless(str(error)) or "not enough memory"
+    return harmless(why(error))
