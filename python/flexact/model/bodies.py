@@ -64,7 +64,7 @@ class BodyMethods(FlexureMethods):
                 if not components.joined(first, carrier):
                     links.append(self._beam(first, carrier, None, (), "", make))
                     draft.rigid.add(len(draft.kinds) - 1)
-            _name_links(draft, links, name or old_name)
+            _name_links(draft, links, name or old_name, first)
             if not links and name:
                 draft.name_node(nodes[0].position, points_name(name))
         for number, values in zip((nodes[0].position, nodes[0].orientation), at_node, strict=True):
@@ -108,12 +108,17 @@ def _members(draft: Draft, given: Iterable[Point]) -> tuple[tuple[Node, ...], li
     return tuple(nodes), links, name
 
 
-def _name_links(draft: Draft, links: list[Element], name: str) -> None:
-    """Name the links of a body; a single one has the name of the body."""
+def _name_links(draft: Draft, links: list[Element], name: str, first: Node) -> None:
+    """Name the links of a body; a single one has the name of the body.
+
+    Those of this name that belong to the same body are counted, too.
+    """
     if not name:
         return
     indices = [draft.index_of(link.number) for link in links]
-    taken = [i for i in draft.part_indices(name) if i not in indices]
+    components = RigidComponents.of(draft)
+    others = [i for i in draft.part_indices(name) if i not in indices]
+    taken = [i for i in others if components.joined(first, Node(*draft.slots[i][:2], draft.owner))]
     start = len(taken) + 1
     alone = len(indices) == 1 and not taken
     for k, index in enumerate(indices, start):

@@ -144,6 +144,7 @@ class FlexureMethods(ElementMethods):
         draft = self._change()
         name = arguments.text(name, "the name of an element")
         ends = points.point(draft, p), points.point(draft, q)
+        draft.require_two_ends((ends[0].position, 0, ends[1].position, 0))
         inner = between(draft, *ends, beams)
         nodes = (ends[0], *(self.node(each) for each in inner), ends[1])
         names = [f"{name}, {i + 1}" if name and beams > 1 else name for i in range(beams)]

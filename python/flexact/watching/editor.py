@@ -103,8 +103,8 @@ class Editor:
             try:
                 base: Result = pickle.loads(self._file.result)
             except Exception as error:
-                why = f"this model cannot be switched: {harmless(' '.join(str(error).split()))}"
-                raise BatchError(why) from error
+                words = f"this model cannot be switched: {harmless(' '.join(str(error).split()))}"
+                raise BatchError(words) from error
             self._is_taken = True
             self._session.model_name = self._file.model or "model"
             self._session.renew(base)
