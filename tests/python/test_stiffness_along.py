@@ -172,7 +172,8 @@ def _blade(held: str, along: str = "0.06 0.03 0.07", axis: int = 4) -> str:
 _FOLDED = deck(
     "BEAM 1 1 2 3 4 0.3 1 -0.2\nBEAM 2 3 4 5 6 1 0.1 0.2\nX 3 0.06 0.03 0.07\nX 5 0.02 0.1 0.05\n"
     "FIX 1\nFIX 2\nDYNX 6 3\nDYNX 5 1\nRLSE 1 1 2 3 4 5 6\nRLSE 2 1 2 3 4 5 6",
-    f"ESTIFF 1 {SHEET}\nESTIFF 2 {SHEET}\nEM 1 {MASS}\nEM 2 {MASS}\nXM 5 0.3\nXM 6 1e-3 0 0 1e-3 0 1e-3",
+    f"ESTIFF 1 {SHEET}\nESTIFF 2 {SHEET}\nEM 1 {MASS}\nEM 2 {MASS}\nXM 5 0.3\n"
+    "XM 6 1e-3 0 0 1e-3 0 1e-3",
 )
 _PLANAR = deck(
     f"PLBEAM 1 1 2 3 4\nX 3 {LENGTH} 0\nFIX 1\nFIX 2\nDYNX 4 1\nRLSE 1 1 2 3",
@@ -214,7 +215,7 @@ def test_frequencies_are_those_at_a_constant_moment() -> None:
 
 
 def test_matrices_keep_euler_parameters() -> None:
-    """SPACAR's: the second derivative of the energy by the Euler parameter, of which a/2 is asin."""
+    """SPACAR's: second derivatives of the energy by the Euler parameter sin(a/2)."""
     model = elastic(cross_hinge(), beams=1)
     for angle in (0.2, 0.6):
         low, here, high = model.along(2, "ry", [angle - 1e-4, angle, angle + 1e-4])
@@ -232,8 +233,8 @@ def _driven_axis(state: Any, node: int, coordinate: str) -> Any:
     if np.size(turn) == 1:
         return np.ones(1)
     angle = float(np.linalg.norm(turn))
-    l0, l = math.cos(angle / 2), turn * (math.sin(angle / 2) / angle)
+    scalar, vector = math.cos(angle / 2), turn * (math.sin(angle / 2) / angle)
     e = np.eye(3)["xyz".index(coordinate[1])]
-    axis = l0 * e + np.cross(l, e)
+    axis = scalar * e + np.cross(vector, e)
     assert np.linalg.norm(axis) == pytest.approx(math.cos(state.stroke / 2), rel=1e-9)
     return axis / np.linalg.norm(axis)

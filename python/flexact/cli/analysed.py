@@ -48,8 +48,13 @@ def add_decision(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_accuracy(parser: argparse.ArgumentParser) -> None:
-    """Add to a verb's parser to what the workshop makes the parts and puts them together."""
+def add_accuracy(parser: argparse.ArgumentParser, *, is_held_against: bool = True) -> None:
+    """Add to a verb's parser to what the workshop makes the parts and puts them together.
+
+    Args:
+        parser: The parser.
+        is_held_against: Whether it is held against the size of each model.
+    """
     parser.add_argument(
         "--accuracy",
         type=accuracy,
@@ -57,6 +62,10 @@ def add_accuracy(parser: argparse.ArgumentParser) -> None:
         help="of the workshop, such as 20um or 20um,0.1mrad: a verdict that a smaller "
         "misalignment changes is said to be so, in another colour",
     )
+    if is_held_against:
+        parser.add_argument(
+            "--beyond", action="store_true", help="take an accuracy larger than the model"
+        )
 
 
 def accuracy(text: str) -> Accuracy:
@@ -106,6 +115,8 @@ def report_problems(model: ModelData) -> None:
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
     announce_wait(deck, model, chosen.method)
+    if chosen.accuracy is not None and not chosen.beyond:
+        chosen.accuracy.require_within(model.size)
     return result_of(
         model,
         asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy),

@@ -85,7 +85,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="write a page of each deck and index.html there",
     )
     add_decision(parser)
-    add_accuracy(parser)
+    add_accuracy(parser, is_held_against=False)
     add_examples(
         parser,
         (

@@ -76,6 +76,16 @@ def fill(parser: argparse.ArgumentParser) -> None:
         metavar="auto|N",
         help="beams a sheet; auto: 8 and 16, extrapolated, with the uncertainty",
     )
+    parser.add_argument(
+        "--bodies",
+        action="store_true",
+        help="releases inside of rigid bodies too (default: only where nothing else does it)",
+    )
+    parser.add_argument(
+        "--beyond",
+        action="store_true",
+        help="take strokes and misalignments that are larger than the model",
+    )
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
     parser.add_argument(
         *("-o", "--output"),
@@ -127,6 +137,8 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             drive=chosen.drive,
             beams=chosen.beams,
             points=POINTS if chosen.points is None else chosen.points,
+            bodies=chosen.bodies,
+            beyond=chosen.beyond,
         )
     except AskedError as error:
         *others, last = error.messages

@@ -46,6 +46,9 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "counts as the model's size (default: that size)",
     )
     group.add_argument(
+        "--beyond", action="store_true", help="take a length that is larger than the model"
+    )
+    group.add_argument(
         "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
     )
     group.add_argument(
@@ -113,6 +116,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                         length=chosen.length,
                         steps=chosen.steps,
                         through=chosen.through,
+                        beyond=chosen.beyond,
                         progress=show,
                     )
             except BatchError:

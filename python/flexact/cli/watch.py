@@ -42,7 +42,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_no_browser(parser)
     add_decision(parser)
-    add_accuracy(parser)
+    add_accuracy(parser, is_held_against=False)
     add_examples(
         parser,
         ("A deck", "flexact watch input_decks/paper/five_wires.dat"),

@@ -44,6 +44,8 @@ class Asked:
         drive: "free" or "locked".
         beams: "auto", or how many.
         points: How many places along the stroke.
+        bodies: Whether what is inside of bodies is among the proven releases.
+        beyond: Whether strokes and misalignments may be larger than the model.
     """
 
     at: object = None
@@ -55,6 +57,8 @@ class Asked:
     drive: str = DRIVE[0]
     beams: int | str = AUTO
     points: int = POINTS
+    bodies: bool = False
+    beyond: bool = False
 
     @classmethod
     def of(
@@ -69,6 +73,8 @@ class Asked:
         drive: object,
         beams: object,
         points: object,
+        bodies: object = False,
+        beyond: object = False,
     ) -> Asked:
         """From arguments as users give them.
 
@@ -94,6 +100,8 @@ class Asked:
             tried(lambda: _one_of("drive", drive, DRIVE), ""),
             tried(lambda: _beams(beams), _AUTO),
             tried(lambda: _whole("the number of places along a stroke", points, _MOST_POINTS), 2),
+            tried(lambda: _flag("bodies", bodies), False),
+            tried(lambda: _flag("beyond", beyond), False),
         )
         if made.points < 2 and not wrong:
             wrong.append("a stroke has 2 places at least")
@@ -109,6 +117,12 @@ _AUTO: int | str = AUTO
 def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:
     if not isinstance(given, str) or given not in allowed:
         raise AskedError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
+    return given
+
+
+def _flag(what: str, given: object) -> bool:
+    if not isinstance(given, bool):
+        raise AskedError(f"{what} is True or False, not {in_short(given)}")
     return given
 
 

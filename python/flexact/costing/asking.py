@@ -131,24 +131,28 @@ def _notch(text: str | None) -> float:
 
 
 def stroke_of(text: str) -> StrokeAsked:
-    """A stroke: "1:z=25mm..35mm", or counted from the deck's place "1:z+=-5mm..5mm".
+    """A stroke: "1:z=25mm..35mm", or from the deck's place "1:z+=-5mm..5mm", "1:z=+-5mm".
 
     Raises:
         AskedError: it is not written so.
     """
     found = _COORDINATE.fullmatch(text)
     start, dots, stop = found["value"].partition("..") if found else ("", "", "")
+    if not dots and start.strip().startswith("+-"):
+        # As far both ways from where it rests.
+        dots, stop = "+-", start.strip()[2:]
+        start = f"-{stop.strip()}"
     if found is None or not dots:
         raise AskedError(
             "a stroke is written POINT:COORDINATE=FROM..TO, such as 1:z=25mm..35mm, or counted "
-            f"from the place in the deck 1:z+=-5mm..5mm; not {in_short(text)}"
+            f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
     first, last = _quantity(start, unit), _quantity(stop, unit)
     if first == last:
         raise AskedError(f"the stroke {in_short(text)} ends where it begins")
     point = PointText(found["point"]).target
-    return StrokeAsked(point, name, first, last, bool(found["by"]))
+    return StrokeAsked(point, name, first, last, bool(found["by"]) or dots == "+-")
 
 
 def misalignment_of(text: str) -> MisalignmentAsked:

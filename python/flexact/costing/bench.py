@@ -168,7 +168,9 @@ class Level:
         solver, points = self.solution.solver, self.bench.elastic.points
         shift = np.zeros((3, solver.nodes, len(misalignments)), order="F")
         for k, each in enumerate(misalignments):
-            off = misalignment(points, each.clamp.node, each.direction, 1.0, each.about)
+            off = misalignment(
+                *(points, each.clamp.node, each.direction, 1.0, each.about), beyond=True
+            )
             shift[:, : solver.mesh.nodes, k] = off.shift(solver.mesh.own)
         return shift, self.solution.respond(np.zeros_like(shift), None, shift)
 

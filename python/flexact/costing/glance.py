@@ -11,7 +11,7 @@ import numpy as np
 from ..base.columns import TIE, USUAL
 from ..base.errors import FlexactError
 from ..base.plain_text import harmless
-from ..core.arrays import FloatArray
+from ..core.arrays import BoolArray, FloatArray
 from ..model.parts.parts import PartKind
 from ..result.result import Result
 from ..stiffness import ElasticError
@@ -120,7 +120,7 @@ class _Glance:
         coarse = bench.levels[0]
         square = coarse.first_square * (1.0 + _SHIFT) ** 2
         stresses, lengths = coarse.stresses(order), self._lengths(order)
-        able = np.isfinite(stresses).all(axis=(0, 1))
+        able: BoolArray = np.asarray(np.isfinite(stresses).all(axis=(0, 1)))
         stresses = np.asfortranarray(stresses[:, :, able])
         some = [each for each, fits in zip(order, able, strict=True) if fits]
         least = np.abs(coarse.errors(stresses, square, lengths[able])).min(axis=1) * lengths[able]

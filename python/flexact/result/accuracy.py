@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from ..base.plain_text import in_short
 from ..base.quantities import Quantity, QuantityError, measured
+from .failing import AnalysisError
 from .verdict import Margin
 
 #: A length [m], or a length [m] and an angle [rad]; a text says its unit, such as "20um,1mrad".
@@ -35,6 +36,22 @@ class Accuracy(NamedTuple):
         if margin.angle is None or self.angle is None:
             return length, False
         return length, margin.angle < self.angle
+
+    def require_within(self, size: float) -> None:
+        """Raise where it is larger than the model: a slip of the unit.
+
+        Args:
+            size: Of the model [m].
+
+        Raises:
+            AnalysisError: it is.
+        """
+        if self.length > size:
+            raise AnalysisError(
+                f"the accuracy is {self.length:g} m, larger than the whole model, {size:.3g} m: "
+                "say its unit, such as 20um, if that is not meant; --beyond (in Python "
+                "beyond=True) permits it"
+            )
 
     @classmethod
     def of(cls, given: AccuracyGiven) -> Accuracy:

@@ -100,14 +100,18 @@ class State(Response):
         return resultants_of(self.model.data, e, stress)
 
     def peak_stress(self, element: object) -> float:
-        """The largest normal stress [Pa] anywhere in an element whose section is known.
+        """The largest normal stress [Pa] anywhere in an element, or part, of known section.
+
+        Args:
+            element: Its number or handle, or the name of a part.
 
         Raises:
+            ModelError: no part, or several, have this name.
             UnknownError: there is no such element.
             ElasticError: its section is not known.
         """
-        e = self.model.points.element(element)
-        return float(self.best(lambda at: peak_of(at, e)))
+        every = self.model.points.elements(element)
+        return float(self.best(lambda at: max(peak_of(at, e) for e in every)))
 
     @property
     def energy(self) -> float:

@@ -49,6 +49,7 @@ def trace(
     length: Quantity | None = None,
     steps: int = STEPS,
     through: bool = True,
+    beyond: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Trace:
     """Follow a motion on D(x) = 0, eq. (5), both ways from the reference.
@@ -65,12 +66,14 @@ def trace(
             a rotation of 1 rad counting as the model's size. By default that size.
         steps: By how many steps each way, at least.
         through: Whether to go straight on where other paths branch off; else the path ends there.
+        beyond: Whether the length may be larger than the model.
         progress: Called with the part that is done, from 0 to 1.
 
     Raises:
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
-        FlexactError: there is no such motion or freedom, or the path cannot be begun.
+        FlexactError: there is no such motion or freedom, the path cannot be begun, or the length
+            is larger than the model, and not `beyond`.
         TypeError: something is of another kind than it must be.
         ValueError: the length or the number of steps is not positive.
     """
@@ -92,6 +95,11 @@ def trace(
         )
     held = Held(data)
     size = 1.0 if wished is None else wished / held.size
+    if wished is not None and wished > data.size and size > 1.0 and not beyond:
+        raise TraceError(
+            f"the length is {wished:g} m, larger than the whole model, {data.size:.3g} m: say its "
+            "unit, such as 20mm, if that is not meant; --beyond (in Python beyond=True) permits it"
+        )
     most = size / steps
     wishes = Wishes(size, most, most, _LEAST * min(most, 0.1), 100 * steps + 2000, through)
     return _traced(result, shown, held, wishes, progress)
