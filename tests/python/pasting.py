@@ -111,6 +111,7 @@ def _with_statements(deck: str, note: str) -> str:
         for statement in filter(None, (new, old)):
             assert _STATEMENT.fullmatch(statement), f"cannot be pasted: {note!r}"
         if old:
+            _written_out(lines, deck, *old.split()[:2])
             _take_away(lines, *old.split())
         added += [new] * bool(new)
     end = next(
@@ -119,6 +120,23 @@ def _with_statements(deck: str, note: str) -> str:
     )
     lines[end:end] = added
     return "\n".join(lines)
+
+
+def _written_out(lines: list[str], deck: str, keyword: str, owner: str) -> None:
+    """Numbers in the place of a statement that means all of an element or a node by none."""
+    model = flexact.read_text(deck)
+    for k, line in enumerate(lines):
+        if re.split(r"[%#]", line)[0].split() != [keyword, owner]:
+            continue
+        if keyword in ("RLSE", "DYNE"):
+            count = int((model.deformation_classes[model.element_index(int(owner))] > 0).sum())
+            numbers = range(1, count + 1)
+        else:
+            index = model.node_index(int(owner))
+            first = 2 if model.node_kinds[index] == 4 else 1
+            count = int((model.coordinate_classes[index] > 0).sum())
+            numbers = range(first, first + count)
+        lines[k] = " ".join((keyword, owner, *map(str, numbers)))
 
 
 def _take_away(lines: list[str], keyword: str, owner: str, *numbers: str) -> None:
@@ -163,7 +181,7 @@ _PROPOSALS = {
     "To remove it, ": (0, -1),
     "To remove one, ": (0, -1),
     "To remove a self-stress that there is with one beam each, ": (0, -1),
-    "Or take a declaration": (0, -1),
+    "Or take a declaration away": (0, -1),
 }
 _INSIDE = ("To declare what is inside: ", "To declare what is inside, instead of RLSE: ")
 

@@ -106,10 +106,10 @@ class Draft(Lookup):
         draft.elements_given = len(draft.kinds)
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
-        for p, op, q, oq in draft.slots:
-            for position, orientation in ((p, op), (q, oq)):
-                if position and orientation:
-                    draft.join(position, orientation)
+        # Of several orientations at a place that with the lowest number was made with it.
+        ends = [end for p, op, q, oq in draft.slots for end in ((p, op), (q, oq)) if all(end)]
+        for position, orientation in sorted(ends, key=lambda end: end[1]):
+            draft.join(position, orientation)
         return draft
 
     def add_node(self, kind: int, value: tuple[float, ...]) -> int:

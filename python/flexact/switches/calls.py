@@ -97,7 +97,9 @@ def _worded(board: Board, place: DeformationPlace, method: str) -> Call | None:
         return call
     word = _BENDINGS.get(Role(_role(board, place)))
     index = outcome.data.element_index[place.element]
-    part = named_part(part_of(outcome, index), place.element)
+    part = named_part(
+        outcome.parts, part_of(outcome, index), int(outcome.condensed.elements[index])
+    )
     at = "p" if _role(board, place) in AT_P else "q"
     return None if word is None else Call(method, (part, word), at)
 

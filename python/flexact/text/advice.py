@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..advice.ways import Part, Step, Way, on_motions, on_self_stresses
+from ..advice.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 from ..result.result import Result
-from .calls import call_in_words
+from .calls import calls_of
 from .naming import counts_in_words, in_words, part_in_words
 from .places import listed, part_words
 from .sentences import Line, Pieces, plain, sentence
@@ -97,11 +97,13 @@ def _line(result: Result, head: str, advice: Way) -> Line:
 
 def _note(result: Result, advice: Way, part: Part, first: bool) -> str:
     """How it is done with a part: in a deck by a statement, in Python by a call."""
+    if result.given.source is None:
+        calls = calls_of(result, advice, part) if first else ()
+        return f"({', '.join(calls)})" if calls else ""
     if not advice.keywords:
         return ""
-    if result.given.source is None:
-        call = call_in_words(result, advice, part) if first else ""
-        return f"({call})" if call else ""
+    if isinstance(part, Coordinate) and advice.step is Step.UNDECLARE:
+        return f"(without DYNX {part.operands})"
     statements = [f"{keyword} {part.operands}" for keyword in advice.keywords]
     if len(statements) == 1:
         return f"({statements[0]}{' instead' * advice.instead})"

@@ -20,8 +20,8 @@ from .hardware import Phrase, held, outcome_as_given, released
 
 #: How many alternatives of several parts each are named, and how many of one part.
 _MOST_SETS, _MOST_NAMED = 3, 11
-#: How many statements of a deck are told.
-_MOST_STATEMENTS = 8
+#: Of more statements or calls it is told how many there are.
+_MOST_STATEMENTS = 24
 #: Parts that are counted in the plural.
 _PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
 
@@ -210,21 +210,24 @@ def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
         statements = [_statements(outcome, change, "RLSE")] if change.deformations else []
         return ", ".join(filter(None, statements))
     if outcome.given.source is not None:
-        return f"without {_statements(outcome, change, 'RLSE')}"
+        return _statements(outcome, change, "RLSE", "without ")
     return _statements(outcome, change, HOLD)
 
 
-def _statements(outcome: Outcome, change: Change, keyword: str) -> str:
+def _statements(outcome: Outcome, change: Change, keyword: str, before: str = "") -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
     if outcome.given.source is not None:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
-        more = ["..."] * (len(statements) > _MOST_STATEMENTS)
-        return ", ".join(statements[:_MOST_STATEMENTS] + more)
+        if len(statements) > _MOST_STATEMENTS:
+            return "" if keyword == "FIX" else f"{len(statements)} statements: --apply does it"
+        return f"{before}{', '.join(statements)}"
     parts: list[Deformation | Coordinate] = [
         *(Deformation(element, number, "") for element, number, _ in change.deformations),
         *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
     ]
-    calls = [call_of(outcome, keyword, part) for part in parts]
+    calls = list(dict.fromkeys(call_of(outcome, keyword, part) for part in parts))
+    if len(calls) > _MOST_STATEMENTS:
+        return "" if keyword == "FIX" else f"{len(calls)} calls: apply() of the step does it"
     return ", ".join(calls) if all(calls) else ""
 
 
