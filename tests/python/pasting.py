@@ -183,6 +183,7 @@ _PROPOSALS = {
     "To remove a self-stress that there is with one beam each, ": (0, -1),
     "Or take a declaration away": (0, -1),
 }
+_FOLDS = "To declare the folds: "
 _INSIDE = ("To declare what is inside: ", "To declare what is inside, instead of RLSE: ")
 
 
@@ -197,6 +198,12 @@ def analysis_pasted(given: Model | str, result: flexact.Analysis) -> Iterator[Pa
                 rest = line.removeprefix(head).split("; ")
                 before = rest if "model." in line else [_declared(each) for each in rest]
                 yield _tried(line, given, counts, *before)
+        if line.startswith(_FOLDS):
+            then = result.with_internal_declared or result
+            then = then.with_folds_declared or then
+            counts = then.under_constrained, then.over_constrained
+            before = [*before, *notes_in(line)]
+            yield _tried(line, given, counts, *before)
         for head, change in _PROPOSALS.items():
             if line.startswith(head):
                 said = counts[0] + change[0], counts[1] + change[1]

@@ -78,7 +78,9 @@ def named(draft: Draft, name: str) -> Part | Element:
 
 def of_indices(draft: Draft, indices: list[int]) -> Part | Element:
     """The part that these elements are; the first of them alone where they are none."""
-    is_body = all(i in draft.rigid or is_rigid(draft, i) for i in indices)
+    # A single link of which something is released is the flexure that it looks like.
+    are_links = len(indices) > 1 and all(i in draft.rigid for i in indices)
+    is_body = are_links or all(is_rigid(draft, i) for i in indices)
     indices = in_order(draft, indices) if is_body else indices
     elements = tuple(Element(draft.numbers[i], draft.owner) for i in indices)
     first = draft.slots[indices[0]]

@@ -4,16 +4,23 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from ..advice.change import Change
 from ..advice.ways import Coordinate, Part, Step, Way
-from ..core.elements import Member, NodeKind, Role
+from ..core.elements import Class, Member, NodeKind, Role
+from ..diagnostics.errors import ModelError
+from ..model.data import ModelData
+from ..model.model import Model
+from ..model.parts.condensing import condensed
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
 from ..model.places import ROUNDING
+from ..model.words import AT_Q
 from ..result.outcome import Outcome
 from .deformation import bending_of, part_of, role_of
 
@@ -22,6 +29,8 @@ _METHODS = {"DYNX": "independent", "FIX": "fix", "RLSE": "release", "DYNE": "ind
 #: The word for holding what is released, which a deck does without a statement.
 HOLD = "hold"
 
+#: Elements up to which calls in words are tried before they are shown.
+MOST_TRIED = 3_000
 #: Of the size of a model: points nearer than this might be taken for each other.
 _APART = 4.0 * ROUNDING
 
@@ -64,17 +73,63 @@ def taken_back(result: Outcome, part: Part) -> tuple[str, ...]:
     """The calls that take back a declaration."""
     if isinstance(part, Coordinate):
         return (call_of(result, "clear", part),)
-    calls = (call_of(result, HOLD, part), call_of(result, "RLSE", part))
-    return calls if all(calls) else ()
+    calls = [deformation_call(result, method, *part[:2]) for method in (HOLD, "release")]
+    worded = [call for call in calls if call is not None]
+    if len(worded) == len(calls) and made(result.given, worded) is None:
+        worded = [Call(method, tuple(part[:2])) for method in (HOLD, "release")]
+    return tuple(call.in_words() for call in worded)
+
+
+def method_of(keyword: str) -> str:
+    """The method that does what a statement of a deck does; of `HOLD` and others themselves."""
+    return _METHODS.get(keyword, keyword)
 
 
 def call_of(result: Outcome, keyword: str, part: Part) -> str:
     """The call that does with a part what a statement of a deck does, or `HOLD`."""
-    method = _METHODS.get(keyword, keyword)
+    method = method_of(keyword)
     if isinstance(part, Coordinate):
         return coordinate_call(result, method, part.node, part.name).in_words()
     call = deformation_call(result, method, part.element, part.number)
     return "" if call is None else call.in_words()
+
+
+def calls_of_change(result: Outcome, change: Change, method: str) -> list[Call]:
+    """Calls of one method that make a change together; none where there are none for all of it.
+
+    They were tried on the model. Where words do not do it, as bending has no plane any more once
+    a sheet holds none, numbers do.
+    """
+    worded = [deformation_call(result, method, *place[:2]) for place in change.deformations]
+    coordinates = [coordinate_call(result, method, *place[:2]) for place in change.coordinates]
+    if None in worded:
+        return []
+    calls = list(dict.fromkeys(call for call in worded if call is not None))
+    if calls and result.given.arrays.element_number.size <= MOST_TRIED:
+        wanted = Change(change.deformations).apply(result.given).data
+        if not _releases_the_same(made(result.given, calls), wanted):
+            calls = [Call(method, place[:2]) for place in change.deformations]
+    return calls + coordinates
+
+
+def made(given: ModelData, calls: Iterable[Call]) -> ModelData | None:
+    """A model after some calls; None where it does not take them."""
+    model = Model.from_data(given)
+    try:
+        for call in calls:
+            at = {} if call.at is None else {"at": call.at}
+            getattr(model, call.method)(*call.arguments, **at)
+    except ModelError:
+        return None
+    return model.data
+
+
+def _releases_the_same(a: ModelData | None, b: ModelData) -> bool:
+    """Whether two models release the same, rows of beams as one; what is held may be declared."""
+    if a is None:
+        return False
+    mine, others = (condensed(each).data.arrays.deformation_class for each in (a, b))
+    return np.array_equal(mine == Class.DEPENDENT, others == Class.DEPENDENT)
 
 
 def coordinate_call(result: Outcome, method: str, node: int, name: str) -> Call:
@@ -108,7 +163,10 @@ def deformation_call(result: Outcome, method: str, element: int, number: int) ->
         return Call(method, (part, words[Role(role)] if role in words else number))
     if bending.word is None:
         return None
-    return Call(method, (part, bending.word), _end(result.parts, named, bending.position))
+    # Of several beams that are one, any of them may release what is at an end of all.
+    ends = named.ends if len(named.elements) > 1 else (bending.position,) * 2
+    end = ends[1] if role in AT_Q else ends[0]
+    return Call(method, (part, bending.word), _end(result.parts, named, end))
 
 
 def named_part(parts: Parts, part: NamedPart, index: int) -> str | int:

@@ -30,7 +30,7 @@ from .sentences import plain
 _MOST_FREEDOMS, _MOST_ELEMENTS = 64, 10_000
 #: Components of the motion of a degree of freedom.
 _PARTS = 6
-_ALL = (Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL)
+_ALL = (Step.DECLARE_FOLDS, Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL)
 
 Entries = dict[str, Any]
 

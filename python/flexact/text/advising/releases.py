@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 from ...advice.change import Change
 from ...advice.proposal import Proposal, Purpose
-from ...advice.ways import Coordinate, Deformation, coordinate_of
+from ...advice.ways import Coordinate, coordinate_of
 from ...core.elements import AXES, NodeKind, coordinate_name
 from ...model.parts.parts import Part, PartKind
 from ...result.outcome import Outcome
 from ...result.result import Result
-from ..calls import HOLD, call_of
+from ..calls import HOLD, calls_of_change, method_of
 from ..naming import coordinate_in_words, in_words, named_element
 from ..places import end_words, listed, place_words
 from ..sentences import Named, Piece, Pieces, plain
@@ -56,8 +56,13 @@ def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
     more = [each for each in others if plain(each) != plain(own)]
     pieces: list[Piece] = ["declare ", *own, " independent"]
     pieces.append(f" ({declared})" if declared else "")
-    pieces.append(f", or hold {it}")
-    pieces.append(f" ({fixed})" if fixed else "")
+    # To hold a fold is to clamp it in mid-air.
+    folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
+    if folds.isdisjoint(
+        outcome.given.node_index[place[0]] for place in proposal.change.coordinates
+    ):
+        pieces.append(f", or hold {it}")
+        pieces.append(f" ({fixed})" if fixed else "")
     if more:
         pieces += ["; likewise ", *_shortened(more, len(proposal.change.coordinates))]
     return tuple(piece for piece in pieces if piece)
@@ -221,14 +226,10 @@ def _statements(outcome: Outcome, change: Change, keyword: str, before: str = ""
         if len(statements) > _MOST_STATEMENTS:
             return "" if keyword == "FIX" else f"{len(statements)} statements: --apply does it"
         return f"{before}{', '.join(statements)}"
-    parts: list[Deformation | Coordinate] = [
-        *(Deformation(element, number, "") for element, number, _ in change.deformations),
-        *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
-    ]
-    calls = list(dict.fromkeys(call_of(outcome, keyword, part) for part in parts))
+    calls = [each.in_words() for each in calls_of_change(outcome, change, method_of(keyword))]
     if len(calls) > _MOST_STATEMENTS:
         return "" if keyword == "FIX" else f"{len(calls)} calls: apply() of the step does it"
-    return ", ".join(calls) if all(calls) else ""
+    return ", ".join(calls)
 
 
 def _operands(outcome: Outcome, change: Change) -> list[str]:
