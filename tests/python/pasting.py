@@ -111,6 +111,7 @@ def _with_statements(deck: str, note: str) -> str:
         for statement in filter(None, (new, old)):
             assert _STATEMENT.fullmatch(statement), f"cannot be pasted: {note!r}"
         if old:
+            _written_out(lines, deck, *old.split()[:2])
             _take_away(lines, *old.split())
         added += [new] * bool(new)
     end = next(
@@ -119,6 +120,23 @@ def _with_statements(deck: str, note: str) -> str:
     )
     lines[end:end] = added
     return "\n".join(lines)
+
+
+def _written_out(lines: list[str], deck: str, keyword: str, owner: str) -> None:
+    """Numbers in the place of a statement that means all of an element or a node by none."""
+    model = flexact.read_text(deck)
+    for k, line in enumerate(lines):
+        if re.split(r"[%#]", line)[0].split() != [keyword, owner]:
+            continue
+        if keyword in ("RLSE", "DYNE"):
+            count = int((model.deformation_classes[model.element_index(int(owner))] > 0).sum())
+            numbers = range(1, count + 1)
+        else:
+            index = model.node_index(int(owner))
+            first = 2 if model.node_kinds[index] == 4 else 1
+            count = int((model.coordinate_classes[index] > 0).sum())
+            numbers = range(first, first + count)
+        lines[k] = " ".join((keyword, owner, *map(str, numbers)))
 
 
 def _take_away(lines: list[str], keyword: str, owner: str, *numbers: str) -> None:
@@ -163,8 +181,9 @@ _PROPOSALS = {
     "To remove it, ": (0, -1),
     "To remove one, ": (0, -1),
     "To remove a self-stress that there is with one beam each, ": (0, -1),
-    "Or take a declaration": (0, -1),
+    "Or take a declaration away": (0, -1),
 }
+_FOLDS = "To declare the folds: "
 _INSIDE = ("To declare what is inside: ", "To declare what is inside, instead of RLSE: ")
 
 
@@ -179,6 +198,12 @@ def analysis_pasted(given: Model | str, result: flexact.Analysis) -> Iterator[Pa
                 rest = line.removeprefix(head).split("; ")
                 before = rest if "model." in line else [_declared(each) for each in rest]
                 yield _tried(line, given, counts, *before)
+        if line.startswith(_FOLDS):
+            then = result.with_internal_declared or result
+            then = then.with_folds_declared or then
+            counts = then.under_constrained, then.over_constrained
+            before = [*before, *notes_in(line)]
+            yield _tried(line, given, counts, *before)
         for head, change in _PROPOSALS.items():
             if line.startswith(head):
                 said = counts[0] + change[0], counts[1] + change[1]

@@ -107,10 +107,10 @@ class Draft(Lookup):
         draft.elements_given = len(draft.kinds)
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
-        for p, op, q, oq in draft.slots:
-            for position, orientation in ((p, op), (q, oq)):
-                if position and orientation:
-                    draft.join(position, orientation)
+        # Of several orientations at a place that with the lowest number was made with it.
+        ends = [end for p, op, q, oq in draft.slots for end in ((p, op), (q, oq)) if all(end)]
+        for position, orientation in sorted(ends, key=lambda end: end[1]):
+            draft.join(position, orientation)
         return draft
 
     def add_node(self, kind: int, value: tuple[float, ...]) -> int:
@@ -315,7 +315,7 @@ class Draft(Lookup):
         """Kinds, slots and classes, with the kind of every rigid element decided.
 
         A rigid element is an RBEAM unless somebody needs the orientation of its
-        far end, or one of its deformations was given a class.
+        far end, which may have been given a class, as one of its deformations may.
         """
         kinds = np.array(self.kinds, np.int32)
         slots = np.array(self.slots, np.int64).reshape(-1, 4).astype(np.int32)
@@ -325,7 +325,8 @@ class Draft(Lookup):
         rigid = np.zeros(kinds.size, bool)
         rigid[list(self.rigid)] = True
         needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
-        needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        # One that is fixed or declared holds or drives the body, also where its whole point is.
+        needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.coordinate_class))
         needed.update(self.loads.nodes)
         # Two links that end at one point carry it both, so that they are one body.
         far, times = np.unique(slots[rigid, 3], return_counts=True)

@@ -93,12 +93,26 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         if under == 1:
             declared = " is held by nothing and is not declared as a degree of freedom"
         reasons.append(f"{in_words(under)} motion{declared}")
+        reasons += _of_folds(under, len(result.folds))
     if over:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
     start = verdict_in_short(result)
     return VerdictInWords(f"{start[:1].upper()}{start[1:]}", f"{'; '.join(reasons) or none}.")
+
+
+def _of_folds(under: int, folds: int) -> list[str]:
+    """Which of the motions are folds that turn."""
+    if not folds:
+        return []
+    them, are = (
+        ("it", "is the fold of a folded sheet")
+        if folds == 1
+        else ("them", "are folds of folded sheets")
+    )
+    which = f"{in_words(folds)} of them" if folds < under else "they" if folds > 1 else "it"
+    return [f"{which} {are}: declare {them}"]
 
 
 def _verdict(result: Result) -> Iterator[Line]:

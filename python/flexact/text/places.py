@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,6 +18,8 @@ from ..result.order import without_sense
 _ARTICLES = ("the ", "a ", "an ")
 #: How many parts a sentence names where several meet.
 _MOST_NAMED = 2
+#: What guides and hinges call the points by which they are held.
+_GROUND = re.compile(r"(?:^| )ground \d+$")
 #: An axis is one of x, y, z where its other components are below this.
 _ALONG = 1.0e-6
 
@@ -55,9 +58,11 @@ def others_words(parts: Sequence[Part]) -> str:
 
 def node_words(parts: Parts, node: int) -> str:
     """What a node, by its index, stands for: a point, or the body that it turns with."""
-    if parts.data.arrays.node_kind[node] <= NodeKind.POSITION:
-        return place_words(parts, node)
     body = parts.body_at.get(node)
+    if parts.data.arrays.node_kind[node] <= NodeKind.POSITION:
+        if body is not None and stands_for(parts, node, body):
+            return part_words(parts.of_body(body))
+        return place_words(parts, node)
     if body is not None:
         return part_words(parts.of_body(body))
     place = parts.place_of(node)
@@ -107,6 +112,18 @@ def joint_node(parts: Parts, joint: Joint) -> int:
 def joint_words(parts: Parts, joint: Joint) -> str:
     """A joint that moves: "the joint of sheet 1 and bar 2", "the end of the wire at the notch"."""
     return node_words(parts, joint_node(parts, joint))
+
+
+def stands_for(parts: Parts, position: int, body: int) -> bool:
+    """Whether what a point on a named body does is told of the body: it is its first point.
+
+    Or it is called the ground of an assembly that the body carries.
+    """
+    is_ground = bool(_GROUND.search(parts.name_of_point(position)))
+    is_first = parts.first_points[body] == position
+    return parts.of_body(body).is_named and (
+        is_first or (is_ground and not parts.is_held(position))
+    )
 
 
 def end_words(parts: Parts, position: int) -> str:
