@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar, overload
 
+import numpy as np
+
 from ..advice.causes.cause import Cause, CauseKind, Causes
 from ..advice.causes.causes import causes_of
 from ..advice.change import Change
@@ -24,6 +26,7 @@ from ..result.extents.decide import extents_of
 from ..result.extents.extent import EvidenceKind, Extent, Extents, Kind, Reason
 from ..result.result import Result
 from ..result.verdict import Verdict
+from ..text.describe import MOST_MODES
 from .describe import describe, html_of
 from .json_advice import dictionary_of
 from .motions import AdvisedMotion, AdvisedStress
@@ -31,6 +34,8 @@ from .steps import Step, together
 
 #: What has a statement.
 _Told = TypeVar("_Told", AdvisedMotion, AdvisedStress, Step)
+#: Of self-stresses of more resultants in all those that stand on a screen are told.
+_MOST_ENTRIES = 20_000
 #: Kinds of steps in the order in which they are shown.
 _ORDER = (
     *(Purpose.MEND, Purpose.UNDECLARE, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
@@ -121,8 +126,14 @@ class Advice(Frozen, Sequence[Step]):
 
     @cached_property
     def self_stresses(self) -> tuple[AdvisedStress, ...]:
-        """Each self-stress with its cause; not of which nothing could be said."""
-        every = (AdvisedStress(stress, self.causes) for stress in self.analysis.self_stresses)
+        """Each self-stress with its cause; of very many that carry much the first ones.
+
+        Not of which nothing could be said.
+        """
+        result = self.analysis
+        sizes = np.cumsum([result.stress_basis.entries(k)[0].size for k in range(len(result.self_stresses))])
+        count = max(MOST_MODES, int(np.count_nonzero(sizes <= _MOST_ENTRIES)))
+        every = (AdvisedStress(stress, self.causes) for stress in result.self_stresses[:count])
         return tuple(self._told("a self-stress", every))
 
     def _told(self, what: str, every: Iterable[_Told]) -> Iterator[_Told]:

@@ -20,8 +20,8 @@ def left_out(advice: Advice) -> Iterator[str]:
     """What was not looked at, each in words that stand behind "Left out: "."""
     result = advice.analysis
     for what, count, given in (
-        ("motion", result.under_constrained, len(result.motions)),
-        ("self-stress", result.over_constrained, len(result.self_stresses)),
+        ("motion", result.under_constrained, len(advice.motions)),
+        ("self-stress", result.over_constrained, len(advice.self_stresses)),
     ):
         if given < count:
             many = what + ("es" if what.endswith("s") else "s")

@@ -30,6 +30,11 @@ class Joint(NamedTuple):
     """Its name in the model; empty without one."""
 
     @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and where many parts meet many results hold it."""
+        return True
+
+    @property
     def is_fold(self) -> bool:
         """Whether two sheets or wires meet there, and nothing else.
 

@@ -66,6 +66,11 @@ class Part(NamedTuple):
     number: int
     is_named: bool
 
+    @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and results hold very many parts."""
+        return True
+
     def __str__(self) -> str:
         """Its name."""
         return self.name

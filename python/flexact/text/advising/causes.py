@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -79,12 +80,16 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
     """
     motions = [k for k, motion in enumerate(result.motions[:_MOST]) if not motion.is_internal]
     stresses = list(range(min(len(result.self_stresses), _MOST)))
+    size = sum(result.stress_basis.entries(j)[0].size for j in stresses)
+    stresses = stresses if size <= _MOST_ENTRIES else stresses[:1]
     if not motions or not stresses or not result.is_told_by_parts:
         return ()
     motions.sort(key=lambda k: not _is_special(causes.motions[k]))
     stresses.sort(key=lambda j: not causes.self_stresses[j].relations)
-    pairs = ((j, k) for j in stresses for k in motions if _go_together(result, causes, j, k))
-    for j, k in pairs:
+    for j in stresses:
+        k = next(iter(_going_together(result, causes, j, motions)), None)
+        if k is None:
+            continue
         found = causes.self_stresses[j].relations
         about = relations_in_words(result, found, True)
         held = ("a constraint is spent twice where ", *about) if found else ()
@@ -99,23 +104,28 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
     return ()
 
 
-def _go_together(result: Result, causes: Causes, j: int, k: int) -> bool:
-    """Whether a self-stress and a motion have to do with each other.
+def _going_together(
+    result: Result, causes: Causes, j: int, motions: Sequence[int]
+) -> Iterator[int]:
+    """The motions with which a self-stress has to do, of some.
 
-    They have where both live on this geometry for one reason, or where the motion moves what is
-    stressed.
+    Both live on this geometry for one reason, or the motion moves what is stressed.
     """
-    stress, motion = result.self_stresses[j], result.motions[k]
-    of_stress, of_motion = causes.self_stresses[j].relations, causes.motions[k].relations
+    of_stress = causes.self_stresses[j].relations
     own = {part for one in of_stress for part in one.parts}
-    if of_stress and of_motion:
-        return any(own >= set(one.parts) for one in of_motion)
-    ends = [end.position for one in stress.parts for end in one.ends if end.position is not None]
-    moved = np.linalg.norm(motion.displacement, axis=1)
-    turned = motion.rotation[[node for end in ends for node in _turning(result, end)]]
-    largest = max(float(moved.max(initial=0.0)), float(np.abs(motion.rotation).max(initial=0.0)))
-    moves = moved[ends].max(initial=0.0) > _STILL * largest
-    return bool(moves or np.abs(turned).max(initial=0.0) > _STILL * largest)
+    parts = result.self_stresses[j].parts
+    ends = [end.position for one in parts for end in one.ends if end.position is not None]
+    turning = [node for end in set(ends) for node in _turning(result, end)]
+    for k in motions:
+        of_motion, motion = causes.motions[k].relations, result.motions[k]
+        if of_stress and of_motion:
+            if any(own >= set(one.parts) for one in of_motion):
+                yield k
+            continue
+        moved, turned = np.linalg.norm(motion.displacement, axis=1), np.abs(motion.rotation)
+        least = _STILL * max(float(moved.max(initial=0.0)), float(turned.max(initial=0.0)))
+        if max(moved[ends].max(initial=0.0), turned[turning].max(initial=0.0)) > least:
+            yield k
 
 
 def _turning(result: Result, position: int) -> list[int]:
@@ -139,8 +149,8 @@ def _free(result: Result, motion: Motion) -> Pieces:
     return (", while nothing stops ", *motion_of(first.screw, (listed(names[:_MOST_NAMES]),)))
 
 
-#: How many modes are looked through, and how many bodies are named.
-_MOST, _MOST_NAMES = 20, 3
+#: How many modes are looked through, of how many resultants in all, and how many bodies are named.
+_MOST, _MOST_ENTRIES, _MOST_NAMES = 20, 4_000, 3
 #: What moves by less than this part of the largest stands still.
 _STILL = 1.0e-6
 
