@@ -224,13 +224,13 @@ contains
       end do
    end subroutine add_lifts_of_nodes
 
-   !> Coordinates along each axis from that of a node on, where they have fewer digits so, the
-   !> fewest: what was moved by decimals has more of them, and is known no worse.
+   !> Coordinates along each axis from that of a node on, where they have clearly fewer digits
+   !> so: what was moved by decimals has more of them, and is known no worse.
    pure subroutine count_from_a_node(model, number)
       type(model_t), intent(in) :: model
       type(decimal_t), intent(inout) :: number(:, :)
       type(decimal_t) :: shifted(model%nodes), best(model%nodes)
-      logical :: is_place(model%nodes)
+      logical :: is_place(model%nodes), is_apart(model%nodes)
       integer :: axis, node, looked_at, digits, fewest
 
       is_place = is_position(model%node_kind)
@@ -244,8 +244,11 @@ contains
             ! What has too many digits then stays as it is.
             where (.not. shifted%short) shifted = number(axis, :)
             digits = sum(digits_of(shifted), is_place)
-            if (digits < fewest) best = shifted
-            fewest = min(digits, fewest)
+            is_apart = is_place .and. shifted%mantissa /= 0
+            if (digits < fewest .and. 4*digits <= 3*sum(digits_of(number(axis, :)), is_apart)) then
+               best = shifted
+               fewest = digits
+            end if
             looked_at = looked_at + 1
             if (looked_at == most_origins) exit
          end do

@@ -89,7 +89,7 @@ def _answered(case: Case, model: flexact.Model, method: str) -> Answer:
         answer = _answer(case, analysis)
         for text in case.alike:
             other = _analysed(flexact.read_text(text), method)
-            if unlike := _differences(analysis, other):
+            if unlike := _differences(analysis, other, method not in UNPROVED):
                 return Answer(Judgement.UNLIKE, f"{answer.words}; {unlike} in another unit")
         return answer
     except flexact.AnalysisError as error:
@@ -139,12 +139,12 @@ def _answer(case: Case, analysis: flexact.Analysis) -> Answer:
     return Answer(judgement, f"{words} {' '.join(codes)}".strip())
 
 
-def _differences(one: flexact.Analysis, other: flexact.Analysis) -> str:
-    """What is not the same of a deck in another unit, moved."""
+def _differences(one: flexact.Analysis, other: flexact.Analysis, proved: bool) -> str:
+    """What is not the same of a deck in another unit, moved; rounding is not, without proofs."""
     same = {
         "counts": (one.under_constrained, one.over_constrained)
         == (other.under_constrained, other.over_constrained),
-        "certainty": certainty_word(one) == certainty_word(other),
+        "certainty": not proved or certainty_word(one) == certainty_word(other),
         "axes": np.allclose(one.data.frames.frame, other.data.frames.frame, atol=1e-9),
     }
     return ", ".join(name for name, holds in same.items() if not holds)

@@ -368,6 +368,7 @@ def analyse_model(
         failure=named["failure"],
         undecided=int(named["undecided"]),
         unjudged=named["unjudged"] == 1,
+        fading=int(named["fading"]),
         unseen=int(named["unseen"]),
         left=named["left"],
         explained=named["explained"],
