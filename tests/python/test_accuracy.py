@@ -14,7 +14,7 @@ from known_models import ring, twelve_trusses
 from small_decks import DECKS, json_lines, write
 from test_margin import two_wires
 
-from flexact import Analysis, Verdict, analyse
+from flexact import Analysis, AnalysisError, Verdict, analyse
 from flexact.cli.main import main
 from flexact.notebook.output import html_of
 from flexact.page import page
@@ -220,3 +220,14 @@ def test_results_carry_their_accuracy() -> None:
     analysis: Analysis = analyse(two_wires(TEN_MICROMETRES), accuracy=(20e-6, 1e-4))
     assert analysis.accuracy == (20e-6, 1e-4)
     assert analyse(ring(3)).accuracy is None
+
+
+def test_an_accuracy_beyond_the_model_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """20 is 20 m."""
+    deck = str(DECKS / "flexures" / "parallel_guide.dat")
+    with pytest.raises(AnalysisError, match=r"larger than .*--beyond.*beyond=True"):
+        analyse(deck, accuracy=20)
+    assert analyse(deck, accuracy=20, beyond=True).accuracy is not None
+    assert main(["analyse", deck, "--accuracy", "20"]) != 0
+    assert "--beyond" in capsys.readouterr().err
+    assert main(["analyse", deck, "--accuracy", "20", "--beyond"]) == 0
