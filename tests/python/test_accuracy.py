@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from known_models import ring, twelve_trusses
+from reference_decks import ROOT
 from small_decks import DECKS, json_lines, write
 from test_margin import two_wires
 
@@ -224,7 +225,7 @@ def test_results_carry_their_accuracy() -> None:
 
 def test_an_accuracy_beyond_the_model_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     """20 is 20 m."""
-    deck = str(DECKS / "flexures" / "parallel_guide.dat")
+    deck = str(ROOT / "input_decks" / "flexures" / "parallel_guide.dat")
     with pytest.raises(AnalysisError, match=r"larger than .*--beyond.*beyond=True"):
         analyse(deck, accuracy=20)
     assert analyse(deck, accuracy=20, beyond=True).accuracy is not None

@@ -352,4 +352,4 @@ def test_a_length_beyond_the_model_is_refused() -> None:
     deck = DECKS / "linkages" / "four_bar_planar.dat"
     with pytest.raises(flexact.FlexactError, match=r"larger than .*--beyond.*beyond=True"):
         trace(deck, length=20.0)
-    assert trace(deck, length="20m", beyond=True, steps=5).along.steps
+    assert len(trace(deck, length="20m", beyond=True, steps=5).steps) > 1
