@@ -18,7 +18,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
 # Tests that compare words with files.
 WORDED := wording advice_wording broken_decks appearance docs docs_sessions element_table gallery keywords
 
-.PHONY: demo test check core-test lint wording gallery vscode attack fuzz bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
+.PHONY: demo test check core-test lint wording gallery vscode attack fuzz crossing bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -71,6 +71,11 @@ attack: .venv/ready-to-test
 fuzz: .venv/ready-to-test
 	PATH="$(CURDIR)/$(BIN):$$PATH" tools/test_core.sh --build-only
 	$(BIN)/python tests/fuzz/run.py --keep build/fuzz
+
+# Some hours: every mechanism of the gallery and every sample deck, changed in many ways, through every verb and form
+# of output. It goes on where it was stopped; CROSSING="--minutes 30 --only guide --again" and the like choose.
+crossing: .venv/ready-to-test
+	$(BIN)/python tests/crossing/run.py $(CROSSING)
 
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test

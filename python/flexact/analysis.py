@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .base.loading import load
+from .base.partial import attempted
 from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.models import read
@@ -147,7 +148,9 @@ class Analysis(Result):
         self.save(target)
         return open_page(target)
 
-    def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
+    def advice(
+        self, body: str | None = None, wanted: Sequence[str] = (), bodies: bool = False
+    ) -> Advice:
         """What is wrong and why, and steps that mend it, each analysed before it is shown.
 
         Args:
@@ -159,7 +162,7 @@ class Analysis(Result):
             ModelError: no body has this name, or a text is not understood.
         """
         # Few ask for it, and it takes a while to load.
-        made: Advice = load("flexact.advising").advice_of(self, body, wanted)
+        made: Advice = load("flexact.advising").advice_of(self, body, wanted, bodies)
         return made
 
     def describe(self) -> str:
@@ -170,7 +173,8 @@ class Analysis(Result):
         words = describe(self, most=MOST_MODES)
         if self.over_constrained and self.given.properties is not None:
             # It takes a while to load.
-            words = load("flexact.costing.glance").with_glance(words, self)
+            glance, told = load("flexact.costing.glance"), words
+            words = attempted("", lambda: str(glance.with_glance(told, self)), words, None)
         return words
 
     def __repr__(self) -> str:

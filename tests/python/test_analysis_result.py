@@ -71,7 +71,7 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
         *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
         *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),
         *("condition_number", "certainty", "proof", "nearly", "alternatives", "parts"),
-        *("internal_motions", "freedoms"),
+        *("taken_as_one", "internal_motions", "freedoms"),
         *("motions", "self_stresses", "advice", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"

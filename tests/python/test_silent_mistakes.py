@@ -26,6 +26,7 @@ OF_SLIPS = {
     "unlikely-modulus",
     "unlikely-density",
     "thick-section",
+    "nearly-equal-components",
 }
 
 

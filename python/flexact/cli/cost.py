@@ -56,9 +56,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="all of it along a stroke, such as 1:z=25mm..35mm, or from the place in the deck "
         "1:z+=-5mm..5mm",
     )
-    parser.add_argument(
-        "--points", type=number, default=POINTS, metavar="N", help=f"places along it ({POINTS})"
-    )
+    parser.add_argument("--points", type=number, metavar="N", help=f"places along it ({POINTS})")
     _add_many(
         *(parser, "--misalign", "CLAMP:C=VALUE[@POINT]"),
         "what this misalignment does, with all of the nonlinearity, such as 11:x=50um, or turned "
@@ -126,6 +124,8 @@ def _add_many(parser: argparse.ArgumentParser, name: str, form: str, words: str)
 def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     """Find the cost of the deck, say and write it."""
     deck = one_deck(chosen)
+    if chosen.points is not None and chosen.stroke is None:
+        raise BatchError("--points is for the places along a stroke: give --stroke, too")
     try:
         asked = Asked.of(
             at=_point(chosen.at),
@@ -136,7 +136,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             held=chosen.held,
             drive=chosen.drive,
             beams=chosen.beams,
-            points=chosen.points,
+            points=POINTS if chosen.points is None else chosen.points,
             bodies=chosen.bodies,
             beyond=chosen.beyond,
         )

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from ..base.plain_text import in_short
 from ..base.quantities import NOTCH, measured
 from .asking import (
+    NONE,
     AskedError,
     MisalignmentAsked,
     ReleaseAsked,
@@ -147,7 +148,13 @@ def _releases(given: object) -> tuple[ReleaseAsked, ...]:
         given = [given]
     if not isinstance(given, Iterable):
         raise TypeError(f"releases are a list of designs, not {in_short(given)}")
-    made = (_release(each) for each in given)
+    given = list(given)
+    made = [_release(each) for each in given]
+    if any(made) and any(isinstance(each, str) and each.strip() == NONE for each in given):
+        raise AskedError(
+            f"{NONE!r} asks for the design as built alone, and the others ask for releases: "
+            "choose; the design as built is shown in any case"
+        )
     return tuple(each for each in made if each)
 
 

@@ -34,7 +34,8 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
         ModelError: there is no such clamp, it does not hold this coordinate, or the value is
             larger than the model, and not `beyond`; all that are wrong are told.
     """
-    made, wrong = [], []
+    made: list[tuple[Misalignment, float]] = []
+    wrong: list[ModelError] = []
     for each in asked.misalign:
         try:
             clamp = places.clamp_of(places.node(each.clamp))
@@ -47,7 +48,11 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
                 words = f"the misalignment of {clamp.words} {words_of_direction(each.coordinate)}"
                 _require_within(each.value, places.size, each.coordinate, words)
             about = None if each.about is None else _pivot(places, each.about)
-            made.append((Misalignment(clamp, each.coordinate, about), each.value))
+            misalignment = Misalignment(clamp, each.coordinate, about)
+            if any(misalignment == before for before, _ in made):
+                words = f"{each.coordinate} of node {clamp.node} is misaligned twice"
+                raise model_error("given-twice", words, "give it once, with their sum")
+            made.append((misalignment, each.value))
         except ModelError as error:
             wrong.append(error)
     if wrong:

@@ -85,6 +85,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "A statement needs more operands.",
         "Give all operands that the keyword takes.",
     ),
+    "nearly-equal-components": (
+        "A difference of rounding chooses the local y axis of an element.",
+        "Give the vector that the axis is towards.",
+    ),
     "negative-number": (
         "A quantity that is not negative as a rule is less than zero.",
         "Correct it, unless it is meant.",
@@ -144,6 +148,7 @@ _RULES: dict[str, tuple[str, str]] = {
         "The same is given twice; the last one counts.",
         "Remove one of the two statements.",
     ),
+    "same-name": ("Several parts or points have one name.", "Give each a name of its own."),
     "same-node": ("Both ends of an element are one node.", "Give the two ends different nodes."),
     "same-part-twice": (
         "Two elements are the same part twice.",
@@ -201,6 +206,7 @@ _RULES: dict[str, tuple[str, str]] = {
     "more-problems": ("There are more problems.", "Mend those that are shown first."),
     "not-analysed": ("The deck could not be analysed.", "The message says what to do."),
     "out-of-memory": ("There is not enough memory.", "Analyse with --method sparse."),
+    "unforeseen": ("Flexact stumbles over the deck.", "Report it, with the deck."),
     "not-written": ("Results could not be written.", "Look at the folder that was named."),
     "failed": ("The deck could not be taken.", "The message says what to do."),
 }

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..base.frozen import Frozen
+from ..base.partial import attempted
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Pose, drawing_of
 from ..drawing.movement import scale_of
@@ -140,7 +141,8 @@ class Meshes:
     def still(self, shown: Moving | None = None) -> Mesh:
         """The mesh in the reference configuration."""
         if shown is None and (self.small or self.analysis.under_constrained):
-            chosen = select_motion(self.analysis)
+            # With zeros for what cannot be found the rest is as good.
+            chosen = attempted("", lambda: select_motion(self.analysis), None, None)
             shown = None if chosen is None else chosen.motion
         moved, turned = np.zeros((2, len(self.reference.points) + len(self.symbols.points), 3))
         if shown is not None:

@@ -98,10 +98,10 @@ def angle(given: object) -> float:
 
 
 def text(given: object, what: str) -> str:
-    """A text, such as a name."""
+    """A text, such as a name, as a plain str: a member of an Enum is known to its script alone."""
     if not isinstance(given, str):
         raise model_error("bad-name", f"{what} must be text, not {type(given).__name__}")
-    return given
+    return str.__str__(given)
 
 
 def direction(given: Direction, what: str) -> Vector:

@@ -167,7 +167,7 @@ class ModelData(Frozen):
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
         """Rows of beams that are one sheet or wire each."""
-        return chains_of(self.arrays, self.element_names)
+        return chains_of(self.arrays, self.element_names, lambda: self.frames.frame)
 
     @cached_property
     def count(self) -> RawCount:

@@ -57,10 +57,10 @@ class EditMethods(Making):
         draft = self._change()
         with call("rename", target):
             if self._names_part(target):
+                name = arguments.text(name, "the name of a part")
                 leaves = target.leaves if isinstance(target, FoldedSheet) else (target,)
                 for k, leaf in enumerate(leaves, 1):
                     own = name if len(leaves) == 1 else f"{name}, leaf {k}"
-                    arguments.text(name, "the name of a part")
                     for index in indices_of(draft, part(draft, leaf)):
                         draft.name_element(index, renamed(draft.names.get(index, ""), own))
             else:

@@ -93,7 +93,7 @@ class ElementMethods(PointMethods):
         """A rigid link that carries q with p; `body` makes one body of several points.
 
         It becomes an RBEAM, which holds the position of q alone, unless the orientation
-        of q is needed by another element or by a class that names its coordinates, or
+        of q is needed by another element or is given a class, as where q is clamped, or
         the link itself is given a class; then it becomes a BEAM with everything held.
         The deformations of `release` and `independent` are those of a BEAM.
         `section` is how it is drawn, see `look`.

@@ -13,7 +13,7 @@ from .arguments import UNORDERED, several, text, vector, whole
 from .draft import Draft
 from .handles import Body, Element, Node, Part
 from .lookup import one_line
-from .names import COORDINATES, ambiguous, unknown
+from .names import COORDINATES, ambiguous, own_number, unknown
 
 #: A point: its handle, its name, its place [m], or a body, which stands for its first point.
 Point = Node | Body | str | Sequence[Quantity]
@@ -77,7 +77,7 @@ def named(draft: Draft, name: str) -> Node:
         return whole_point(draft, found[0])
     indices = draft.part_indices(name)
     if indices and all(is_rigid(draft, index) for index in indices):
-        p, op, _, _ = draft.slots[indices[0]]
+        p, op, _, _ = draft.slots[in_order(draft, indices)[0]]
         return Node(p, op, draft.owner)
     if indices:
         raise model_error(
@@ -100,8 +100,13 @@ def is_rigid(draft: Draft, index: int) -> bool:
     return all(value in (Class.NONE, Class.FIXED) for value in draft.classes[index])
 
 
+def in_order(draft: Draft, indices: Iterable[int]) -> list[int]:
+    """Indices of the links of a body by the numbers in their names: the first point first."""
+    return sorted(indices, key=lambda index: (own_number(draft.names.get(index, "")), index))
+
+
 def at_place(draft: Draft, given: Iterable[Quantity]) -> Node:
-    """The first point at exactly this place, or a new one.
+    """The first point at this place, within 1e-9 of the model's size, or a new one.
 
     Raises:
         ModelError: it is no place in this model.

@@ -6,7 +6,7 @@ from __future__ import annotations
 from ..result.accuracy import Accuracy
 from ..result.result import Result
 from ..result.verdict import Verdict
-from .naming import named_element, named_node
+from .naming import counts_in_words, named_element, named_node
 from .sentences import Line, Pieces, sentence
 from .units import angle_in_words, length_in_words
 
@@ -60,6 +60,14 @@ def margin_cells(result: Result) -> tuple[str, str]:
         return "aligned", _ALIGNED.removeprefix("in ")
     sizes = _sizes(*_small(result))
     return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
+
+
+def verdict_in_short(result: Result) -> str:
+    """The verdict as it is stated wherever it is: by how much, and whether the accuracy lifts it.
+
+    Such as "over-constrained by 1, but only by 13 um".
+    """
+    return counts_in_words(result.under_constrained, result.over_constrained) + but_only(result)
 
 
 def but_only(result: Result) -> str:

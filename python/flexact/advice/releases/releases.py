@@ -38,6 +38,8 @@ class Releases(Frozen):
         sets: The best of them, each tried; see `releases_of`.
         supports: The same of supports: fixed coordinates that may be freed, not in `count`.
         left_out: What was not looked at.
+        doubtful: How many sets more do so for the numbers as they are, though rounding may hide
+            that they do not; not in `count`, and None where they are too many.
     """
 
     size: int
@@ -45,6 +47,7 @@ class Releases(Frozen):
     sets: tuple[Proposal, ...] = ()
     supports: tuple[Proposal, ...] = ()
     left_out: LeftOut = NOTHING_LEFT_OUT
+    doubtful: int | None = 0
 
 
 def releases_of(result: Result, with_bodies: bool = False) -> Releases:
@@ -83,13 +86,14 @@ def releases_of(result: Result, with_bodies: bool = False) -> Releases:
     count = counted(stands, reach, lambda after: after.over_constrained)
     tried = Outcome((), NOTHING_LEFT_OUT)
     for source in _sources(result, stands):
-        tried = _listed(result, source, with_bodies) if count != 0 else tried
+        tried = _listed(result, source, with_bodies) if count.certain != 0 else tried
         if tried.proposals:
             break
     supports = _supports(result, _whole(result, stands))
     return Releases(
-        *(size, count, tried.proposals, supports.proposals),
+        *(size, count.certain, tried.proposals, supports.proposals),
         tried.left_out,
+        count.doubtful,
     )
 
 
