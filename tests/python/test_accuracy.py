@@ -16,7 +16,7 @@ from reference_decks import ROOT, text_of
 from small_decks import DECKS, json_lines, write
 from test_margin import two_wires
 
-from flexact import Analysis, Verdict, analyse
+from flexact import Analysis, AnalysisError, Verdict, analyse
 from flexact.cli.main import main
 from flexact.editor.deck import Deck
 from flexact.editor.document import Document
@@ -234,6 +234,17 @@ def test_results_carry_their_accuracy() -> None:
     assert analyse(ring(3)).accuracy is None
 
 
+def test_an_accuracy_beyond_the_model_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """20 is 20 m."""
+    deck = str(ROOT / "input_decks" / "flexures" / "parallel_guide.dat")
+    with pytest.raises(AnalysisError, match=r"larger than .*--beyond.*beyond=True"):
+        analyse(deck, accuracy=20)
+    assert analyse(deck, accuracy=20, beyond=True).accuracy is not None
+    assert main(["analyse", deck, "--accuracy", "20"]) != 0
+    assert "--beyond" in capsys.readouterr().err
+    assert main(["analyse", deck, "--accuracy", "20", "--beyond"]) == 0
+
+
 # One sentence states the verdict
 
 #: Decks of each verdict, some of which a small misalignment changes.
@@ -280,7 +291,11 @@ def stated(name: str, analysis: Analysis) -> dict[str, str]:
 @pytest.mark.parametrize("accuracy", [None, 1e-2, (10.0, 1.0)])
 @pytest.mark.parametrize("name", STATED)
 def test_every_place_states_the_verdict_in_one_sentence(name: str, accuracy: object) -> None:
-    analysis = analyse(ROOT / f"input_decks/{name}.dat", accuracy=accuracy)  # type: ignore[arg-type]
+    analysis = analyse(
+        ROOT / f"input_decks/{name}.dat",
+        accuracy=accuracy,  # type: ignore[arg-type]
+        beyond=True,
+    )
     short = verdict_in_short(analysis)
     for place, words in stated(name, analysis).items():
         if place.startswith("findings"):
@@ -291,6 +306,9 @@ def test_every_place_states_the_verdict_in_one_sentence(name: str, accuracy: obj
 
 
 def test_some_of_them_hold_only_within_the_accuracy() -> None:
-    lifted = [but_only(analyse(ROOT / f"input_decks/{name}.dat", accuracy=10.0)) for name in STATED]
+    lifted = [
+        but_only(analyse(ROOT / f"input_decks/{name}.dat", accuracy=10.0, beyond=True))
+        for name in STATED
+    ]
     for words in ("only by", "alignment"):
         assert any(words in each for each in lifted)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import stiffness_decks
 from reference_decks import ROOT
 
 import flexact
@@ -474,3 +475,68 @@ def stroke_of_drive(deck: str) -> tuple[int, str, float, float] | None:
     axis, node = np.argwhere(arrays.coordinate_class == 3)[0].tolist()
     assert arrays.node_kind[node] == 3 and axis == 2
     return int(arrays.node_number[node]), "rz", -1e-3, 1e-3
+
+
+# What is larger than the machine, and what nobody can machine
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"stroke": "9:x=-3..3"},
+        {"stroke": (9, "x", 0.0, 25.0)},
+        {"misalign": ["1:x=50"]},
+        {"misalign": [(1, "rx", 50.0)]},
+    ],
+)
+def test_what_is_larger_than_the_model_is_refused(asked: dict[str, Any]) -> None:
+    """Metres where millimetres are meant; the message names what permits it."""
+    made = flexact.read_text(stiffness_decks.guide())
+    with pytest.raises(ModelError, match=r"larger than .*--beyond.*beyond=True"):
+        cost(made, release=(), beams=1, **asked)
+    if "misalign" not in asked:
+        assert cost(made, release=(), beams=1, points=2, beyond=True, **asked).stroke is not None
+
+
+def test_tolerances_end_at_a_tenth_of_the_size() -> None:
+    for of in (SIX, spider(), side_by_side(2), model("A03")):
+        made = cost(of, beams=2)
+        most = 0.1 * made.data.size
+        for design in made.designs:
+            for each in design.tolerances:
+                limit = most if each.misalignment.unit == "m" else 0.1
+                for number in each[1:]:
+                    assert not number.is_finite or abs(number.value) <= limit
+        none = [d for d in made.designs if d.tolerances and d.tightest is None]
+        assert ("not limited" in made.describe()) or not none
+
+
+@pytest.mark.parametrize("of", [spider(), side_by_side(2), SIX], ids=str)
+def test_no_release_inside_of_a_body_is_a_design(of: Any) -> None:
+    def of_bodies(made: Cost) -> list[bool]:
+        parts = flexact.analyse(of).parts
+        index = made.data.element_index
+        return [
+            any(parts.of_element(index[e.element]).kind.value == "body" for e in d.released)
+            for d in made.designs[1:]
+        ]
+
+    made, more = cost(of, beams=1), cost(of, beams=1, bodies=True)
+    assert len(made.designs) > 1
+    assert not any(of_bodies(made))
+    assert any(of_bodies(more))
+
+
+def test_strokes_are_given_from_rest_and_said_to_be_far() -> None:
+    made = flexact.read_text(stiffness_decks.guide())
+    pairs = [cost(made, stroke=text, points=3, release=(), beams=1) for text in STROKES]
+    for each in pairs[1:]:
+        assert each.stroke is not None and pairs[0].stroke is not None
+        assert each.stroke.asked == pytest.approx(pairs[0].stroke.asked, abs=1e-15)
+    assert "far from there" not in pairs[0].describe()
+    assert "far from there" in cost(
+        made, stroke="9:x=0..5mm", points=2, release=(), beams=1
+    ).describe().replace("\n", " ")
+
+
+STROKES = ("9:x=22mm..28mm", "9:x+=-3mm..3mm", "9:x=+-3mm", "9:x = +- 0.003")

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Strokes: forces, energy, snap-through, drives that are free or locked, and their ends."""
 
+import contextlib
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -238,3 +240,70 @@ def _driven_axis(state: Any, node: int, coordinate: str) -> Any:
     axis = scalar * e + np.cross(vector, e)
     assert np.linalg.norm(axis) == pytest.approx(math.cos(state.stroke / 2), rel=1e-9)
     return axis / np.linalg.norm(axis)
+
+
+def test_strokes_from_rest_and_far_from_it() -> None:
+    model = elastic(guide(), beams=1)
+    there = model.along(9, "x", [0.025, 0.028])
+    found = model.along(9, "x", [0, "3 mm"], from_rest=True)
+    assert [s.stroke for s in found] == pytest.approx([s.stroke for s in there], abs=1e-15)
+    with pytest.warns(flexact.stiffness.StrokeWarning, match=r"rests at 0.025.*from_rest=True"):
+        model.along(9, "x", [0, 0.003])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        model.along(9, "x", [0.02, 0.03])
+        elastic(cross_hinge(), beams=1).along(2, "ry", [0.3, 0.4])
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda m, **o: m.along(9, "x", [-3.0], **o),
+        lambda m, **o: m.along(9, "x", [3.0], from_rest=True, **o),
+        lambda m, **o: m.misaligned(1, "x", 50, **o),
+        lambda m, **o: m.misaligned(1, "ry", 50.0, **o),
+        lambda m, **o: m.misfit(1, 1, 0.3, **o),
+        lambda m, **o: m.misfit(1, 2, -7.0, **o),
+        lambda m, **o: m.imperfect(misaligned=[(1, "z", -0.2)], **o),
+        lambda m, **o: m.imperfect(misfit=[(1, 1, 0.2)], **o),
+    ],
+)
+def test_what_is_larger_than_the_model_is_refused(ask: Any) -> None:
+    model = elastic(guide(), beams=1)
+    with pytest.raises(flexact.ElasticError, match=r"larger than .*beyond=True"):
+        ask(model)
+    # It is tried then.
+    with contextlib.suppress(flexact.StrokeError):
+        ask(model, beyond=True)
+
+
+def test_points_are_given_by_places_and_bodies_by_their_first_point() -> None:
+    made = flexact.Model(name="guide")
+    for k, x in enumerate((0.0, 0.05)):
+        made.fix(made.node(x, 0, 0, name=f"foot {k}"))
+        made.sheet(
+            *(f"foot {k}", made.node(x, 0.1, 0, name=f"head {k}"), "z", 2, f"leaf {k}"),
+            thickness=5e-4,
+            breadth=0.02,
+            material="steel",
+        )
+    made.body([(0.025, 0.1, 0), "head 0", "head 1"], name="stage", mass=0.5)
+    made.independent("stage", "x")
+    model = flexact.elastic(made, beams=2)
+    number = int(made.node_numbers[np.argmin(np.abs(made.positions - (0.025, 0.1, 0)).sum(1))])
+    rest = model.undeformed()
+    wanted = rest.compliance(number)
+    for given in ((0.025, 0.1, 0), [0.025 + 1e-13, 0.1, 0.0], np.array([0.025, 0.1, 0]), "stage"):
+        assert rest.compliance(given) == pytest.approx(wanted)
+        (state,) = model.along(given, "x", [0.027])
+        assert state.position(number)[0] == pytest.approx(0.027)
+    off = model.misaligned((0.05, 0.0, 0.0), "y", 1e-5)
+    assert off.energy == pytest.approx(model.misaligned("foot 1", "y", 1e-5).energy)
+    named = zip(made.element_numbers, made.element_names, strict=True)
+    numbers = [n for n, name in named if "leaf 1" in name]
+    assert off.peak_stress("leaf 1") == pytest.approx(max(map(off.peak_stress, numbers)))
+    for wrong in ((0.025, 0.1001, 0), "nothing", "leaf 1"):
+        with pytest.raises(flexact.FlexactError, match="no point is"):
+            rest.compliance(wrong)
+    with pytest.raises(TypeError):
+        rest.compliance((1, 2, 3, 4))

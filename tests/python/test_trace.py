@@ -346,3 +346,10 @@ def test_too_large_a_model_is_told() -> None:
     text = "\n".join([*bars, *joints, "FIX 1", "END", "HALT", "END", ""])
     with pytest.raises(flexact.FlexactError, match="1000 coordinates"):
         trace(flexact.read_text(text))
+
+
+def test_a_length_beyond_the_model_is_refused() -> None:
+    deck = DECKS / "linkages" / "four_bar_planar.dat"
+    with pytest.raises(flexact.FlexactError, match=r"larger than .*--beyond.*beyond=True"):
+        trace(deck, length=20.0)
+    assert len(trace(deck, length="20m", beyond=True, steps=5).steps) > 1

@@ -169,7 +169,7 @@ def _legend(cost: CostValues) -> Iterator[Told]:
         f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
         f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "
         "a stiffness is lost. Stress is taken in proportion to the error, about the undeformed "
-        f"state. {_not_limited(cost)}"
+        f"state.{_not_limited(cost)}"
     )
 
 
@@ -177,7 +177,7 @@ def _not_limited(cost: CostValues) -> str:
     if all(each.tightest and each.buckles_at for each in cost.designs if each.tolerances):
         return ""
     most = in_words(Number(FAR * cost.as_built.size), "m")
-    return f"Not limited: more than {most} (a tenth of the size), or {FAR} rad."
+    return f" Not limited: more than {most} (a tenth of the size), or {FAR} rad."
 
 
 def _left_out(cost: CostValues) -> Iterator[Told]:

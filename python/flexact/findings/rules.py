@@ -73,6 +73,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "Lengths of elements differ by many powers of ten.",
         "Look whether all coordinates are in m.",
     ),
+    "long-sheet": (
+        "A sheet or wire is longer than 5 m.",
+        "Look whether its coordinates are in m, and not in mm.",
+    ),
     "missing-end": (
         "END is missing before a statement of the next block.",
         "Write END in the line before.",
@@ -154,6 +158,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "A statement has more operands than its keyword takes.",
         "Remove what is too much, or begin a comment with %.",
     ),
+    "thick-section": (
+        "An element is thicker than it is long.",
+        "Look whether its section is in m.",
+    ),
     "two-kinds-of-node": (
         "One node is used as a position and as an orientation.",
         "Give positions and orientations nodes of their own.",
@@ -165,6 +173,14 @@ _RULES: dict[str, tuple[str, str]] = {
     "unknown-keyword": (
         "A word is no keyword of its block.",
         "Correct it, or make the line a comment with %.",
+    ),
+    "unlikely-density": (
+        "A density is that of no solid.",
+        "Give densities in kg/m3, and EM of a beam in kg/m.",
+    ),
+    "unlikely-modulus": (
+        "A modulus of elasticity is that of no solid.",
+        "Give E in Pa, and EA in N.",
     ),
     "unused-node": (
         "A fixed point that no element uses is left out.",

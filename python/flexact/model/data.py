@@ -23,6 +23,7 @@ from .loads import Loads
 from .parts.chains import Chain, chains_of
 from .parts.directions import directions_across
 from .properties import Properties
+from .slips import slips_in
 
 #: As the core says it of a deck.
 _NOTHING = Diagnostic(
@@ -122,7 +123,8 @@ class ModelData(Frozen):
         if not self.arrays.element_number.size:
             return Problems.of([_NOTHING])
         found = problems_of(calls.check_model(self.packed, *self._names_as_text()))
-        return found.and_also(self.besides)
+        found = found.and_also(self.besides)
+        return found if found.errors else found.and_also(tuple(slips_in(self)))
 
     def _names_as_text(self) -> tuple[bytes, IntArray]:
         """All names in one text, and first and last place of each, from 1; 0 without one."""

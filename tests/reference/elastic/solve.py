@@ -367,7 +367,7 @@ class Solver:
 
 
 def angle_hessian(turn: Real, axis: int, force: float) -> Real:
-    """(3, 3) second derivatives by the spin of the angle of an Euler parameter, times its moment."""
+    """(3, 3) second derivatives of the angle of an Euler parameter, times its moment."""
     w = [Jet.variable(np.zeros(1), a, 3) for a in range(3)]
     i, j = (axis + 1) % 3, (axis + 2) % 3
     first = w[axis] * turn[0] + w[i] * turn[1 + j] - w[j] * turn[1 + i]
