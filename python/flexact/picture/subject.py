@@ -62,7 +62,7 @@ class Chosen:
     """What was asked for; numbers from 1."""
 
     motion: int | None = None
-    freedom: int | None = None
+    freedom: int | str | None = None
     stress: int | None = None
     quantity: str | None = None
     spaces: Spaces | None = None

@@ -114,11 +114,11 @@ class Elastic(Tolerated):
         """
         return self._imperfect(misalignment(self.points, node, coordinate, value, about))
 
-    def misfit(self, element: int, deformation: int, value: float) -> State:
+    def misfit(self, element: object, deformation: int, value: float) -> State:
         """An element that is made too long, twisted or bent.
 
         Args:
-            element: Its number.
+            element: Its number or name.
             deformation: Which, from 1.
             value: By how much, in the deck's units: torsion and bending are the element's length
                 times an angle.
@@ -136,7 +136,7 @@ class Elastic(Tolerated):
         Args:
             kelvin: By how much [K].
             expansion: Of their material [1/K].
-            elements: Numbers of the elements; all by default.
+            elements: Numbers of the elements, or names of parts; all by default.
 
         Raises:
             UnknownError: there is no such element.
@@ -191,8 +191,10 @@ def elastic(
         held: "elastic": fixed deformations that have a stiffness (ESTIFF) are elastic, others are
             rigid; "rigid": all fixed deformations are.
         drive: Whether declared coordinates (DYNX, INPUTX) may move, "free" or "locked".
-        release: Deformations that are released stress-free, pairs of element and deformation; or
-            a mapping of them to the stiffness of a notch [N m/rad; N/m of an elongation].
+        release: Deformations that are released stress-free, pairs of element and deformation, by
+            numbers or in words such as ("sheet 1", "in-plane bending") or, at one end, ("sheet 1",
+            "bending", "stage"); or a mapping of them to the stiffness of a notch [N m/rad; N/m of
+            an elongation].
         beams: Beams into which each flexible sheet or wire is divided, a divided one of the deck
             counting as what it is; 1: the deck's own elements; "auto": 8 and 16, extrapolated.
 
