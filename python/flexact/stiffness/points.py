@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..base.plain_text import in_short
+from ..base.quantities import without_units
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..model.data import ModelData
@@ -142,7 +143,7 @@ class Points:
         """
         if isinstance(given, (list, tuple, np.ndarray)):
             made = np.zeros(3)
-            numbers = np.asarray(given, np.float64)
+            numbers = np.asarray(without_units(given, "m"), np.float64)
             if numbers.ndim != 1 or numbers.size not in (2, 3) or not np.isfinite(numbers).all():
                 raise ValueError(f"a place has three finite coordinates [m], not {in_short(given)}")
             made[: numbers.size] = numbers
