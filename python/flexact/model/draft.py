@@ -179,7 +179,7 @@ class Draft(Lookup):
         if p and q and self.node_value[p] == self.node_value[q]:
             raise model_error(
                 "zero-length",
-                f"its ends, {self.node_words(p)} and {self.node_words(q)}, are at one place",
+                f"both ends, {self.node_words(p)} and {self.node_words(q)}, are at one place",
                 "give the two points different places",
             )
 
