@@ -94,7 +94,7 @@ class Analysis(Result):
         path: str | os.PathLike[str],
         *,
         motion: int | None = None,
-        freedom: int | None = None,
+        freedom: int | str | None = None,
         stress: int | None = None,
         quantity: str | None = None,
         view: str | None = None,

@@ -221,3 +221,38 @@ def test_results_travel_between_processes() -> None:
     with pytest.raises(flexact.DeckError) as error:
         flexact.read_text("TRUS 1 1 2", "a.dat")
     assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+# What newcomers type
+
+
+def test_a_verdict_is_compared_with_its_word() -> None:
+    """As the command has it, and in its own words; a verdict is a key like its words."""
+    words = {"exact": "EXACT", "under": "UNDER", "over": "OVER", "both": "BOTH"}
+    for word, name in words.items():
+        verdict = flexact.Verdict[name]
+        assert verdict.word == word
+        for other in words:
+            assert (verdict == other) is (other == word)
+            assert (verdict != other) is (other != word)
+        assert verdict == verdict.value and {verdict.value: 1}[verdict] == 1
+        assert pickle.loads(pickle.dumps(verdict)) is flexact.Verdict(verdict.value) is verdict
+        assert sum(each == verdict for each in flexact.Verdict) == 1
+
+
+def test_a_mode_that_is_not_there_is_refused_with_how_many_there_are() -> None:
+    model = flexact.Model(planar=True)
+    model.truss((0, 0), (1, 0))
+    model.fix((0, 0))
+    analysis = flexact.analyse(model)
+    assert len(analysis.motions) == 1
+    with pytest.raises(IndexError, match="there is 1 motion: none has the index 1; they count"):
+        analysis.motions[1]
+    with pytest.raises(IndexError, match="there are no self-stresses: none has the index 0"):
+        analysis.self_stresses[0]
+    assert analysis.self_stresses[:3] == () and analysis.motions[-1] == analysis.motions[0]
+
+
+def test_a_model_of_a_name_says_how_it_is_made() -> None:
+    with pytest.raises(TypeError, match=r"Model\(name='x.dat'\).*flexact.read\('x.dat'\)"):
+        flexact.Model("x.dat")

@@ -131,38 +131,33 @@ def test_an_element_between_a_point_and_itself_is_refused_where_it_is_made(
         model.beam(a, beyond, name="it")
 
 
-def _twice(make: str) -> Model:
-    """Two parts, or two points, of the same name, made one way or another."""
+def _twice(make: str, joined: bool) -> Model:
+    """Two parts of the same name, apart or with a node in common, made one way or another."""
     model = Model()
-    a, b, c, d = (model.node(x, 0, z) for x in (0, 1) for z in (0, 1))
+    a, b, d = model.node(0, 0, 0), model.node(0, 0, 1), model.node(1, 0, 1)
+    c = b if joined else model.node(1, 0, 0)
     for p, q in ((a, b), (c, d)):
-        if make == "point":
-            model.truss(model.node(5 + p.position, 0, 0, name="s"), q)
-        elif make == "body":
-            model.body([p, q, (3 + p.position, 1, 1)], "s")
-        elif make == "sheets":
+        if make == "sheets":
             model.sheet(p, q, "y", beams=3, name="s")
-        elif make == "hinge":
-            model.hinge(p, "z", name="s")
         elif make == "sheet":
             model.sheet(p, q, "y", name="s")
+        elif make == "body":
+            points = [model.pivot(p), model.pivot(q), model.node(3 + p.position, 1, 1)]
+            model.body(points, "s")
         else:
             getattr(model, make)(p, q, name="s")
     return model
 
 
-@pytest.mark.parametrize(
-    "make", ["point", "body", "sheets", "sheet", "wire", "truss", "beam", "rigid", "hinge"]
-)
-def test_two_of_one_name_are_told_and_the_name_finds_neither(make: str) -> None:
-    model = _twice(make)
-    codes = [each.code for each in model.diagnostics if each.code == "same-name"]
-    assert codes == ["same-name"]
-    (told,) = [each for each in model.diagnostics if each.code == "same-name"]
+@pytest.mark.parametrize("joined", [False, True])
+@pytest.mark.parametrize("make", ["body", "sheets", "sheet", "wire", "truss", "beam"])
+def test_two_of_one_name_are_told_and_the_name_finds_neither(make: str, joined: bool) -> None:
+    """As test_silent_mistakes has it of parts that do not hang together: here also of others."""
+    model = _twice(make, joined)
+    (told,) = [each for each in model.diagnostics if each.code == "repeated-name"]
     assert "'s'" in told.message and told.help and not told.is_error
-    find = model.point if make == "point" else model.part
     with pytest.raises(ModelError, match="another name") as error:
-        find("s")
+        model.part("s")
     assert code_of(error) == "ambiguous-name"
 
 
@@ -176,7 +171,7 @@ def test_parts_of_several_elements_have_one_name() -> None:
     guide = model.parallel_guide((9, 0, 0), (9, 0, 1), (1, 0, 0), name="g")
     model.fix(*guide.ground)
     model.pattern(3, "z", at=(-5, 0, 0), parts=["s"])
-    assert "same-name" not in [each.code for each in model.diagnostics]
+    assert "repeated-name" not in [each.code for each in model.diagnostics]
     assert len(model.part("stage").nodes) == 5
 
 

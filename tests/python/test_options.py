@@ -173,3 +173,18 @@ def test_what_contradicts_itself_is_refused(
     assert main([verb, deck, *rest]) in (1, 2)
     assert said in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_declare_writes_no_copy_where_nothing_is_declared(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = tmp_path / "declared.dat"
+    assert main(["declare", DECK, "-o", str(target)]) == 0
+    assert "nothing to declare" in capsys.readouterr().out and not target.exists()
+    # On standard output a deck goes on through a pipe.
+    assert main(["declare", DECK, "-o", "-"]) == 0
+    out, err = capsys.readouterr()
+    assert out.count("HINGE") == 4 and "nothing to declare" in err
+    undeclared = "input_decks/flexures/parallel_guide_four_beams_undeclared.dat"
+    assert main(["declare", undeclared, "-o", str(target)]) == 0
+    assert target.exists()

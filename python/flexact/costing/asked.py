@@ -163,7 +163,7 @@ def _release(given: object) -> ReleaseAsked:
         return release_of(given)
     if isinstance(given, Mapping):
         return {_pair(key): _stiffness(value) for key, value in given.items()}
-    if isinstance(given, Sequence) and len(given) == 2 and all(isinstance(n, int) for n in given):
+    if isinstance(given, Sequence) and len(given) in (2, 3) and isinstance(given[1], (int, str)):
         return {_pair(given): 0.0}
     if isinstance(given, Iterable):
         return {_pair(each): 0.0 for each in given}
@@ -172,17 +172,21 @@ def _release(given: object) -> ReleaseAsked:
 
 _RELEASE = (
     "a release is (element, deformation), a list of them, a dict with the stiffness of each "
-    'notch, or a text such as "1:5", not {}'
+    'notch, or a text such as "1:5" or "sheet 1:in-plane bending", not {}'
 )
 
 
-def _pair(given: object) -> tuple[int, int]:
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
-        raise TypeError(_RELEASE.format(in_short(given)))
-    element, number = (getattr(each, "number", each) for each in given)
-    if not isinstance(element, int) or not isinstance(number, int):
-        raise TypeError(_RELEASE.format(in_short(given)))
-    return element, number
+def _pair(given: object) -> tuple[Any, ...]:
+    """An element and a deformation, by numbers or names; and maybe the end at which it is."""
+    wrong = TypeError(_RELEASE.format(in_short(given)))
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
+        raise wrong
+    element, which, *_ = given
+    if isinstance(element, (bool, float)) or element is None or isinstance(which, bool):
+        raise wrong
+    if not isinstance(which, (int, str)):
+        raise wrong
+    return tuple(given)
 
 
 def _stiffness(given: Any) -> float:

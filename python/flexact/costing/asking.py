@@ -4,15 +4,20 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..base.errors import FlexactError
 from ..base.plain_text import in_short
 from ..base.quantities import NOTCH, QuantityError, quantity
+from ..model.words import is_word
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 _COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
-_RELEASE = re.compile(r"\s*(\d{1,9})\s*:\s*(\d{1,9})\s*(?:=(.*))?")
+_RELEASE = re.compile(
+    r"\s*(?P<part>[^=]+?)\s*:\s*(?P<which>\d{1,9}|[A-Za-z][A-Za-z -]*?)\s*"
+    r"(?:@\s*(?P<at>[^=]+?)\s*)?(?:=(?P<notch>.*))?",
+    re.DOTALL,
+)
 _NAMES = ("x", "y", "z", "rx", "ry", "rz")
 #: That only the design as built is looked at.
 NONE = "none"
@@ -67,8 +72,9 @@ class MisalignmentAsked(NamedTuple):
     about: object = None
 
 
-#: Deformations that are released, with the stiffness of each one's notch; 0: ideal.
-ReleaseAsked = dict[tuple[int, int], float]
+#: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
+#: (element, deformation) by numbers or names, or with the end as the third.
+ReleaseAsked = dict[tuple[Any, ...], float]
 
 
 def shift_of(text: str | float) -> float:
@@ -93,6 +99,8 @@ def shift_of(text: str | float) -> float:
 def release_of(text: str) -> ReleaseAsked:
     """What is released together: "1:5", "1:5=3.5" with a notch, "1:5+2:5"; "none": nothing.
 
+    Names and words do as well as numbers, "sheet 1:in-plane bending", at one end "...@stage".
+
     Raises:
         AskedError: it is not written so.
     """
@@ -101,12 +109,17 @@ def release_of(text: str) -> ReleaseAsked:
     made: ReleaseAsked = {}
     for part in _parts(text):
         found = _RELEASE.fullmatch(part)
-        if found is None:
+        which = "" if found is None else found["which"]
+        if found is None or not (which.isdigit() or is_word(which)):
             raise AskedError(
-                "a release is written ELEMENT:DEFORMATION, such as 1:5; with the stiffness of its "
-                f"notch 1:5=3.5 [N m/rad]; several together 1:5+2:5; not {in_short(text)}"
+                "a release is written ELEMENT:DEFORMATION, such as 1:5 or 'sheet 1:in-plane "
+                "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
+                f"1:5+2:5; not {in_short(text)}"
             )
-        made[int(found[1]), int(found[2])] = _notch(found[3])
+        part_of = PointText(found["part"]).target
+        one = part_of, int(which) if which.isdigit() else which
+        at = () if found["at"] is None else (PointText(found["at"]).target,)
+        made[(*one, *at)] = _notch(found["notch"])
     return made
 
 

@@ -148,7 +148,6 @@ _RULES: dict[str, tuple[str, str]] = {
         "The same is given twice; the last one counts.",
         "Remove one of the two statements.",
     ),
-    "same-name": ("Several parts or points have one name.", "Give each a name of its own."),
     "same-node": ("Both ends of an element are one node.", "Give the two ends different nodes."),
     "same-part-twice": (
         "Two elements are the same part twice.",

@@ -15,13 +15,13 @@ from .arguments import Direction
 from .copied_names import Names, Naming, is_of_one_body, split
 from .copying import Copy, Copying, turn
 from .draft import Draft, Vector
-from .handles import Assembly, Element, FoldedSheet, Named, Part
+from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .hexapods import HexapodMethods
 from .making import Making, all_or_nothing
 from .names import part_name
 from .part_arguments import PartLike, of_indices
 from .places import ROUNDING, size_of
-from .point_arguments import place, whole_point
+from .point_arguments import Point, existing, place, whole_point
 from .transform import Transform, reflection, rotation, translation
 
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -35,7 +35,7 @@ class CopyMethods(HexapodMethods):
     def insert(
         self,
         model: Making,
-        at: Sequence[Quantity] = _ORIGIN,
+        at: Point = _ORIGIN,
         *,
         axis: Direction = "z",
         degrees: Quantity = 0.0,
@@ -71,7 +71,7 @@ class CopyMethods(HexapodMethods):
                 "two-kinds-of-model", "one of the models is planar and the other is not"
             )
         turn = rotation(_axis(target, axis), arguments.angle(degrees), _ORIGIN)
-        move = Transform(turn.matrix, _vector(target, at, "place"))
+        move = Transform(turn.matrix, _place(target, at))
         naming = Naming(source, target, names)
         every = list(range(len(source.kinds))), list(source.node_kind)
         copying = Copying(source, *every, target, _tolerance(join, source, target))
@@ -85,7 +85,7 @@ class CopyMethods(HexapodMethods):
         n: int,
         axis: Direction = "z",
         *,
-        at: Sequence[Quantity] = _ORIGIN,
+        at: Point = _ORIGIN,
         degrees: Quantity | None = None,
         step: Sequence[Quantity] | None = None,
         parts: Parts | None = None,
@@ -114,13 +114,13 @@ class CopyMethods(HexapodMethods):
         draft = self._change()
         count = arguments.count(n, 1, _MOST_COPIES, "members of a pattern")
         angle = 360.0 / count if degrees is None else arguments.angle(degrees)
-        centre = _vector(draft, at, "point of the axis")
+        centre = _place(draft, at)
         indices, further = self._chosen(parts)
         naming = Naming(draft, draft, names)
         moves = [
             rotation(_axis(draft, axis), k * angle, centre)
             if step is None
-            else translation(_times(k, _vector(draft, step, "step")))
+            else translation(_times(k, _place(draft, step)))
             for k in range(1, count)
         ]
         made = [Copy({n: n for n in draft.node_kind}, {i: i for i in indices})]
@@ -138,7 +138,7 @@ class CopyMethods(HexapodMethods):
         self,
         plane: Direction,
         *,
-        at: Sequence[Quantity] = _ORIGIN,
+        at: Point = _ORIGIN,
         parts: Parts | None = None,
         names: Names | None = None,
         join: bool | Quantity = True,
@@ -158,7 +158,7 @@ class CopyMethods(HexapodMethods):
             The image, with parts and points by the names of the originals.
         """
         draft = self._change()
-        move = reflection(plane, _vector(draft, at, "point of the plane"))
+        move = reflection(plane, _place(draft, at))
         if draft.planar and move.matrix[2] != (0.0, 0.0, 1.0):
             raise model_error("no-coordinate", "a planar model is mirrored in a plane along z")
         indices, further = self._chosen(parts)
@@ -169,9 +169,7 @@ class CopyMethods(HexapodMethods):
             naming.name(made, 2)
         return _assembly(draft, draft, made)
 
-    def rotate(
-        self, axis: Direction, degrees: Quantity, *, at: Sequence[Quantity] = _ORIGIN
-    ) -> None:
+    def rotate(self, axis: Direction, degrees: Quantity, *, at: Point = _ORIGIN) -> None:
         """Turn the whole model about an axis through a point.
 
         Args:
@@ -183,9 +181,7 @@ class CopyMethods(HexapodMethods):
             ModelError: a class of single coordinates is not along x, y or z any more.
         """
         draft = self._change()
-        move = rotation(
-            _axis(draft, axis), arguments.angle(degrees), _vector(draft, at, "point of the axis")
-        )
+        move = rotation(_axis(draft, axis), arguments.angle(degrees), _place(draft, at))
         turn(draft, move)
 
     def _chosen(self, parts: Parts | None) -> tuple[list[int], list[int]]:
@@ -204,8 +200,10 @@ def _axis(draft: Draft, axis: Direction) -> Vector:
     return made
 
 
-def _vector(draft: Draft, given: Sequence[Quantity], what: str) -> Vector:
-    """Three numbers [m], or two in a plane."""
+def _place(draft: Draft, given: Point) -> Vector:
+    """Three numbers [m], or two in a plane; or where a point is."""
+    if isinstance(given, (Node, Body, str)):
+        given = draft.node_value[existing(draft, given).position][:3]
     x, y, z = place(draft, given)[:3]
     return x, y, z
 

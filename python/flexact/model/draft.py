@@ -179,7 +179,7 @@ class Draft(Lookup):
         if p and q and self.node_value[p] == self.node_value[q]:
             raise model_error(
                 "zero-length",
-                f"its ends, {self.node_words(p)} and {self.node_words(q)}, are at one place",
+                f"both ends, {self.node_words(p)} and {self.node_words(q)}, are at one place",
                 "give the two points different places",
             )
 
@@ -376,27 +376,32 @@ class Draft(Lookup):
             )
 
     def _same_names(self) -> Iterator[Diagnostic]:
-        """Warnings about parts and points that share a name, which then stands for none of them.
+        """Warnings about parts of one name that hang together, so that the core sees one part.
 
-        Names in a deck are comments of its lines, which may be alike.
+        Names in a deck are comments of its lines, which may be alike; twins are told as such.
         """
-        old = self.elements_given
-        points = {} if old else self.points_by_name
-        parts = {name: found for name, found in self.parts_by_name.items() if found[-1] >= old}
-        shared = {
-            "parts": [name for name, found in parts.items() if self.shares(found)],
-            "points": [name for name, found in points.items() if len(found) > 1],
-        }
-        for what, names in shared.items():
-            if names:
-                told = ", ".join(map(in_short, names[:_MOST_LISTED]))
-                more = len(names) - _MOST_LISTED
+        for name, found in self.parts_by_name.items():
+            twins = len({self.slots[index] for index in found}) < len(found)
+            if found[-1] < self.elements_given or twins or not self.shares(found):
+                continue
+            if self._is_one(found):
                 yield Diagnostic(
                     Severity.WARNING,
-                    "same-name",
-                    f"several {what} are named {told}{f' and {more} more' if more > 0 else ''}",
-                    help="give each a name of its own: by a name that several have none is found",
+                    "repeated-name",
+                    f"several parts that hang together are called {in_short(name)}",
+                    help="give each a name of its own: this one finds none of them",
                 )
+
+    def _is_one(self, indices: Sequence[int]) -> bool:
+        """Whether elements hang together by their nodes."""
+        left, nodes = list(indices[1:]), {*self.slots[indices[0]]} - {0}
+        grown = True
+        while left and grown:
+            near = [index for index in left if not nodes.isdisjoint(self.slots[index])]
+            grown = bool(near)
+            nodes.update(node for index in near for node in self.slots[index] if node)
+            left = [index for index in left if index not in near]
+        return not left
 
     def _listed(self, numbers: Sequence[int]) -> str:
         """Nodes by name, or by number where they have none; of many the first."""

@@ -82,7 +82,7 @@ def draw(
     analysis: Result,
     *,
     motion: int | None = None,
-    freedom: int | None = None,
+    freedom: int | str | None = None,
     stress: int | None = None,
     quantity: str | None = None,
     spaces: Spaces | None = None,

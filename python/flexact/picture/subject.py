@@ -61,10 +61,10 @@ def _require_whole(number: SupportsIndex, name: str) -> None:
 
 @dataclass(frozen=True)
 class Chosen:
-    """What was asked for; numbers from 1."""
+    """What was asked for; numbers from 1, a freedom also by its name."""
 
     motion: int | None = None
-    freedom: int | None = None
+    freedom: int | str | None = None
     stress: int | None = None
     quantity: str | None = None
     spaces: Spaces | None = None
@@ -79,7 +79,8 @@ class Chosen:
         if self.held and (self.moves or self.is_stressed or self.spaces is not None):
             raise SubjectError("a picture shows what flexures hold alone")
         for name in ("motion", "freedom", "stress"):
-            if (number := getattr(self, name)) is not None:
+            number = getattr(self, name)
+            if number is not None and not (name == "freedom" and isinstance(number, str)):
                 _require_whole(number, name)
         if self.quantity is not None:
             require_kind(self.quantity, str, "a quantity is given by its name")

@@ -231,8 +231,8 @@ class Pressing(Frozen):
             return self._on_point(body)
         try:
             part = part_of(self.outcome.parts, body)
-        except ModelError:
-            if not isinstance(body, str):
+        except (ModelError, TypeError):
+            if not isinstance(body, (str, tuple, list)):
                 raise
             return self._on_point(body)
         nodes = set()

@@ -179,7 +179,7 @@ class Elastic(Tolerated):
         Args:
             kelvin: By how much [K].
             expansion: Of their material [1/K].
-            elements: Numbers of the elements; all by default.
+            elements: Numbers of the elements, or names of parts; all by default.
 
         Raises:
             UnknownError: there is no such element.
@@ -237,8 +237,10 @@ def elastic(
         held: "elastic": fixed deformations that have a stiffness (ESTIFF) are elastic, others are
             rigid; "rigid": all fixed deformations are.
         drive: Whether declared coordinates (DYNX, INPUTX) may move, "free" or "locked".
-        release: Deformations that are released stress-free, pairs of element and deformation; or
-            a mapping of them to the stiffness of a notch [N m/rad; N/m of an elongation].
+        release: Deformations that are released stress-free, pairs of element and deformation, by
+            numbers or in words such as ("sheet 1", "in-plane bending") or, at one end, ("sheet 1",
+            "bending", "stage"); or a mapping of them to the stiffness of a notch [N m/rad; N/m of
+            an elongation].
         beams: Beams into which each flexible sheet or wire is divided, a divided one of the deck
             counting as what it is; 1: the deck's own elements; "auto": 8 and 16, extrapolated.
 

@@ -212,9 +212,9 @@ def warmth(
     if elements is None:
         which = np.arange(data.arrays.element_number.size)
     elif isinstance(elements, (list, tuple, set, frozenset, range, np.ndarray)):
-        which = np.array([points.element(each) for each in elements], np.intp)
+        which = np.array([e for each in elements for e in points.elements(each)], np.intp)
     else:
-        which = np.array([points.element(elements)])
+        which = np.array(points.elements(elements), np.intp)
     roles = role_table()[data.arrays.element_kind].T
     frames, nodes = data.frames, data.arrays.element_node - 1
     way = (data.arrays.node_value[:3, nodes[2]] - data.arrays.node_value[:3, nodes[0]]).T

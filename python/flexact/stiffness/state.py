@@ -110,8 +110,8 @@ class State(Response):
             UnknownError: there is no such element.
             ElasticError: its section is not known.
         """
-        every = self.model.points.elements(element)
-        return float(self.best(lambda at: max(peak_of(at, e) for e in every)))
+        which = self.model.points.elements(element)
+        return float(self.best(lambda at: max(peak_of(at, e) for e in which)))
 
     @property
     def energy(self) -> float:

@@ -45,7 +45,7 @@ def trace(
     model: Model | Result | str | bytes | os.PathLike[str] | os.PathLike[bytes],
     *,
     motion: int | None = None,
-    freedom: int | None = None,
+    freedom: int | str | None = None,
     length: Quantity | None = None,
     steps: int = STEPS,
     through: bool = True,
@@ -61,7 +61,8 @@ def trace(
         model: A model, the path of a deck, or an analysis.
         motion: The number, from 1, of one of the motions that nothing determines; by default the
             first of them, else the first declared degree of freedom that can move.
-        freedom: The number, from 1, of a declared degree of freedom instead.
+        freedom: The number, from 1, of a declared degree of freedom instead, or its name, such as
+            "stage y".
         length: How far each way [m], or a text such as "20mm": of the node that moves farthest,
             a rotation of 1 rad counting as the model's size. By default that size.
         steps: By how many steps each way, at least.

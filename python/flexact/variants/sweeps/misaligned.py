@@ -16,7 +16,9 @@ from ...core.arrays import FloatArray, IntArray, floats
 from ...core.elements import NodeKind
 from ...model.data import ModelData
 from ...model.model import Model
+from ...model.parts.parts import Parts
 from ...model.variation import axes_used
+from ...result.handles import position_of
 
 #: A length [m] for all points; lengths by points: names, numbers of nodes, or handles; or an
 #: array of them, (nodes,) or (nodes, 3).
@@ -117,7 +119,4 @@ def _one(value: Any) -> FloatArray:
 
 
 def _node(model: Model, name: Any) -> int:
-    if isinstance(name, str):
-        # The model itself is not touched.
-        name = Model.from_data(model.data).point(name).position
-    return model.node_index(getattr(name, "position", name))
+    return position_of(Parts(model.data), name)
