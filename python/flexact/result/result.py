@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -123,7 +123,8 @@ class Result(Spaces):
         numbers = self.given.arrays.element_number
         places = (self.condensed.in_given(*place) for place in deformations)
         classes = {(int(numbers[at]), own): Class.INDEPENDENT for at, own in places}
-        return result_of(with_classes(self.given, classes, {}), self.asked, self.name)
+        made = replace(with_classes(self.given, classes, {}), source=self.given.source)
+        return result_of(made, self.asked, self.name)
 
     @cached_property
     def evidence(self) -> Evidence:
