@@ -101,6 +101,13 @@ def _without_statements(text: str, advice: list[dict[str, Any]]) -> str:
         for statement in each["statements"]
         for part in each["parts"]
     }
+    # A declaration of a coordinate is taken back without a statement.
+    known |= {
+        f"without DYNX {part['operands']}"
+        for each in advice
+        for part in each["parts"]
+        if each["step"] == "take one declaration away" and "coordinate" in part
+    }
     for statement in sorted(known, key=len, reverse=True):
         text = text.replace(statement, "STATEMENT")
     assert not re.search(r"\b[A-Z]{3,} \d", text), text

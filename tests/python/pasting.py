@@ -183,7 +183,7 @@ _PROPOSALS = {
     "To remove a self-stress that there is with one beam each, ": (0, -1),
     "Or take a declaration away": (0, -1),
 }
-_FOLDS = "To declare the folds: "
+_FOLDS = ("To declare the fold: ", "To declare the folds: ")
 _INSIDE = ("To declare what is inside: ", "To declare what is inside, instead of RLSE: ")
 
 

@@ -88,6 +88,7 @@ class ModelData(Frozen):
         has_long_numbers: Whether the geometry was typed with more digits than its numbers hold,
             so that these are not what was typed, though they may look like it.
         began_as: The deck that a model started as which was changed since; its comments stay.
+        called: What calls of a script released: indices of elements, and deformations from 1.
     """
 
     arrays: ModelArrays
@@ -103,6 +104,7 @@ class ModelData(Frozen):
     loads: Loads | None = None
     has_long_numbers: bool = False
     began_as: Source | None = None
+    called: frozenset[tuple[int, int]] = frozenset()
 
     def __post_init__(self) -> None:
         """Make the arrays read-only; without names of nodes all of them are empty."""

@@ -305,6 +305,7 @@ class Draft(Lookup):
             loads=self.loads.freeze(numbers),
             has_long_numbers=self.has_long_numbers,
             began_as=self.began_as,
+            called=frozenset(at for at, given in self.stated.items() if given == Class.DEPENDENT),
         )
 
     def _wrong(self, in_vain: Sequence[int]) -> Problems | None:

@@ -25,6 +25,9 @@ class PointMethods(Making):
     ) -> Node:
         """Add a point [m]; its orientation is used only if an element needs it.
 
+        It is a new one also where there is one already: `point` finds that. Where nothing joins
+        two points at one place, a warning of the model says so.
+
         Args:
             x: Its first coordinate, or a vector or array of all of them.
             y: Its second coordinate.
@@ -57,10 +60,11 @@ class PointMethods(Making):
         return points.handle(self._change(), position, orientation)
 
     def point(self, point: Point) -> Node:
-        """The point of this name, or at exactly this place.
+        """The point of this name, or at this place.
 
         Args:
-            point: Its name, (x, y, z) [m], a handle, or a body, whose first point it is.
+            point: Its name, (x, y, z) [m], within 1e-9 of the model's largest coordinate, a
+                handle, or a body, whose first point it is.
 
         Raises:
             ModelError: there is none, or several have this name; the nearest names are told.

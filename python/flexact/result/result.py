@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -143,7 +143,8 @@ class Result(Spaces):
         numbers = self.given.arrays.element_number
         places = (self.condensed.in_given(*place) for place in deformations)
         classes = {(int(numbers[at]), own): Class.INDEPENDENT for at, own in places}
-        return result_of(with_classes(self.given, classes, {}), self.asked, self.name)
+        made = replace(with_classes(self.given, classes, {}), source=self.given.source)
+        return result_of(made, self.asked, self.name)
 
     @cached_property
     def evidence(self) -> Evidence:

@@ -46,6 +46,9 @@ class Proposals(NamedTuple):
 def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
     """What may be done about the motions and the self-stresses of the mechanism as it is now."""
     ways = (*on_motions(now), *on_self_stresses(now))
+    if now.folds:
+        # What else moves is told once the folds are declared.
+        ways = (next(on_motions(now)), *on_self_stresses(now))
     if any(way.step is Step.DECLARE_INTERNAL for way in ways):
         # What else there is to do is seen once each divided part is one beam.
         ways = tuple(way for way in ways if way.step is Step.DECLARE_INTERNAL)

@@ -62,8 +62,8 @@ def _lines_on_internal(result: Result, whole: Result, advice: Way) -> Iterator[L
 def _lines_on_folds(result: Result, whole: Result) -> Iterator[Line]:
     """What declares the folds that turn, and what is to be done then."""
     counts = counts_in_words(whole.under_constrained, whole.over_constrained)
-    yield _line(result, "To declare the folds: ", next(iter(on_motions(result))))
-    them = "it" if len(result.folds) == 1 else "them"
+    s, them = ("", "it") if len(result.folds) == 1 else ("s", "them")
+    yield _line(result, f"To declare the fold{s}: ", next(iter(on_motions(result))))
     yield sentence(f"With {them} declared the mechanism is {counts}.")
     yield from lines_on_motions(whole)
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..advice.change import Change
-from ..advice.ways import Coordinate, Part, Step, Way
+from ..advice.ways import Coordinate, Deformation, Part, Step, Way
 from ..core.elements import Class, Member, NodeKind, Role
 from ..diagnostics.errors import ModelError
 from ..model.data import ModelData
@@ -57,26 +57,38 @@ class Call(NamedTuple):
 def calls_of(result: Outcome, advice: Way, part: Part) -> tuple[str, ...]:
     """Such as `model.release("sheet 1", "in-plane bending", at="clamp 1")`.
 
-    None where nothing is to be said, or no word says it without local axes. What a call of a
-    script may have released or declared is held first, as a model does not take both.
+    None where nothing is to be said, or no word says it without local axes. What a call has
+    released is held before it is declared, as a model does not take both.
     """
     if advice.step is Step.UNDECLARE:
         return taken_back(result, part)
     if not advice.keywords:
         return ()
-    is_held = advice.step is Step.DECLARE_OR_HOLD_RELEASED
-    call = call_of(result, HOLD if is_held else advice.keywords[0], part)
-    return (call,) if call else ()
+    call = call_of(result, advice.keywords[0], part)
+    if not call or isinstance(part, Coordinate):
+        return (call,) if call else ()
+    named = part_of(result, result.data.element_index[part.element])
+    is_stated = advice.instead and not result.given.called.isdisjoint(
+        (index, number) for index in named.elements for number in range(1, 7)
+    )
+    return _in_turn(result, (HOLD, method_of(advice.keywords[0])), part) if is_stated else (call,)
 
 
 def taken_back(result: Outcome, part: Part) -> tuple[str, ...]:
-    """The calls that take back a declaration."""
+    """The calls that take back a declaration; a deformation is held before it is released."""
     if isinstance(part, Coordinate):
         return (call_of(result, "clear", part),)
-    calls = [deformation_call(result, method, *part[:2]) for method in (HOLD, "release")]
+    return _in_turn(result, (HOLD, "release"), part)
+
+
+def _in_turn(result: Outcome, methods: tuple[str, ...], part: Deformation) -> tuple[str, ...]:
+    """Calls with one deformation: in words, or where the model does not take these by numbers."""
+    calls = [deformation_call(result, method, *part[:2]) for method in methods]
     worded = [call for call in calls if call is not None]
-    if len(worded) == len(calls) and made(result.given, worded) is None:
-        worded = [Call(method, tuple(part[:2])) for method in (HOLD, "release")]
+    if worded and made(result.given, worded) is None:
+        place, own = result.condensed.in_given(result.data.element_index[part.element], part.number)
+        number = int(result.given.arrays.element_number[place])
+        worded = [Call(method, (number, own)) for method in methods]
     return tuple(call.in_words() for call in worded)
 
 

@@ -18,8 +18,8 @@ from ..result.order import without_sense
 _ARTICLES = ("the ", "a ", "an ")
 #: How many parts a sentence names where several meet.
 _MOST_NAMED = 2
-#: What guides and hinges call the points by which they are held.
-_GROUND = re.compile(r"(?:^| )ground \d+$")
+#: What assemblies call points.
+_OF_ASSEMBLY = re.compile(r"(?:^| )(ground|stage|body|platform) \d+$")
 #: An axis is one of x, y, z where its other components are below this.
 _ALONG = 1.0e-6
 
@@ -115,15 +115,15 @@ def joint_words(parts: Parts, joint: Joint) -> str:
 
 
 def stands_for(parts: Parts, position: int, body: int) -> bool:
-    """Whether what a point on a named body does is told of the body: it is its first point.
+    """Whether what a point on a named body does is told of the body, though it has a name.
 
-    Or it is called the ground of an assembly that the body carries.
+    An assembly has named it, as "stage 1", and it is the first point of the body; or as its
+    ground, which moves if the body carries it. Supports have their own words.
     """
-    is_ground = bool(_GROUND.search(parts.name_of_point(position)))
-    is_first = parts.first_points[body] == position
-    return parts.of_body(body).is_named and (
-        is_first or (is_ground and not parts.is_held(position))
-    )
+    found = _OF_ASSEMBLY.search(parts.name_of_point(position))
+    if found is None or parts.is_held(position) or not parts.of_body(body).is_named:
+        return False
+    return found[1] == "ground" or parts.first_points[body] == position
 
 
 def end_words(parts: Parts, position: int) -> str:

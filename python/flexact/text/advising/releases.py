@@ -56,11 +56,10 @@ def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
     more = [each for each in others if plain(each) != plain(own)]
     pieces: list[Piece] = ["declare ", *own, " independent"]
     pieces.append(f" ({declared})" if declared else "")
-    # To hold a fold is to clamp it in mid-air.
+    # To hold a fold that turns is to clamp it in mid-air.
     folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
-    if folds.isdisjoint(
-        outcome.given.node_index[place[0]] for place in proposal.change.coordinates
-    ):
+    nodes = {outcome.given.node_index[place[0]] for place in proposal.change.coordinates}
+    if not (result.folds and nodes <= folds):
         pieces.append(f", or hold {it}")
         pieces.append(f" ({fixed})" if fixed else "")
     if more:

@@ -25,6 +25,7 @@ from ..places import (
     node_words,
     others_words,
     part_words,
+    place_words,
 )
 from ..sentences import Line, Named, Pieces, sentence
 from .screws import Geometry
@@ -180,7 +181,7 @@ def _wire(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
         along, word = f"{along}, wide along {axis_words(np.array(wire.width))}", "sheet"
     turned = parts.data.node_index[wire.orientation]
     owner = node_words(parts, turned) if turned in parts.body_at else ""
-    there = node_words(parts, turned if parts.is_shared(turned) else node)
+    there = node_words(parts, turned) if parts.is_shared(turned) else place_words(parts, node)
     if not np.array_equal(parts.data.arrays.node_value[:3, node], end):
         link = Named("node", wire.position, owner or there)
         return (f"a {word} from {geometry.point(end)}, on a link to ", link, f",{along}")
