@@ -59,7 +59,7 @@ def offences(model: Model, done: Counter[str] | None = None) -> Iterator[Offence
     try:
         advice.describe()
         advice.to_dict()
-    except Exception as error:  # noqa: BLE001
+    except Exception as error:
         yield Offence("failed", repr(error))
         return
     yield from (Offence("failed", words) for words in advice.attempts.failed)
@@ -108,7 +108,7 @@ def pasted(model: Model, note: str) -> tuple[int, int] | str:
     changed = copy.deepcopy(model)
     try:
         for call in re.findall(_CALL, note):
-            exec(call, {"model": changed})  # noqa: S102
+            exec(call, {"model": changed})
     except flexact.FlexactError as error:
         return str(error)
     return _counts(changed)

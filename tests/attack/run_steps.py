@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Attack advice: apply its steps, paste its statements, build its hardware, keep its causes.
 
-    python tests/attack/run_steps.py [--count N] [--seed S] [--keep FOLDER]
+    python tests/attack/run_steps.py [--count N] [--first K] [--seed S] [--quiet]
 
-The exit code is 1 where something that advice says is not so.
+Each mechanism has a name, family, seed and number, from which it is made again. The exit code is 1
+where something that advice says is not so.
 """
 
 from __future__ import annotations
@@ -40,7 +41,9 @@ def main() -> int:
     print(f"seed {asked.seed}, {asked.count} mechanisms, slowest {slowest[0]:.1f} s ({slowest[1]})")
     print("\n".join(f"{count:8} {what}" for what, count in sorted(done.items())))
     kinds = Counter(one.kind for _, one in found)
-    print("\n".join(f"{count:8} {kind.upper()}" for kind, count in kinds.items()) or "nothing false")
+    print(
+        "\n".join(f"{count:8} {kind.upper()}" for kind, count in kinds.items()) or "nothing false"
+    )
     return 1 if found else 0
 
 

@@ -15,6 +15,9 @@ from wording import AsStored
 # Workers of xdist state a width that is no terminal's.
 os.environ.pop("COLUMNS", None)
 
+# What fails is not left out of an output, as it is for users.
+os.environ["FLEXACT_STRICT"] = "1"
+
 # Shells start what runs in the background deaf to Control-C, and its children with it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP"):
