@@ -157,6 +157,8 @@ class Analysis(Result):
             body: The body whose freedom and constraint are looked at, by name.
             wanted: Motions that are meant to be free, such as "stage: translation z"; what else
                 moves is unwanted.
+            bodies: Whether insides of rigid bodies may be released where anything else does it,
+                too.
 
         Raises:
             ModelError: no body has this name, or a text is not understood.

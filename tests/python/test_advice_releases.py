@@ -24,6 +24,7 @@ from attack.truth import residues
 
 import flexact
 from flexact import Analysis, Model, analyse
+from flexact.advice import leverage
 from flexact.advice.proposal import Purpose
 from flexact.advice.releases import reach
 from flexact.advice.releases.releases import releases_of
@@ -349,8 +350,8 @@ def test_guides_side_by_side_are_counted_by_products() -> None:
 
 def test_what_is_alike_is_one_proposal() -> None:
     """Fig. 6: six flexures of two sheets each, and the torsion of the body."""
-    releases = releases_of(of_deck("paper/six_folded_sheets"))
-    at_rim, at_ground, body = releases.sets
+    releases = releases_of(of_deck("paper/six_folded_sheets"), with_bodies=True)
+    at_rim, at_ground, body, *_ = releases.sets
     assert len(at_rim.alternatives) == len(at_ground.alternatives) == 5
     assert body.change.deformations == ((21, 2, Class.DEPENDENT),)
     assert not body.alternatives
@@ -362,11 +363,30 @@ def test_a_ring_of_an_even_number_has_as_many_alternatives_as_bars() -> None:
     assert sum(1 + len(each.alternatives) for each in releases.sets) == 12
 
 
-def test_flexures_come_before_bodies() -> None:
-    releases = releases_of(of_deck("flexures/parallel_guide"))
-    elements = [each.change.deformations[0][0] for each in releases.sets]
-    assert elements[-1] == 3
-    assert 3 not in elements[:-1]
+def test_insides_of_bodies_are_no_designs() -> None:
+    """Nobody makes the inside of a rigid body soft: only where it is asked for, and then last."""
+    analysis = of_deck("flexures/parallel_guide")
+    plain, asked = (
+        [each.change.deformations[0][0] for each in releases_of(analysis, with_bodies).sets]
+        for with_bodies in (False, True)
+    )
+    assert 3 not in plain
+    assert asked == [*plain, 3]
+    rows = leverage.releases(analysis)
+    assert 3 not in analysis.raw.row_label[0, rows]
+
+
+def test_bodies_are_released_where_there_is_nothing_else() -> None:
+    """A ring of four rigid beams in the plane that holds itself three times."""
+    model = Model(planar=True)
+    nodes = [model.node(x, y) for x, y in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))]
+    for k, node in enumerate(nodes):
+        model.beam(node, nodes[(k + 1) % 4])
+    model.fix(nodes[0])
+    analysis = analyse(model)
+    assert analysis.over_constrained == 3
+    assert releases_of(analysis).sets
+    assert leverage.releases(analysis)
 
 
 def three_bars(areas: tuple[float, float, float]) -> Model:

@@ -110,12 +110,10 @@ class Advice(Frozen, Sequence[Step]):
         if self.body is not None or self.wanted:
             # What was asked for wrongly is told, not left out.
             spaces_of(*asked, wires=False)
-        without = self.attempts.make
-        made = without("wires and sheets to add", lambda: [spaces_of(*asked)], [])
-        made = made or without(
-            "freedom and constraint", lambda: [spaces_of(*asked, wires=False)], [None]
-        )
-        return made[0]
+        make = self.attempts.make
+        made = make("wires and sheets to add", lambda: (spaces_of(*asked),), ())
+        made = made or make("freedom and constraint", lambda: (spaces_of(*asked, wires=False),), ())
+        return made[0] if made else None
 
     @cached_property
     def motions(self) -> tuple[AdvisedMotion, ...]:
@@ -131,7 +129,9 @@ class Advice(Frozen, Sequence[Step]):
         Not of which nothing could be said.
         """
         result = self.analysis
-        sizes = np.cumsum([result.stress_basis.entries(k)[0].size for k in range(len(result.self_stresses))])
+        sizes = np.cumsum(
+            [result.stress_basis.entries(k)[0].size for k in range(len(result.self_stresses))]
+        )
         count = max(MOST_MODES, int(np.count_nonzero(sizes <= _MOST_ENTRIES)))
         every = (AdvisedStress(stress, self.causes) for stress in result.self_stresses[:count])
         return tuple(self._told("a self-stress", every))

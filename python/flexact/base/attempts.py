@@ -28,7 +28,7 @@ class Attempts:
         """Nothing has failed yet."""
         self.failed: dict[str, None] = {}
 
-    def make(self, what: str, make: Callable[[], _Made], otherwise: _Made) -> _Made:
+    def make(self, what: str, make: Callable[[], _Made], otherwise: _Given) -> _Made | _Given:
         """What `make` gives, or something else where it fails, which is kept."""
         try:
             return make()
@@ -44,6 +44,6 @@ class Attempts:
         self, what: str, items: Iterable[_Given], make: Callable[[_Given], _Made]
     ) -> Iterator[_Made]:
         """What `make` gives of each item, without those of which it fails."""
+        nothing: tuple[_Made, ...] = ()
         for item in items:
-            made = self.make(what, lambda item=item: [make(item)], [])  # type: ignore[misc]
-            yield from made
+            yield from self.make(what, lambda: (make(item),), nothing)  # noqa: B023

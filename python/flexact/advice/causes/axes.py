@@ -79,9 +79,7 @@ def _half_turns(lines: Lines) -> Iterator[Common]:
                 yield Common(RelationKind.ROTATION, group, without_sense(direction), place)
 
 
-def _swapping(
-    one: Figure, other: Figure, length: float
-) -> Iterator[tuple[FloatArray, FloatArray]]:
+def _swapping(one: Figure, other: Figure, length: float) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Directions and points of the half-turns that swap two lines that are not parallel."""
     ((a,), (u,)), ((b,), (v,)) = one, other
     normal = np.cross(u, v)

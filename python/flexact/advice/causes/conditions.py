@@ -387,10 +387,7 @@ def _of_points(figures: Figures, one: Relation) -> _Made:
     def residual(places: FloatArray, _: FloatArray, free: FloatArray) -> FloatArray:
         away = places[:, nodes] / length - free[:, None, 3:6]
         way = free[:, None, :3]
-        if not in_line:
-            off = _dot(away, way)
-        else:
-            off = np.cross(away, np.broadcast_to(way, away.shape))
+        off = np.cross(away, np.broadcast_to(way, away.shape)) if in_line else _dot(away, way)
         return np.concatenate((off.reshape(len(off), -1), _size(free[:, :3])), axis=1)
 
     return residual, np.concatenate((one.direction, one.point / length))

@@ -27,7 +27,6 @@ from .conics import conic_of
 from .directions import of_directions
 from .force_lines import of_forces
 from .in_common import in_common
-from .limbs import Limbs
 from .lines import Line, Lines
 from .sheet_planes import of_sheets
 from .symmetry import symmetries_of

@@ -52,12 +52,10 @@ def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
     middle = places.mean(axis=0)
     held = [result.parts.is_held(node) for node in nodes]
     for operation in _operations(places - middle, bars, held, result.given.planar):
-        yield Relation(
-            *(RelationKind.ROTATION if operation.fold else RelationKind.REFLECTION,),
-            *(LineKind.MEMBER, tuple(parts), tuple(nodes)),
-            *(without_sense(operation.axis), middle),
-            fold=max(operation.fold, 1),
-        )
+        kind = RelationKind.ROTATION if operation.fold else RelationKind.REFLECTION
+        axis, fold = without_sense(operation.axis), max(operation.fold, 1)
+        of = LineKind.MEMBER
+        yield Relation(kind, of, tuple(parts), tuple(nodes), axis, middle, fold=fold)
 
 
 def _operations(

@@ -130,9 +130,7 @@ class Trials(Frozen):
         besides = np.concatenate([one.free for one in conditions])
         besides = besides + _MOVED * rng.uniform(-1.0, 1.0, besides.size)
         besides[self._held(conditions)] = 0.0
-        value = np.concatenate(
-            (places[node, axis] / length, vectors[elements].ravel(), besides)
-        )
+        value = np.concatenate((places[node, axis] / length, vectors[elements].ravel(), besides))
         split = node.size, node.size + 3 * elements.size
 
         def put(value: FloatArray) -> tuple[FloatArray, FloatArray]:
