@@ -221,3 +221,16 @@ def test_results_travel_between_processes() -> None:
     with pytest.raises(flexact.DeckError) as error:
         flexact.read_text("TRUS 1 1 2", "a.dat")
     assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+@pytest.mark.parametrize(
+    "name", ["::set-output name=a::b", "##[error]x", " ::warning::x", "a ##[b]"]
+)
+def test_no_line_is_a_command_of_a_service(name: str) -> None:
+    """GitHub takes lines that begin with two colons for commands, and ##[ wherever it stands."""
+    model = flexact.Model(name=name)
+    model.truss((0, 0, 0), (1, 0, 0), name=name)
+    model.sheet((0, 0, 0), (0, 1, 0), width=(0, 0, 1), name=name * 5)
+    words = flexact.analyse(model).describe()
+    assert "##[" not in words
+    assert not [line for line in words.splitlines() if line.lstrip().startswith("::")]

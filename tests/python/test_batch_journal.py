@@ -232,7 +232,8 @@ def line(text: bytes) -> bytes:
 
 
 @pytest.mark.parametrize(
-    "text", [b"{", b"[]", b"7", b"null", b'"x"', b"[" * 100_000 + b"]" * 100_000, b"9" * 5000, b"\xff"]
+    "text",
+    [b"{", b"[]", b"7", b"null", b'"x"', b"[" * 100_000 + b"]" * 100_000, b"9" * 5000, b"\xff"],
 )
 def test_a_line_with_a_right_sum_and_no_record_is_passed_over(text: bytes, path: Path) -> None:
     lines = path.read_bytes().splitlines(keepends=True)

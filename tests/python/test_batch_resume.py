@@ -379,7 +379,8 @@ CRAFTED: dict[str, Any] = {
     "deck": [{"deck": k} for k in (10**9, -1, "0", 0.0, None, True, [0])],
     "of": [{"of": k} for k in (None, 7, ["x"])],
     "row": [
-        {"row": k} for k in (None, "x", [], [1], {"a": 1}, ["x"] * 13, [{}] * 13, [[]] * 13, [True] * 13)
+        {"row": k}
+        for k in (None, "x", [], [1], {"a": 1}, ["x"] * 13, [{}] * 13, [[]] * 13, [True] * 13)
     ],
     "wanted": [{"wanted": k} for k in (None, 1, "yes", [])],
     "sizes": [{"files": k} for k in ("x", 7, {}, [-1], [1], ["x"], [None] * 9)],
@@ -390,7 +391,16 @@ CRAFTED: dict[str, Any] = {
     ],
     "entry part": [
         {"entry": {"own": {part: wrong}}}
-        for part in ("name", "kind", "picture", "counts", "margin_length", "marked", "line", "error")
+        for part in (
+            "name",
+            "kind",
+            "picture",
+            "counts",
+            "margin_length",
+            "marked",
+            "line",
+            "error",
+        )
         for wrong in (7, [7], {"a": 1}, "%")
     ],
 }
@@ -406,7 +416,9 @@ def test_crafted_records_count_as_if_they_were_not_there(
     whole = but_for_times(table)
     head, *lines = kept.splitlines(keepends=True)
     first = json.loads(lines[0][9:])
-    crafted = [one for each in CRAFTED.values() for one in (each if isinstance(each, list) else [each])]
+    crafted = [
+        one for each in CRAFTED.values() for one in (each if isinstance(each, list) else [each])
+    ]
     for change in crafted:
         record = change if not isinstance(change, dict) or not change else {**first, **change}
         part = change.get("entry") if isinstance(change, dict) else None
@@ -431,7 +443,8 @@ def keep_journal(words: list[str], journal: Path, folder: Path) -> bytes:
 
 
 @pytest.mark.parametrize(
-    "change", [{"options": 7}, {"options": None}, {"decks": 7}, {"decks": [[]]}, {"decks": {"a": 1}}]
+    "change",
+    [{"options": 7}, {"options": None}, {"decks": 7}, {"decks": [[]]}, {"decks": {"a": 1}}],
 )
 def test_a_crafted_head_is_refused_in_words(
     change: dict[str, Any], decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -178,7 +178,13 @@ def test_who_is_not_meant_is_refused(served: tuple[Path, Watched]) -> None:
     assert ask(address, Host=own, Sec_Fetch_Site="cross-site", **visit)[0] == 200
     frame = {**visit, "Sec_Fetch_Dest": "iframe"}
     assert ask(address, Host=own, Sec_Fetch_Site="cross-site", **frame)[0] == 403
-    for path in ("/", "/events", "/events?start=0&number=0&proof=0", "/" + "0" * 32 + "/", address.rstrip("/")[-32:]):
+    for path in (
+        "/",
+        "/events",
+        "/events?start=0&number=0&proof=0",
+        "/" + "0" * 32 + "/",
+        address.rstrip("/")[-32:],
+    ):
         assert ask(address, path)[0] in (400, 403)
     token = "/" + address.rstrip("/")[-32:]
     for path in ("/guide.dat", "/../guide.dat", "/%2e%2e/guide.dat", "//etc/passwd"):

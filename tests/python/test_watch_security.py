@@ -421,7 +421,9 @@ def test_without_a_home_a_watch_has_a_secret_for_this_time(shared: Path) -> None
     program = as_other(python, "-c", code, *places, user=54321)
     env = {name: os.environ[name] for name in ("PATH",)}
     for place in (python, *places):
-        if subprocess.run(as_other("test", "-r", place, user=54321)).returncode and os.path.exists(place):
+        if subprocess.run(as_other("test", "-r", place, user=54321)).returncode and os.path.exists(
+            place
+        ):
             pytest.skip("Python lies where others cannot go")
     done = subprocess.run(program, env=env, cwd=shared, capture_output=True, text=True)
     assert done.stdout.split() == ["True", "600", "700", "False"], done.stderr
@@ -505,13 +507,25 @@ def test_a_model_that_cannot_be_switched_is_shown_and_said(shared: Path, how: st
 
 #: What a script does, and words of what comes of it.
 ODD_SCRIPTS = (
-    ("import os\nfor k in range(3, 60):\n  try: os.write(k, b'\\x10' + 99 * b'x')\n  except OSError: pass\nimport time\ntime.sleep(600)\n", "no answer"),
-    ("import os\nfor k in range(3, 60):\n  try: os.write(k, bytes(7) + b'\\x05' + 99 * b'x')\n  except OSError: pass\nimport time\ntime.sleep(600)\n", "no answer"),
+    (
+        "import os\nfor k in range(3, 60):\n  try: os.write(k, b'\\x10' + 99 * b'x')\n  except OSError: pass\nimport time\ntime.sleep(600)\n",
+        "no answer",
+    ),
+    (
+        "import os\nfor k in range(3, 60):\n  try: os.write(k, bytes(7) + b'\\x05' + 99 * b'x')\n  except OSError: pass\nimport time\ntime.sleep(600)\n",
+        "no answer",
+    ),
     ("import os\nos.closerange(3, 60)\nimport time\ntime.sleep(600)\n", "before it had an answer"),
     ("import sys\nsys.stdout.close()\nx = 1\n", "shows nothing"),
     ("import sys\nsys.stdout = None\nx = 1\n", "shows nothing"),
-    ("class A:\n  def __repr__(self): raise ValueError\nraise SystemExit(A())\n", "ended itself with"),
-    ("class A:\n  def __eq__(self, other): raise ValueError\nraise SystemExit(A())\n", "ended itself with"),
+    (
+        "class A:\n  def __repr__(self): raise ValueError\nraise SystemExit(A())\n",
+        "ended itself with",
+    ),
+    (
+        "class A:\n  def __eq__(self, other): raise ValueError\nraise SystemExit(A())\n",
+        "ended itself with",
+    ),
     ("class E(Exception):\n  def __str__(self): raise ValueError\nraise E\n", "stopped with E"),
 )
 

@@ -29,9 +29,7 @@ LEFT_OUT = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
 class Watched:
     """A running `flexact watch`, with what it says."""
 
-    def __init__(
-        self, file: Path, state: Path, *more: str, before: Sequence[str] = ()
-    ) -> None:
+    def __init__(self, file: Path, state: Path, *more: str, before: Sequence[str] = ()) -> None:
         self.file = file
         env = {**os.environ, "XDG_STATE_HOME": str(state), "PYTHONUNBUFFERED": "1"}
         for name in LEFT_OUT:
@@ -179,9 +177,7 @@ class Events:
 
 
 @contextlib.contextmanager
-def watching(
-    file: Path, state: Path, *more: str, before: Sequence[str] = ()
-) -> Iterator[Watched]:
+def watching(file: Path, state: Path, *more: str, before: Sequence[str] = ()) -> Iterator[Watched]:
     watched = Watched(file, state, *more, before=before)
     try:
         yield watched
