@@ -3,6 +3,7 @@
 
 import pickle
 from collections.abc import Callable
+from enum import Enum
 
 import numpy as np
 import pytest

@@ -113,7 +113,7 @@ def test_a_full_disk_leaves_what_was_there(
     """The temporary file is a device that takes nothing."""
     path = tmp_path / f"table{suffix}"
     path.write_text("before")
-    monkeypatch.setattr("flexact.files.outputs.new_file", lambda *_: open("/dev/full", "wb"))
+    monkeypatch.setattr("flexact.files.outputs.new_file", lambda *_: Path("/dev/full").open("wb"))
     with pytest.raises(OutputError, match="no space left"):
         write_table(path, NAMES, ROWS * 20_000)
     assert path.read_text() == "before"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`flexact watch` against another user of the same machine, and against the scripts that it runs."""
+"""`flexact watch` against another user of the same machine, and against scripts that it runs."""
 
 import contextlib
 import errno
@@ -20,7 +20,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from test_watch import EXACT, GUIDE
-from watched import ADDRESS, Events, Page, Refused, Watched, ask, is_running, until, watching
+from watched import ADDRESS, Events, Page, RefusedError, Watched, ask, is_running, until, watching
 
 from flexact.watching import crew, frames
 from flexact.watching.guard import Secrets
@@ -145,7 +145,7 @@ def test_a_page_goes_on_with_the_next_start_and_no_stranger_does(shared: Path, d
         # The secret of before is worth nothing, and without the key nobody hears the new one.
         assert ask(old)[0] == 403
         assert ask(watched.address, f"/events?start={page.start}&number=0&proof=0")[0] == 403
-        with pytest.raises((Refused, AssertionError)):
+        with pytest.raises((RefusedError, AssertionError)):
             Events(watched.address, Page(page.start, token_of(old)))
         events = Events(watched.address, page)
         secrets = events.next("secrets")
@@ -155,7 +155,7 @@ def test_a_page_goes_on_with_the_next_start_and_no_stranger_does(shared: Path, d
 
 
 class Squatter(ThreadingHTTPServer):
-    """Has a port that was another's, keeps what it hears, and passes it on or says what it likes."""
+    """Has a port that was another's, keeps what it hears, and passes it on or says anything."""
 
     daemon_threads = True
 
@@ -176,7 +176,7 @@ class Handler(BaseHTTPRequestHandler):
         self.server.heard.append(f"{self.path} {self.headers}")
         kind, text = "application/json", '{"start": "0", "proof": "0"}'
         if self.server.to:
-            status, text, _ = ask(f"http://{ADDRESS}:{self.server.to}/", self.path)
+            _, text, _ = ask(f"http://{ADDRESS}:{self.server.to}/", self.path)
         elif not self.path.startswith("/alive"):
             kind = "text/event-stream"
             text = 'event: scene\ndata: {"revision": 1, "title": "evil", "body": "evil"}\n\n'
@@ -216,10 +216,10 @@ def test_who_takes_the_port_hears_no_secret(
     with watching(deck, shared / "state") as watched:
         assert watched.port != squatter.server_port
         squatter.to = watched.port if passes_on else 0
-        with pytest.raises(Refused):
+        with pytest.raises(RefusedError):
             Events(old, page)
         # Nor can it hear by itself what it was not told.
-        with pytest.raises((Refused, AssertionError)):
+        with pytest.raises((RefusedError, AssertionError)):
             Events(watched.address, Page(page.start, "0" * 64))
         heard = "".join(squatter.heard)
         assert "/alive" in heard and "/events" not in heard
@@ -505,27 +505,30 @@ def test_a_model_that_cannot_be_switched_is_shown_and_said(shared: Path, how: st
         events.close()
 
 
+#: Writes to whatever is open in its process.
+WRITES = """\
+import os, time
+for k in range(3, 60):
+    try:
+        os.write(k, {what} + 99 * b"x")
+    except OSError:
+        pass
+time.sleep(600)
+"""
+ODD = """\
+class A:
+    def {method}(self, *_): raise ValueError
+raise SystemExit(A())
+"""
 #: What a script does, and words of what comes of it.
 ODD_SCRIPTS = (
-    (
-        "import os\nfor k in range(3, 60):\n  try: os.write(k, b'\\x10' + 99 * b'x')\n  except OSError: pass\nimport time\ntime.sleep(600)\n",
-        "no answer",
-    ),
-    (
-        "import os\nfor k in range(3, 60):\n  try: os.write(k, bytes(7) + b'\\x05' + 99 * b'x')\n  except OSError: pass\nimport time\ntime.sleep(600)\n",
-        "no answer",
-    ),
-    ("import os\nos.closerange(3, 60)\nimport time\ntime.sleep(600)\n", "before it had an answer"),
+    (WRITES.format(what="bytes([16])"), "no answer"),
+    (WRITES.format(what="bytes([0] * 7 + [5])"), "no answer"),
+    ("import os, time\nos.closerange(3, 60)\ntime.sleep(600)\n", "before it had an answer"),
     ("import sys\nsys.stdout.close()\nx = 1\n", "shows nothing"),
     ("import sys\nsys.stdout = None\nx = 1\n", "shows nothing"),
-    (
-        "class A:\n  def __repr__(self): raise ValueError\nraise SystemExit(A())\n",
-        "ended itself with",
-    ),
-    (
-        "class A:\n  def __eq__(self, other): raise ValueError\nraise SystemExit(A())\n",
-        "ended itself with",
-    ),
+    (ODD.format(method="__repr__"), "ended itself with"),
+    (ODD.format(method="__eq__"), "ended itself with"),
     ("class E(Exception):\n  def __str__(self): raise ValueError\nraise E\n", "stopped with E"),
 )
 

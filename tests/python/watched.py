@@ -133,11 +133,11 @@ class Page:
         path = f"/alive?start={self.start}&number={number}"
         told = json.loads(ask(f"http://{ADDRESS}:{port}/", path)[1])
         if told["proof"] != self.proof("server", number, told["start"], port):
-            raise Refused("without proof")
+            raise RefusedError("without proof")
         return str(told["start"])
 
 
-class Refused(Exception):
+class RefusedError(Exception):
     """Whoever answers at the port is not the server of this page."""
 
 
@@ -157,7 +157,7 @@ class Events:
         self._answer = self._line.getresponse()
         assert self._answer.status == 200
         if self.next("proof")["proof"] != theirs:
-            raise Refused("without proof")
+            raise RefusedError("without proof")
 
     def next(self, kind: str = "scene") -> dict[str, Any]:
         """The next event of a kind."""
