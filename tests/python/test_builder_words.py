@@ -244,10 +244,12 @@ def test_a_name_of_whatever_kind_of_text_is_plain_text() -> None:
     model.sheet((0, 1, 0), (1, 1, 0), width=(0, 0, 1), name=Name.SHEET)
     model.wire((0, 2, 0), (1, 2, 0), name=Name.WIRE)
     model.body([(1, 0, 0), (1, 1, 0), (1, 2, 0)], name=Name.BODY)
-    model.folded_sheet((0, 3, 0), (0.5, 3, 0.1), (1, 3, 0), width=(0, 1, 0), name=Name.FOLDED)
+    folded = model.folded_sheet(
+        (0, 3, 0), (0.5, 3, 0.1), (1, 3, 0), width=(0, 1, 0), name=Name.FOLDED
+    )
     model.rename("wire", Name.OTHER)
     model.rename("p", Name.GUIDE)
-    model.rename("folded", Name.WIRE)
+    model.rename(folded, Name.WIRE)
     for made in (model.data, flexact.analyse(model)):
         kept = pickle.dumps(made)
         assert __name__.encode() not in kept and b"Name" not in kept.replace(b"DeckNames", b"")

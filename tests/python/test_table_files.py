@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables as files: what stands in them reads back to the last bit, whole or not at all."""
 
+import io
 import csv
 import json
 import math
@@ -113,7 +114,7 @@ def test_a_full_disk_leaves_what_was_there(
     """The temporary file is a device that takes nothing."""
     path = tmp_path / f"table{suffix}"
     path.write_text("before")
-    monkeypatch.setattr("flexact.files.outputs.new_file", lambda *_: Path("/dev/full").open("wb"))
+    monkeypatch.setattr("flexact.files.outputs.new_file", lambda *_: io.FileIO("/dev/full", "wb"))
     with pytest.raises(OutputError, match="no space left"):
         write_table(path, NAMES, ROWS * 20_000)
     assert path.read_text() == "before"
