@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables as files: what stands in them reads back to the last bit, whole or not at all."""
 
-import io
 import csv
+import io
 import json
 import math
 import os
