@@ -256,3 +256,16 @@ def test_a_mode_that_is_not_there_is_refused_with_how_many_there_are() -> None:
 def test_a_model_of_a_name_says_how_it_is_made() -> None:
     with pytest.raises(TypeError, match=r"Model\(name='x.dat'\).*flexact.read\('x.dat'\)"):
         flexact.Model("x.dat")
+
+
+@pytest.mark.parametrize(
+    "name", ["::set-output name=a::b", "##[error]x", " ::warning::x", "a ##[b]"]
+)
+def test_no_line_is_a_command_of_a_service(name: str) -> None:
+    """GitHub takes lines that begin with two colons for commands, and ##[ wherever it stands."""
+    model = flexact.Model(name=name)
+    model.truss((0, 0, 0), (1, 0, 0), name=name)
+    model.sheet((0, 0, 0), (0, 1, 0), width=(0, 0, 1), name=name * 5)
+    words = flexact.analyse(model).describe()
+    assert "##[" not in words
+    assert not [line for line in words.splitlines() if line.lstrip().startswith("::")]

@@ -296,3 +296,21 @@ def test_a_log_has_a_line_now_and_then(
     lines = capsys.readouterr().err.splitlines()
     assert [line.split(",")[0] for line in lines] == ["41 of 50 decks", "42 of 50 decks"]
     assert all("decks/s" in line and line.endswith("left") for line in lines)
+
+
+@pytest.mark.posix
+def test_no_cell_is_what_a_spreadsheet_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    names = ["=cmd|'calc'!A1.dat", "@bad.dat", "+1.dat", "\t=1.dat"]
+    for name in names:
+        Path(name).write_text("BEAN 1\n" if "bad" in name else "TRUSS 1 1 2\nX 2 1 0 0\n")
+    Path("=folder").mkdir()
+    main(["batch", ".", *names, "=folder", "-o", "table.csv", "-j1"])
+    with open("table.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    assert len(rows) == 6
+    assert not [cell for row in rows for cell in row if cell[:1] in ("=", "@", "+", "\t", "\r")]
+    assert {row[0] for row in rows[1:]} == {f"./{name}" for name in (*names, "=folder")}
+    assert Path(rows[1][0]).exists()

@@ -17,6 +17,7 @@ from verdicts import counts
 
 import flexact
 from flexact.base import memory
+from flexact.cli.main import main
 from flexact.core import _core
 
 PAGE = mmap.PAGESIZE
@@ -293,3 +294,19 @@ def test_threads_of_blas_are_given_back(blas: ctypes.CDLL) -> None:
         thread.join()
     assert found == [(1, 1)] * 160
     assert blas.openblas_get_num_threads() == many
+
+
+@pytest.mark.parametrize("where", ["calls.read_deck", "_content"])
+def test_a_deck_that_does_not_fit_is_not_the_deck_s_fault(
+    where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exit code 2, of what is about the run: docs/command.md."""
+
+    def full(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(f"flexact.deck.reading.{where}", full)
+    deck = write(tmp_path / "x.dat", "TRUSS 1 1 2\nX 2 1 0 0\n")
+    for verb in ("analyse", "check", "advise"):
+        assert main([verb, str(deck)]) == 2
+        assert "does not fit into memory" in capsys.readouterr().err

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 from flexact.base.errors import BatchError
@@ -79,10 +80,11 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
     decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     with unwinding():
         watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
-        say(f"{harmless(path)} is shown at {watched.server.address}")
-        if not chosen.no_browser and not watched.opens():
-            complain("no browser opens here; open this address in one of this machine")
-        watched.run()
+        with closing(watched):
+            say(f"{harmless(path)} is shown at {watched.server.address}")
+            if not chosen.no_browser and not watched.opens():
+                complain("no browser opens here; open this address in one of this machine")
+            watched.run()
     return ExitCode.ANALYSED
 
 

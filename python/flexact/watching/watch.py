@@ -81,16 +81,13 @@ class Watch:
     def run(self) -> None:
         """Go on until an exception, such as that of Ctrl-C, ends it."""
         threading.Thread(target=self.server.serve_forever, args=(0.1,), daemon=True).start()
-        try:
-            self.renew()
-            while True:
-                time.sleep(_LOOK)
-                if self._failure is not None:
-                    raise self._failure
-                if self._saved.is_renewed():
-                    self.renew()
-        finally:
-            self.close()
+        self.renew()
+        while True:
+            time.sleep(_LOOK)
+            if self._failure is not None:
+                raise self._failure
+            if self._saved.is_renewed():
+                self.renew()
 
     def renew(self) -> None:
         """Analyse the file as it is now; what was at work before is stopped."""

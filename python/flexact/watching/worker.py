@@ -23,8 +23,8 @@ def main() -> None:
     narrow.prepare()
     jobs, line = _lines()
     said = _Said(line)
-    printed = io.TextIOWrapper(_Raw(said), "utf-8", "replace", line_buffering=True)
-    sys.stdout = printed
+    sys.stdout = io.TextIOWrapper(_Raw(said), "utf-8", "replace", line_buffering=True)
+    printed = sys.stdout
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_hear, args=(jobs, waiting), daemon=True).start()
     while True:
