@@ -148,7 +148,9 @@ class Analysis(Result):
         self.save(target)
         return open_page(target)
 
-    def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
+    def advice(
+        self, body: str | None = None, wanted: Sequence[str] = (), bodies: bool = False
+    ) -> Advice:
         """What is wrong and why, and steps that mend it, each analysed before it is shown.
 
         Args:
@@ -160,7 +162,7 @@ class Analysis(Result):
             ModelError: no body has this name, or a text is not understood.
         """
         # Few ask for it, and it takes a while to load.
-        made: Advice = load("flexact.advising").advice_of(self, body, wanted)
+        made: Advice = load("flexact.advising").advice_of(self, body, wanted, bodies)
         return made
 
     def describe(self) -> str:
@@ -204,6 +206,7 @@ def analyse(
     tolerance: float | None = None,
     prove: bool | None = None,
     accuracy: AccuracyGiven | None = None,
+    beyond: bool = False,
     name: str | None = None,
     progress: Progress | None = None,
 ) -> Analysis:
@@ -224,6 +227,7 @@ def analyse(
         accuracy: To what the parts are made and put together: a length [m], or a length and an
             angle [rad]. A margin that is smaller is said beside the verdict, and has another
             colour; see `Analysis.is_marginal`.
+        beyond: Whether the accuracy may be larger than the model.
         name: What the result is called; by default the model's name or the path.
         progress: Called with what is being done and how much of that is done, from 0 to 1,
             some times a second.
@@ -232,7 +236,8 @@ def analyse(
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
         AnalysisError: the model is too large for the memory, the decomposition did not
-            converge, or this build lacks what the method needs.
+            converge, or this build lacks what the method needs; or the accuracy is larger than
+            the model, and not `beyond`.
         TypeError: what is given is neither a model nor a path, or the tolerance no number,
             the method or the name no text, `prove` no truth value, the accuracy neither a
             number nor two, or `progress` nothing to call.
@@ -249,6 +254,8 @@ def analyse(
     asked = asked_for(method, tolerance, prove, accuracy)
     if not isinstance(model, Model):
         model = read(model)
+    if asked.accuracy is not None and not beyond:
+        asked.accuracy.require_within(model.data.size)
     return result_of(model.data, asked, name, progress, Analysis)
 
 

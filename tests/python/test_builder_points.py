@@ -107,7 +107,7 @@ def test_a_place_without_a_point_cannot_be_fixed() -> None:
     model = Model()
     model.wire((0, 0, 0), (1, 0, 0))
     for call in (
-        lambda: model.fix((1, 0, 1e-15)),
+        lambda: model.fix((1, 0, 2e-9)),
         lambda: model.independent((2, 0, 0), "x"),
         lambda: model.point((2, 0, 0)),
     ):

@@ -322,4 +322,4 @@ def test_without_pygls_it_says_what_is_missing(tmp_path: Any) -> None:
         check=False,
     )
     assert ended.returncode == ExitCode.OTHER and ended.stdout == ""
-    assert "pip install 'flexact[editor]'" in ended.stderr and "Traceback" not in ended.stderr
+    assert "pip install 'pygls>=2'" in ended.stderr and "Traceback" not in ended.stderr

@@ -90,7 +90,7 @@ def test_rigid_is_a_beam_where_its_deformation_or_far_rotation_is_named() -> Non
     model = Model()
     a, b = model.node(0, 0, 0), model.node(1, 0, 0)
     body = model.rigid(a, b)
-    model.fix(b)
+    model.fix(b, "x", "y", "z")
     assert model.element_keywords == ("RBEAM",)
     model.release(body, 2)
     assert model.element_keywords == ("BEAM",)
@@ -100,6 +100,20 @@ def test_rigid_is_a_beam_where_its_deformation_or_far_rotation_is_named() -> Non
     other.rigid(a, b)
     other.independent(b, "rx")
     assert other.element_keywords == ("BEAM",)
+
+
+@pytest.mark.parametrize("end", [0, 1, 2])
+@pytest.mark.parametrize("planar", [False, True])
+def test_a_body_is_clamped_at_any_of_its_points(end: int, planar: bool) -> None:
+    model = Model(planar=planar)
+    places = [(0.1 * k, 0.2 * k**2) for k in range(3)]
+    body = model.body(places, name="arm")
+    model.truss(places[0], (0, 1))
+    model.fix((0, 1))
+    model.fix(body.nodes[end])
+    # The bar runs between two points that are held, and so is stressed without a load.
+    result = flexact.analyse(model)
+    assert (result.under_constrained, result.over_constrained) == (0, 1)
 
 
 def test_rigid_links_of_either_kind_give_one_answer() -> None:

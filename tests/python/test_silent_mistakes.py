@@ -20,6 +20,7 @@ OF_SLIPS = {
     "unused-node",
     "no-support",
     "lengths-differ",
+    "nearly-equal-components",
 }
 
 

@@ -114,7 +114,7 @@ def test_an_edit_is_the_deck_with_its_lines_and_the_model_after_its_calls(name: 
         assert not deck.is_anew
         assert same(typed(board, deck), wanted)
         assert same(flexact.read_text(deck.text).data, wanted)
-        words = [call.in_words(exact=True) for call in calls.of((edit,))]
+        words = [call.in_words() for call in calls.of((edit,))]
         assert same(called(python.given, words), wanted, CLASSES)
 
 
@@ -128,7 +128,7 @@ def test_several_edits_together(name: str) -> None:
     if not board.wholes:
         assert same(wanted, by_hand(board, list(edits)))
     assert same(typed(board, edited(board.given, wanted)), wanted)
-    words = [call.in_words("model", exact=True) for call in Calls(python).of(edits)]
+    words = [call.in_words("model") for call in Calls(python).of(edits)]
     assert same(called(python.given, words), wanted, CLASSES)
 
 
@@ -181,7 +181,7 @@ def test_calls_are_words_where_the_builder_has_them(beams: int) -> None:
         calls = Calls(board).of(edits)
         model = guide(beams)
         for call in calls:
-            exec(call.in_words("own_name", exact=True), {"own_name": model})
+            exec(call.in_words("own_name"), {"own_name": model})
         assert same(model.data, board.model(edits), CLASSES)
 
 

@@ -22,6 +22,7 @@ class Step(str, Enum):
     """What is to be done with one of the parts, or with all of them."""
 
     DECLARE_INTERNAL = "declare what is inside divided sheets and wires"
+    DECLARE_FOLDS = "declare the folds of folded sheets"
     DECLARE_OR_HOLD = "declare or hold one coordinate"
     DECLARE_OR_HOLD_RELEASED = "declare or hold one released deformation"
     DECLARE_OR_HOLD_ALL = "declare or hold all coordinates"
@@ -71,10 +72,19 @@ class Way(NamedTuple):
 
 
 def on_motions(result: Result) -> Iterator[Way]:
-    """What may be declared or held so that there are fewer motions, the best first."""
+    """What may be declared or held so that there are fewer motions, the best first.
+
+    Where folds of folded sheets turn, these are declared first; the rest is of what is left then.
+    """
     if not result.under_constrained:
         return
     yield from _if_any(_internal(result))
+    whole = result.with_folds_declared
+    if whole is not None:
+        folds = tuple(_deformations(result, list(result.folds)))
+        yield Way(Step.DECLARE_FOLDS, folds, False, ("DYNE", "RLSE"), True)
+        yield from on_motions(whole)
+        return
     able = _coordinates(result, _of_columns(result, leverage.coordinates(result)))
     yield _some(Step.DECLARE_OR_HOLD, able, ("DYNX", "FIX"))
     changed = _deformations(result, leverage.deformations(result))

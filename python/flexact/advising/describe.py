@@ -82,13 +82,18 @@ def html_of(advice: Advice) -> str:
 def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section, ...]:
     """The advice without the verdict: what is wrong, what mends it, and what a body can do."""
     known = _Known()
+    spaces = advice.attempts.make(
+        "words of freedom and constraint",
+        lambda: tuple(map(Told, spaces_lines(advice.analysis, advice.spaces, added=False))),
+        (),
+    )
     made = (
         tuple(_motions(advice, known)),
         tuple(_stresses(advice, known)),
-        tuple(_both(advice)),
+        advice.attempts.make("a pair", lambda: tuple(_both(advice)), ()),
         *_steps(advice, most),
         tuple(_left_out(advice)),
-        tuple(map(Told, spaces_lines(advice.analysis, advice.spaces, added=False))),
+        spaces,
     )
     return tuple(section for section in made if section)
 
@@ -103,11 +108,13 @@ def _motions(advice: Advice, known: _Known) -> Iterator[Told]:
     if not advice.analysis.under_constrained:
         return
     yield Told(sentence("What nothing stops"))
-    told = [each for each in advice.motions if not each.motion.is_internal]
+    whole = advice.analysis.with_internal_declared
+    told = [each for each in advice.motions if whole is None or not each.motion.is_internal]
     told_at = {each.motion.index + 1: each.sentences for each in told}
     yield from _modes(told_at, "motion", known)
     yield from _more(len(told) - MOST_MODES, "motion", "s")
-    whole = advice.analysis.with_internal_declared
+    if not advice.motions:
+        yield Told(sentence("  None of them is given one by one; the method svd gives all."))
     if whole is not None and (internal := internal_in_words(advice.analysis)):
         counts = counts_in_words(whole.under_constrained, whole.over_constrained)
         as_one = f"With each of them as one beam (flexact declare) the mechanism is {counts}."

@@ -21,6 +21,7 @@ from ..text.advising.motions import motion_in_sentence, moving_groups, nothing_s
 from ..text.advising.self_stresses import stress_in_sentence
 from ..text.advising.sentences import in_a_row, sentence
 from ..text.naming import named_node
+from ..text.places import joint_node
 from ..text.sentences import Pieces
 
 
@@ -139,9 +140,8 @@ def _bodies(result: Result, motion: Motion) -> Iterator[MovingBody]:
         for part in group.bodies:
             yield MovingBody(part.name, group.screw)
         for joint in () if group.bodies else group.joints:
-            node = joint.orientation if joint.position is None else joint.position
-            if node is not None:
-                yield MovingBody(named_node(result, int(numbers[node])).words, group.screw)
+            node = int(numbers[joint_node(result.parts, joint)])
+            yield MovingBody(named_node(result, node).words, group.screw)
 
 
 def dictionary_of_body(body: MovingBody) -> dict[str, object]:

@@ -33,12 +33,7 @@ from flexact.text.margin import verdict_word
 if TYPE_CHECKING:
     from flexact.cli.result_files import ResultFiles
 
-VERDICTS = {
-    "exact": Verdict.EXACT,
-    "under": Verdict.UNDER,
-    "over": Verdict.OVER,
-    "both": Verdict.BOTH,
-}
+VERDICTS = {verdict.word: verdict for verdict in Verdict}
 #: Forms of logs beside that of Flexact.
 LOGS = ("spacar",)
 

@@ -16,12 +16,13 @@ from flexact.diagnostics.errors import DeckError
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile, FolderError
 
+_MEMORY = "out-of-memory"
 #: Failures that are none of the deck's.
 CODES = {
     "AnalysisError": "not-analysed",
     "OutputError": "not-written",
     "MeshFormatError": "not-written",
-    "MemoryError": "out-of-memory",
+    "MemoryError": _MEMORY,
     "UnforeseenError": "unforeseen",
 }
 #: Codes of problems with a file that are not about what is stated in it.
@@ -32,6 +33,7 @@ NOT_READ = {
     "not-a-file",
     "not-text",
     "too-large",
+    _MEMORY,
 }
 
 
@@ -69,7 +71,8 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
 
 def outcome_of(deck: DeckFile, error: Exception) -> Outcome:
     """What the command makes of a deck's failure."""
-    code = ExitCode.OTHER if type(error).__name__ in CODES else ExitCode.DECK_ERROR
+    is_other = type(error).__name__ in CODES or _MEMORY in _codes(error)
+    code = ExitCode.OTHER if is_other else ExitCode.DECK_ERROR
     return Outcome(deck.name, code, "failed", _remark(error))
 
 
@@ -89,8 +92,11 @@ def _remark(error: Exception) -> str:
         return error.remark
     if not isinstance(error, DeckError):
         return "failed"
-    codes = {each.code for each in error.diagnostics}
-    return "cannot be read" if codes & NOT_READ else ""
+    return "cannot be read" if _codes(error) & NOT_READ else ""
+
+
+def _codes(error: Exception) -> set[str]:
+    return {each.code for each in error.diagnostics} if isinstance(error, DeckError) else set()
 
 
 def _reason(error: Exception) -> str:

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 #: Suffixes of -o that mean the table itself.
 TABLES = (".csv", ".jsonl", ".parquet")
-_WORDS = {Verdict.EXACT: "exact", Verdict.UNDER: "under", Verdict.OVER: "over"}
 _COLUMNS = ("verdict", "under", "over", "freedoms", "margin", "certainty")
 
 
@@ -176,7 +175,7 @@ def _values(result: Result) -> dict[str, Cell]:
 
 
 def _cells(result: Result) -> Cells:
-    word = _WORDS.get(result.verdict, "both")
+    word = result.verdict.word
     if result.verdict is Verdict.EXACT and result.is_marginal:
         word = "marginal"
     sure = certainty_word(result)

@@ -20,7 +20,6 @@ from flexact.cli.terminal import complain, say
 from flexact.deck.reading import file_bytes
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import STDIN, DeckFile, FolderError
-from flexact.watching.browser import opens
 from flexact.watching.messages import Answer, Broken
 from flexact.watching.watch import SCRIPT, Heard, Watch
 
@@ -43,7 +42,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_no_browser(parser)
     add_decision(parser)
-    add_accuracy(parser)
+    add_accuracy(parser, is_held_against=False)
     add_examples(
         parser,
         ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
@@ -81,7 +80,7 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
     with unwinding():
         watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
         say(f"{harmless(path)} is shown at {watched.server.address}")
-        if not chosen.no_browser and not opens(watched.server.address):
+        if not chosen.no_browser and not watched.opens():
             complain("no browser opens here; open this address in one of this machine")
         watched.run()
     return ExitCode.ANALYSED

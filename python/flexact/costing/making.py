@@ -119,4 +119,4 @@ class _Making:
                 raise model_error("repeated-release", "one release is asked for twice")
             return built, (first, *others)
         self.report("looking for releases", 0.0)
-        return built, (first, *best(self.measures, built, proven.proven(self.result)))
+        return built, (first, *best(self.measures, built, proven.proven(self.result, asked.bodies)))

@@ -25,12 +25,8 @@ class Places:
 
     @property
     def size(self) -> float:
-        """Of the model [m]: the diagonal of the box about its positions; 1 without extent."""
-        places = self.data.arrays.node_kind <= NodeKind.POSITION
-        values = self.data.arrays.node_value[:3, places]
-        if not values.size:
-            return 1.0
-        return float(np.linalg.norm(values.max(axis=1) - values.min(axis=1))) or 1.0
+        """Of the model [m]."""
+        return self.data.size
 
     def clamps(self) -> tuple[Clamp, ...]:
         """Supports with something held, by the numbers of their nodes; driven ones are none."""

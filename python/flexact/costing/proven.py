@@ -41,16 +41,18 @@ def as_built(result: Result) -> Candidate:
     return Candidate((), (), result.under_constrained, result.over_constrained)
 
 
-def proven(result: Result) -> tuple[Candidate, ...]:
+def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
     """Minimal sets of releases that were each tried, the likeliest first; none without need.
 
-    Beams inside of bodies may be released as well, as by a hinge between two halves of a body;
-    rigid links only where nothing else does it.
+    Args:
+        result: The result.
+        bodies: Whether beams inside of bodies may be released as well, as by a hinge between two
+            halves of a body; else only where nothing else does it. Rigid links are in any case.
     """
     if not result.over_constrained:
         return ()
     made = []
-    sets = releases_of(result, with_links=True).sets
+    sets = releases_of(result, with_bodies=bodies).sets
     of_members = [each for each in sets if not _releases_a_link(result, each.change)]
     for proposal in (of_members or sets)[:LOOKED_AT]:
         alike = tuple(_label(_released(result, change)) for change in proposal.alternatives)

@@ -80,7 +80,7 @@ def file_bytes(path: str) -> bytes:
         hint = "check that you may read it"
         raise _file_error(path, "cannot-read", message, hint) from None
     except MemoryError:
-        raise _file_error(path, "too-large", "the file does not fit into memory") from None
+        raise _file_error(path, "out-of-memory", "the file does not fit into memory") from None
 
 
 def _content(file: BinaryIO, size: int) -> bytes:
@@ -112,7 +112,7 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
     try:
         deck = calls.read_deck(raw)
     except MemoryError:
-        raise _file_error(name, "too-large", "the deck does not fit into memory") from None
+        raise _file_error(name, "out-of-memory", "the deck does not fit into memory") from None
     problems = problems_of(deck.problems, source)
     if problems.errors:
         raise DeckError(problems, name, source)

@@ -81,6 +81,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "A statement needs more operands.",
         "Give all operands that the keyword takes.",
     ),
+    "nearly-equal-components": (
+        "A difference of rounding chooses the local y axis of an element.",
+        "Give the vector that the axis is towards.",
+    ),
     "negative-number": (
         "A quantity that is not negative as a rule is less than zero.",
         "Correct it, unless it is meant.",
@@ -140,6 +144,7 @@ _RULES: dict[str, tuple[str, str]] = {
         "The same is given twice; the last one counts.",
         "Remove one of the two statements.",
     ),
+    "same-name": ("Several parts or points have one name.", "Give each a name of its own."),
     "same-node": ("Both ends of an element are one node.", "Give the two ends different nodes."),
     "same-part-twice": (
         "Two elements are the same part twice.",

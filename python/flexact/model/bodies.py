@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity
 from ..diagnostics.errors import model_error
 from . import arguments
 from . import point_arguments as points
@@ -29,8 +30,8 @@ class BodyMethods(FlexureMethods):
         points: Iterable[Point],
         name: str = "",
         *,
-        mass: float | None = None,
-        inertia: float | Sequence[float] | None = None,
+        mass: Quantity | None = None,
+        inertia: Quantity | Sequence[Quantity] | None = None,
         section: Section | None = None,
     ) -> Body:
         """One rigid body through any points.
@@ -63,7 +64,7 @@ class BodyMethods(FlexureMethods):
                 if not components.joined(first, carrier):
                     links.append(self._beam(first, carrier, None, (), "", make))
                     draft.rigid.add(len(draft.kinds) - 1)
-            _name_links(draft, links, name or old_name)
+            _name_links(draft, links, name or old_name, nodes[0])
             if not links and name:
                 draft.name_node(nodes[0].position, points_name(name))
         for number, values in zip((nodes[0].position, nodes[0].orientation), at_node, strict=True):
@@ -107,35 +108,60 @@ def _members(draft: Draft, given: Iterable[Point]) -> tuple[tuple[Node, ...], li
     return tuple(nodes), links, name
 
 
-def _name_links(draft: Draft, links: list[Element], name: str) -> None:
-    """Name the links of a body; a single one has the name of the body."""
+def _name_links(draft: Draft, links: list[Element], name: str, first: Node) -> None:
+    """Name the links of a body, that from its first point first; a single one like the body.
+
+    Those of this name that belong to the same body are counted, too.
+    """
     if not name:
         return
-    indices = [draft.index_of(link.number) for link in links]
-    taken = [i for i in draft.part_indices(name) if i not in indices]
+    indices = _from_first(draft, [draft.index_of(link.number) for link in links], first)
+    components = RigidComponents.of(draft)
+    others = [i for i in draft.part_indices(name) if i not in indices]
+    taken = [i for i in others if components.joined(first, Node(*draft.slots[i][:2], draft.owner))]
     start = len(taken) + 1
     alone = len(indices) == 1 and not taken
     for k, index in enumerate(indices, start):
         draft.name_element(index, name if alone else f"{part_name(name)}, {k}")
 
 
-def _mass(given: float | None) -> tuple[float, ...]:
+def _from_first(draft: Draft, indices: list[int], first: Node) -> list[int]:
+    """The links with one that begins at the first point before the others."""
+    start = [i for i in indices if draft.slots[i][0] == first.position]
+    if not start:
+        # A body that was there carries it: its link is turned round, which holds the same.
+        start = [i for i in draft.rigid.intersection(indices) if _ends_at(draft, i, first)][:1]
+        for index in start:
+            p, op, q, oq = draft.slots[index]
+            draft.slots[index] = q, oq, p, op
+    return [*start, *(i for i in indices if i not in start)]
+
+
+def _ends_at(draft: Draft, index: int, node: Node) -> bool:
+    """Whether a link of which nothing was said ends at a point."""
+    is_plain = all(i != index for i, _ in draft.stated)
+    return is_plain and draft.slots[index][2:] == (node.position, node.orientation)
+
+
+def _mass(given: Quantity | None) -> tuple[float, ...]:
     if given is None:
         return ()
-    (value,) = numbers_of_size(given, (1,), "a mass is one number")
+    (value,) = numbers_of_size(given, (1,), "a mass is one number", "kg")
     if value < 0.0:
         raise model_error("bad-size", "a mass is not negative", "give it in kg")
     return (value,)
 
 
-def _inertia(given: float | Sequence[float] | None, planar: bool) -> tuple[float, ...]:
+def _inertia(given: Quantity | Sequence[Quantity] | None, planar: bool) -> tuple[float, ...]:
     """Jxx, Jxy, Jxz, Jyy, Jyz, Jzz, or one J in the plane."""
     if given is None:
         return ()
     if planar:
-        return numbers_of_size(given, (1,), "the moment of inertia in a plane is one number")
+        return numbers_of_size(
+            given, (1,), "the moment of inertia in a plane is one number", "kg m2"
+        )
     what = "moments of inertia are Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy, Jyz, Jzz"
-    values = numbers_of_size(given, (3, 6), what)
+    values = numbers_of_size(given, (3, 6), what, "kg m2")
     if len(values) == 3:
         return values[0], 0.0, 0.0, values[1], 0.0, values[2]
     return values

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity
 from ..core.elements import AXES, Class, is_position
 from ..diagnostics.errors import model_error
 from . import arguments
@@ -34,12 +35,12 @@ class CopyMethods(HexapodMethods):
     def insert(
         self,
         model: Making,
-        at: Sequence[float] = _ORIGIN,
+        at: Sequence[Quantity] = _ORIGIN,
         *,
         axis: Direction = "z",
-        degrees: float = 0.0,
+        degrees: Quantity = 0.0,
         names: Names | None = None,
-        join: bool | float = True,
+        join: bool | Quantity = True,
     ) -> Assembly:
         """Put a copy of another model into this one, turned and then moved.
 
@@ -84,12 +85,12 @@ class CopyMethods(HexapodMethods):
         n: int,
         axis: Direction = "z",
         *,
-        at: Sequence[float] = _ORIGIN,
-        degrees: float | None = None,
-        step: Sequence[float] | None = None,
+        at: Sequence[Quantity] = _ORIGIN,
+        degrees: Quantity | None = None,
+        step: Sequence[Quantity] | None = None,
         parts: Parts | None = None,
         names: Names | None = None,
-        join: bool | float = True,
+        join: bool | Quantity = True,
     ) -> tuple[Assembly, ...]:
         """Repeat parts n times in all, about an axis or, with `step`, in a row.
 
@@ -137,10 +138,10 @@ class CopyMethods(HexapodMethods):
         self,
         plane: Direction,
         *,
-        at: Sequence[float] = _ORIGIN,
+        at: Sequence[Quantity] = _ORIGIN,
         parts: Parts | None = None,
         names: Names | None = None,
-        join: bool | float = True,
+        join: bool | Quantity = True,
     ) -> Assembly:
         """Add the mirror image of parts in a plane.
 
@@ -168,7 +169,9 @@ class CopyMethods(HexapodMethods):
             naming.name(made, 2)
         return _assembly(draft, draft, made)
 
-    def rotate(self, axis: Direction, degrees: float, *, at: Sequence[float] = _ORIGIN) -> None:
+    def rotate(
+        self, axis: Direction, degrees: Quantity, *, at: Sequence[Quantity] = _ORIGIN
+    ) -> None:
         """Turn the whole model about an axis through a point.
 
         Args:
@@ -201,7 +204,7 @@ def _axis(draft: Draft, axis: Direction) -> Vector:
     return made
 
 
-def _vector(draft: Draft, given: Sequence[float], what: str) -> Vector:
+def _vector(draft: Draft, given: Sequence[Quantity], what: str) -> Vector:
     """Three numbers [m], or two in a plane."""
     x, y, z = place(draft, given)[:3]
     return x, y, z
@@ -211,13 +214,13 @@ def _times(k: int, step: Vector) -> Vector:
     return k * step[0], k * step[1], k * step[2]
 
 
-def _tolerance(join: bool | float, source: Draft, target: Draft) -> float | None:
+def _tolerance(join: bool | Quantity, source: Draft, target: Draft) -> float | None:
     """Within which points are joined [m]; None where none are."""
     if join is False:
         return None
     if join is True:
         return ROUNDING * max(size_of(source), size_of(target))
-    return numbers_of_size(join, (1,), "join is True, False or a distance")[0]
+    return numbers_of_size(join, (1,), "join is True, False or a distance", "m")[0]
 
 
 def _assembly(source: Draft, target: Draft, made: Copy) -> Assembly:

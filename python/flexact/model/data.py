@@ -13,6 +13,7 @@ import numpy as np
 from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray, IntArray, ModelArrays, PackedModel, packed
+from ..core.elements import NodeKind
 from ..core.raw import RawCount, RawFrames
 from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
@@ -154,9 +155,17 @@ class ModelData(Frozen):
         return {number: i for i, number in enumerate(self.arrays.element_number.tolist())}
 
     @cached_property
+    def size(self) -> float:
+        """The diagonal of the box about its positions [m]; 1 without extent."""
+        places = self.arrays.node_value[:3, self.arrays.node_kind <= NodeKind.POSITION]
+        if not places.size:
+            return 1.0
+        return float(np.linalg.norm(np.ptp(places, axis=1))) or 1.0
+
+    @cached_property
     def chains(self) -> tuple[Chain, ...]:
         """Rows of beams that are one sheet or wire each."""
-        return chains_of(self.arrays, self.element_names)
+        return chains_of(self.arrays, self.element_names, lambda: self.frames.frame)
 
     @cached_property
     def count(self) -> RawCount:

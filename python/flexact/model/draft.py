@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
@@ -106,10 +107,10 @@ class Draft(Lookup):
         draft.elements_given = len(draft.kinds)
         draft.last_node = max(numbers, default=0)
         draft.last_element = max(draft.numbers, default=0)
-        for p, op, q, oq in draft.slots:
-            for position, orientation in ((p, op), (q, oq)):
-                if position and orientation:
-                    draft.join(position, orientation)
+        # Of several orientations at a place that with the lowest number was made with it.
+        ends = [end for p, op, q, oq in draft.slots for end in ((p, op), (q, oq)) if all(end)]
+        for position, orientation in sorted(ends, key=lambda end: end[1]):
+            draft.join(position, orientation)
         return draft
 
     def add_node(self, kind: int, value: tuple[float, ...]) -> int:
@@ -143,7 +144,12 @@ class Draft(Lookup):
         released: Iterable[int] = (),
         shape: Shape | None = None,
     ) -> int:
-        """Add an element and return its number; `released` are part of what it is."""
+        """Add an element and return its number; `released` are part of what it is.
+
+        Raises:
+            ModelError: both ends are one point, or at one place.
+        """
+        self.require_two_ends(slots)
         index = len(self.kinds)
         classes = _classes(kind.deformations, tuple(released))
         number = self.append_element(kind.number, slots, vector, classes)
@@ -152,6 +158,30 @@ class Draft(Lookup):
         if shape is not None:
             self.appearance.give([index], {"shape": shape})
         return number
+
+    def require_two_ends(self, slots: tuple[int, int, int, int]) -> None:
+        """Raise unless an element between these nodes has two ends, at two places.
+
+        Raises:
+            ModelError: it has not.
+        """
+        p, op, q, oq = slots
+        if p and p == q:
+            raise model_error(
+                "same-node",
+                f"both ends are {self.node_words(p)}",
+                "give two points; two that turn apart at one place are joined by a hinge",
+            )
+        if op and op == oq:
+            raise model_error(
+                "same-node", f"both ends turn with node {op}", "give two points, or leave out q"
+            )
+        if p and q and self.node_value[p] == self.node_value[q]:
+            raise model_error(
+                "zero-length",
+                f"its ends, {self.node_words(p)} and {self.node_words(q)}, are at one place",
+                "give the two points different places",
+            )
 
     def append_element(
         self, kind: int, slots: tuple[int, int, int, int], vector: Vector, classes: tuple[int, ...]
@@ -269,7 +299,7 @@ class Draft(Lookup):
             names,
             node_names,
             found=self._wrong(in_vain),
-            besides=tuple(self._left_over(in_use)),
+            besides=(*self._left_over(in_use), *self._same_names()),
             given_appearance=self.appearance.freeze(len(self.kinds)),
             properties=self.properties.freeze(len(self.kinds), numbers),
             loads=self.loads.freeze(numbers),
@@ -285,7 +315,7 @@ class Draft(Lookup):
         """Kinds, slots and classes, with the kind of every rigid element decided.
 
         A rigid element is an RBEAM unless somebody needs the orientation of its
-        far end, or one of its deformations was given a class.
+        far end, which may have been given a class, as one of its deformations may.
         """
         kinds = np.array(self.kinds, np.int32)
         slots = np.array(self.slots, np.int64).reshape(-1, 4).astype(np.int32)
@@ -295,7 +325,8 @@ class Draft(Lookup):
         rigid = np.zeros(kinds.size, bool)
         rigid[list(self.rigid)] = True
         needed = set(slots[~rigid][:, (1, 3)].ravel().tolist())
-        needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.named))
+        # One that is fixed or declared holds or drives the body, also where its whole point is.
+        needed.update(slots[rigid, 1].tolist(), (number for number, _ in self.coordinate_class))
         needed.update(self.loads.nodes)
         # Two links that end at one point carry it both, so that they are one body.
         far, times = np.unique(slots[rigid, 3], return_counts=True)
@@ -343,6 +374,29 @@ class Draft(Lookup):
                 f"{self._listed(loads)} is given a load, but no element uses it",
                 "give it to a node that an element uses",
             )
+
+    def _same_names(self) -> Iterator[Diagnostic]:
+        """Warnings about parts and points that share a name, which then stands for none of them.
+
+        Names in a deck are comments of its lines, which may be alike.
+        """
+        old = self.elements_given
+        points = {} if old else self.points_by_name
+        parts = {name: found for name, found in self.parts_by_name.items() if found[-1] >= old}
+        shared = {
+            "parts": [name for name, found in parts.items() if self.shares(found)],
+            "points": [name for name, found in points.items() if len(found) > 1],
+        }
+        for what, names in shared.items():
+            if names:
+                told = ", ".join(map(in_short, names[:_MOST_LISTED]))
+                more = len(names) - _MOST_LISTED
+                yield Diagnostic(
+                    Severity.WARNING,
+                    "same-name",
+                    f"several {what} are named {told}{f' and {more} more' if more > 0 else ''}",
+                    help="give each a name of its own: by a name that several have none is found",
+                )
 
     def _listed(self, numbers: Sequence[int]) -> str:
         """Nodes by name, or by number where they have none; of many the first."""

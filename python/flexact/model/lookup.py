@@ -10,6 +10,7 @@ from ..base.plain_text import in_short
 from ..core.elements import is_position
 from ..diagnostics.errors import model_error
 from .names import part_name
+from .places import ROUNDING, Places, size_of
 
 if TYPE_CHECKING:
     from .rigid_components import RigidComponents
@@ -39,15 +40,30 @@ class Lookup:
         self._of_part: dict[str, list[int]] | None = None
         self._of_name: dict[str, list[int]] | None = None
         self._of_place: dict[tuple[float, ...], list[int]] | None = None
+        self._size: float | None = None
+        self._places: tuple[float, Places] | None = None
 
     def nodes_at(self, value: tuple[float, ...]) -> list[int]:
-        """Numbers of the position nodes at exactly this place, in the order they were made."""
+        """Numbers of the position nodes at a place, in the order they were made.
+
+        Where there are none at exactly this place, those within 1e-9 of the model's size.
+        """
         if self._of_place is None:
             self._of_place = {}
             for number, kind in self.node_kind.items():
                 if is_position(kind):
                     self._of_place.setdefault(self.node_value[number], []).append(number)
-        return self._of_place.get(value, [])
+        return self._of_place.get(value) or self._near(value)
+
+    def _near(self, value: tuple[float, ...]) -> list[int]:
+        """The same within rounding; the table is made anew when the model has doubled."""
+        if self._size is None:
+            self._size = size_of(self)
+        if not self._size:
+            return []
+        if self._places is None or self._size > 2.0 * self._places[0]:
+            self._places = self._size, Places(self, ROUNDING * self._size)
+        return self._places[1].near(value[:3], ROUNDING * self._size)
 
     def part_indices(self, name: str) -> list[int]:
         """Indices of the elements of the parts with this name, in the order they were made."""
@@ -70,6 +86,16 @@ class Lookup:
             for number, name in self.node_names.items():
                 self._of_name.setdefault(name, []).append(number)
         return self._of_name
+
+    def shares(self, indices: list[int]) -> bool:
+        """Whether elements of one part's name are those of several parts.
+
+        Those of one part are numbered behind its name, or there is a single one.
+        """
+        if len(indices) < 2:
+            return False
+        own = {self.names[index] for index in indices}
+        return len(own) < len(indices) or any(name == part_name(name) for name in own)
 
     def name_node(self, number: int, name: str) -> None:
         """Name a node, or with an empty name take its name away."""
@@ -105,6 +131,7 @@ class Lookup:
     def changed_names_or_places(self) -> None:
         """Forget what was found by names, numbers and places; it is found anew when asked for."""
         self._index_of = self._of_part = self._of_name = self._of_place = None
+        self._size = self._places = None
         self.components = None
 
     def index_of(self, number: int) -> int:
@@ -132,8 +159,14 @@ class Lookup:
 
     def _added_node(self, number: int) -> None:
         """Take a new node into the tables that there are."""
-        if self._of_place is not None and is_position(self.node_kind[number]):
+        if not is_position(self.node_kind[number]):
+            return
+        if self._of_place is not None:
             self._of_place.setdefault(self.node_value[number], []).append(number)
+        if self._size is not None:
+            self._size = max(self._size, *map(abs, self.node_value[number][:3]))
+        if self._places is not None:
+            self._places[1].add(number)
 
     def _added_element(self, index: int) -> None:
         """Take a new element into the tables that there are."""

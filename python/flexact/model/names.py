@@ -31,6 +31,12 @@ def part_name(element_name: str) -> str:
     return found[1] if found else _TAIL.sub("", element_name)
 
 
+def own_number(element_name: str) -> int:
+    """The number of an element in its part, 2 of "stage, 2"; 0 where it has none."""
+    found = re.search(r"\d+", element_name[len(part_name(element_name)) :])
+    return int(found[0]) if found else 0
+
+
 def renamed(element_name: str, part: str) -> str:
     """The name of an element after its part was named anew."""
     return part + element_name[len(part_name(element_name)) :]

@@ -12,7 +12,7 @@ from .arguments import whole
 from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import ambiguous, unknown
-from .point_arguments import is_rigid, require_own, whole_point
+from .point_arguments import in_order, is_rigid, require_own, whole_point
 from .words import SIDE_VIEW, WIDE_Y, WIDE_Z, Planes
 
 #: A part: its handle, its name, or the number of an element.
@@ -67,20 +67,21 @@ def named(draft: Draft, name: str) -> Part | Element:
                 "name a part",
             )
         raise unknown("no-such-part", "part", name, draft.parts_by_name)
-    exact = [i for i in indices if draft.names[i] == name]
-    if len(exact) > 1 or (exact and len(indices) > 1):
-        raise ambiguous("part", name)
     made = of_indices(draft, indices)
-    if isinstance(made, Element) and len(indices) > 1:
+    if draft.shares(indices) or (isinstance(made, Element) and len(indices) > 1):
         raise ambiguous("part", name)
     return made
 
 
 def of_indices(draft: Draft, indices: list[int]) -> Part | Element:
     """The part that these elements are; the first of them alone where they are none."""
+    # A single link of which something is released is the flexure that it looks like.
+    are_links = len(indices) > 1 and all(i in draft.rigid for i in indices)
+    is_body = are_links or all(is_rigid(draft, i) for i in indices)
+    indices = in_order(draft, indices) if is_body else indices
     elements = tuple(Element(draft.numbers[i], draft.owner) for i in indices)
     first = draft.slots[indices[0]]
-    if all(i in draft.rigid or is_rigid(draft, i) for i in indices):
+    if is_body:
         return Body(elements, _points(draft, indices))
     if int(member_table()[draft.kinds[indices[0]]]) == Member.HINGE:
         at = draft.position_of.get(first[1], 0)

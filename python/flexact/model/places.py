@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from ..core.elements import is_position
-from .draft import Draft, Vector
+
+if TYPE_CHECKING:
+    from .lookup import Lookup
 
 #: Of the size of a model: points nearer than this are at one place.
 ROUNDING = 1.0e-9
@@ -16,7 +19,7 @@ ROUNDING = 1.0e-9
 class Places:
     """Position nodes of a draft by their places, within a tolerance [m]."""
 
-    def __init__(self, draft: Draft, tolerance: float) -> None:
+    def __init__(self, draft: Lookup, tolerance: float) -> None:
         """Of all position nodes that there are now."""
         self._draft = draft
         self._tolerance = tolerance
@@ -33,20 +36,26 @@ class Places:
         size = 4.0 * self._tolerance or 1.0
         return tuple(round(x / size) for x in itertools.islice(place, 3))
 
-    def near(self, place: Vector) -> list[int]:
-        """Numbers of the nodes at a place, in the order they were made."""
+    def near(self, place: Sequence[float], tolerance: float | None = None) -> list[int]:
+        """Numbers of the nodes at a place, in the order they were made.
+
+        Args:
+            place: (x, y, z) [m].
+            tolerance: At most twice that of all [m]; by default that.
+        """
+        within = self._tolerance if tolerance is None else tolerance
         cell = self._cell(place)
         found = []
         for offset in itertools.product((-1, 0, 1), repeat=3):
             key = tuple(a + b for a, b in zip(cell, offset, strict=True))
             for number in self._cells.get(key, []):
                 value = self._draft.node_value[number]
-                if all(abs(value[k] - place[k]) <= self._tolerance for k in range(3)):
+                if all(abs(value[k] - place[k]) <= within for k in range(3)):
                     found.append(number)
         return sorted(found)
 
 
-def size_of(draft: Draft) -> float:
+def size_of(draft: Lookup) -> float:
     """The largest coordinate of a draft [m]."""
     return max(
         (

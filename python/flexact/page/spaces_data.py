@@ -44,7 +44,7 @@ def spaces_data(analysis: Result, frame: Frame, spaces: Spaces | None) -> list[d
         words += dashed_in_words(len(wires))
         made.append(
             {
-                "label": harmless(f"{label} space of {body_words(spaces)}"),
+                "label": harmless(f"{label} space of {body_words(analysis, spaces)}"),
                 "title": f"{words}.",
                 "freedom": is_freedom,
                 **_drawn(shape, frame),

@@ -73,7 +73,7 @@ def spaces_shown(
         wires = np.zeros((0, 2, 3)) if is_freedom else spaces.new_wires
         words = plain(line.head) + "; ".join(map(plain, line.items))
         words += dashed_in_words(len(wires))
-        yield f"{which} space of {body_words(spaces)}", SpaceShown(shape, words, wires)
+        yield f"{which} space of {body_words(result, spaces)}", SpaceShown(shape, words, wires)
 
 
 def add_space(canvas: Canvas, drawing: Drawing, shown: SpaceShown) -> None:

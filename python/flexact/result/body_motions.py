@@ -140,6 +140,17 @@ class Moving(Frozen):
         return not self.bodies and bool(self.internal_to)
 
     @cached_property
+    def ends(self) -> tuple[BodyMotion, ...]:
+        """Of a motion in which nothing moves but ends of flexures, how each of them turns."""
+        carriers = self.outcome.carriers
+        own = {node for node, _ in carriers.own_ends}
+        moving = np.flatnonzero(self._size > self._rest).tolist()
+        if not own.issuperset(moving):
+            return ()
+        joints = [carriers.joint(self.outcome.parts.place_of(node), node) for node in moving]
+        return tuple(BodyMotion((), (joint,), self._of_joint(joint)) for joint in joints)
+
+    @cached_property
     def internal_to(self) -> tuple[Part, ...]:
         """The sheets and wires inside of which something moves, by name."""
         return tuple(
@@ -351,6 +362,11 @@ class Moves:
     def is_internal(self) -> bool:
         """Whether nothing moves but what is inside of sheets and wires."""
         return self._moving.is_internal
+
+    @property
+    def ends(self) -> tuple[BodyMotion, ...]:
+        """Of a motion in which nothing moves but ends of flexures, how each of them turns."""
+        return self._moving.ends
 
     @property
     def internal_to(self) -> tuple[Part, ...]:

@@ -30,6 +30,11 @@ class Joint(NamedTuple):
     """Its name in the model; empty without one."""
 
     @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and where many parts meet many results hold it."""
+        return True
+
+    @property
     def is_fold(self) -> bool:
         """Whether two sheets or wires meet there, and nothing else.
 
@@ -102,12 +107,12 @@ class Carriers:
             if place is not None and node not in taken:
                 with_orientation.add(place)
             if node not in taken:
-                made.append(self._joint(place, node))
+                made.append(self.joint(place, node))
         carried = {node for body in self.parts.bodies for node in body.positions}
         known = taken | carried | with_orientation
         for node in range(arrays.node_number.size):
             if arrays.node_kind[node] <= NodeKind.POSITION and node not in known:
-                made.append(self._joint(node, None))
+                made.append(self.joint(node, None))
         return tuple(sorted(made, key=self._key))
 
     @cached_property
@@ -117,13 +122,13 @@ class Carriers:
         for chain in self.data.chains:
             part = self.parts.of_element(chain.elements[0])
             made.setdefault(part, []).extend((*chain.positions[1:-1], *chain.orientations[1:-1]))
-        for node, part in self._own_ends:
+        for node, part in self.own_ends:
             made.setdefault(part, []).append(node)
         found = (Inside(part, tuple(sorted(set(nodes)))) for part, nodes in made.items())
         return tuple(sorted(found, key=lambda inside: (natural(inside.part.name), inside.nodes)))
 
     @cached_property
-    def _own_ends(self) -> list[tuple[int, Part]]:
+    def own_ends(self) -> list[tuple[int, Part]]:
         """Orientations that one part alone has, where other parts or a support hold its place."""
         slots = self.data.arrays.element_node - 1
         users: dict[int, set[int]] = {}
@@ -151,7 +156,8 @@ class Carriers:
         value: FloatArray = self.data.arrays.node_value[:3, position]
         return value
 
-    def _joint(self, position: int | None, orientation: int | None) -> Joint:
+    def joint(self, position: int | None, orientation: int | None) -> Joint:
+        """What is at a position node and turns with an orientation node."""
         here = () if position is None else self.parts.at(position)
         name = "" if position is None else self.parts.name_of_point(position)
         return Joint(position, orientation, here, name)

@@ -3,10 +3,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
 from ..base.plain_text import in_short
+from ..core.arrays import FloatArray, IntArray
 from ..core.elements import NodeKind
 from ..diagnostics.errors import model_error
-from ..model.parts.parts import Part, Parts
+from ..model.parts.parts import Part, PartKind, Parts
+
+#: Part of the size of the model within which a place is that of a point.
+_SAME = 1.0e-9
 
 
 def part_of(parts: Parts, target: object) -> Part:
@@ -65,25 +73,31 @@ def position_of(parts: Parts, target: object) -> int:
 
     Args:
         parts: Those of the model.
-        target: Its name, the number of its position node, or a handle with `position`, or
-            with `nodes`, of which the first is meant.
+        target: Its name, or that of a body, of which its first point is meant; the number of its
+            position node; where it is, (x, y, z) [m]; or a handle with `position`, or with
+            `nodes`, of which the first is meant.
 
     Raises:
         ModelError: there is none, or there are several.
         TypeError: it is nothing of that.
     """
     data = parts.data
-    if isinstance(target, str):
-        positions = [
-            node
-            for node, kind in enumerate(data.arrays.node_kind.tolist())
-            if kind <= NodeKind.POSITION and parts.name_of_point(node) == target
-        ]
-        if len(positions) != 1:
-            how = "no point is" if not positions else f"{len(positions)} points are"
-            raise model_error("no-such-point", f"{how} called {in_short(target)}")
-        return positions[0]
+    there = np.flatnonzero(data.arrays.node_kind <= NodeKind.POSITION).astype(np.int32)
     nodes = getattr(target, "nodes", None)
+    is_place = isinstance(target, (list, tuple, np.ndarray)) and not hasattr(target, "position")
+    if isinstance(target, str):
+        found = [node for node in there.tolist() if parts.name_of_point(node) == target]
+        bodies = [part for part in parts.all if part.kind is PartKind.BODY and part.name == target]
+        if not found and len(bodies) == 1:
+            return int(data.arrays.element_node[0, bodies[0].elements[0]]) - 1
+        how = "called"
+    elif is_place and nodes is None:
+        found, how = _at_place(data.arrays.node_value[:3, there], there, target), "at"
+    if isinstance(target, str) or (is_place and nodes is None):
+        if len(found) != 1:
+            many = "no point is" if not found else f"{len(found)} points are"
+            raise model_error("no-such-point", f"{many} {how} {in_short(target)}")
+        return found[0]
     number = getattr(nodes[0] if nodes else target, "position", target)
     if not isinstance(number, int) or isinstance(number, bool):
         raise TypeError(
@@ -94,3 +108,17 @@ def position_of(parts: Parts, target: object) -> int:
     if index is None or data.arrays.node_kind[index] > NodeKind.POSITION:
         raise model_error("no-such-node", f"no element uses a position node {number}")
     return index
+
+
+def _at_place(places: FloatArray, nodes: IntArray, given: Any) -> list[int]:
+    """Those of nodes (n,) at places (3, n) that are where it is given, within `_SAME`."""
+    try:
+        numbers = np.asarray(given, np.float64)
+    except (TypeError, ValueError):
+        numbers = np.zeros(0)
+    if numbers.shape not in ((2,), (3,)) or not np.isfinite(numbers).all():
+        raise TypeError(f"a place has two or three finite coordinates [m], not {in_short(given)}")
+    far = np.abs(places - np.append(numbers, np.zeros(3 - numbers.size))[:, None]).max(axis=0)
+    size = float(np.ptp(places, axis=1).max(initial=0.0)) if places.size else 0.0
+    found: list[int] = nodes[far <= _SAME * size].tolist()
+    return found

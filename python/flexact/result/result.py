@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, TypeVar
 
 from ..base.loading import load
 from ..base.plain_text import in_short
+from ..core.elements import Class
 from ..core.progress import Progress
 from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
 from ..model.parts.declaring import declared
+from ..model.variation import with_classes
 from .certainty import Assessment, assess
 from .decompose import decompose
+from .folds import turning_folds
 from .freedoms import Freedom, freedoms_of
 from .margin import least, margins
 from .modes import Modes, Motion, SelfStress
@@ -98,6 +101,29 @@ class Result(Spaces):
         if whole is self.given:
             return None
         return result_of(whole, self.asked, self.name)
+
+    @cached_property
+    def folds(self) -> tuple[tuple[int, int], ...]:
+        """What declares the folds that turn about themselves (`flexact.result.folds`).
+
+        None where that would change more than that they are declared.
+        """
+        folds = turning_folds(self)
+        then = self._with_declared(folds) if folds else None
+        if then is None or then.over_constrained != self.over_constrained:
+            return ()
+        return folds if then.under_constrained == self.under_constrained - len(folds) else ()
+
+    @cached_property
+    def with_folds_declared(self) -> Result | None:
+        """The result with these folds declared; None where there is none."""
+        return self._with_declared(self.folds) if self.folds else None
+
+    def _with_declared(self, deformations: tuple[tuple[int, int], ...]) -> Result:
+        numbers = self.given.arrays.element_number
+        places = (self.condensed.in_given(*place) for place in deformations)
+        classes = {(int(numbers[at]), own): Class.INDEPENDENT for at, own in places}
+        return result_of(with_classes(self.given, classes, {}), self.asked, self.name)
 
     @cached_property
     def evidence(self) -> Evidence:

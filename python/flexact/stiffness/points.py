@@ -70,11 +70,11 @@ class Points:
         return partner
 
     def node(self, given: object) -> int:
-        """Index of a node by its number, the name of its point, or what a model handed out.
+        """Index of a node by its number, name or place, the name of a body, or a handle.
 
         Raises:
             UnknownError: there is none with this number.
-            ModelError: no point, or several, have this name.
+            ModelError: no point, or several, have this name or are there.
             TypeError: it is nothing of that.
         """
         if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
@@ -157,16 +157,37 @@ class Points:
         node, axis = coordinate
         return bool(self.data.arrays.coordinate_class[axis, node] == wanted)
 
-    def element(self, given: object) -> int:
-        """Index of an element by its number, or by the handle of an element.
+    def elements(self, given: object) -> tuple[int, ...]:
+        """Indices of the elements of a part by its name, else of one as by `element`.
 
         Raises:
-            UnknownError: there is none.
-            TypeError: it is neither.
+            ModelError: no part, or several, have this name.
+            UnknownError: there is no such element.
+            TypeError: it is nothing of that.
         """
+        if isinstance(given, str):
+            return self.parts.named(given).elements
+        return (self.element(given),)
+
+    def element(self, given: object) -> int:
+        """Index of an element by its number, by the name of its part, or by its handle.
+
+        Raises:
+            ModelError: no part, or several, have this name.
+            UnknownError: there is none, or the part has several.
+            TypeError: it is nothing of that.
+        """
+        if isinstance(given, str):
+            several = self.elements(given)
+            if len(several) > 1:
+                numbers = self.data.arrays.element_number[list(several)]
+                raise UnknownError(
+                    f"{in_short(given)} has {len(several)} elements: name one of {_listed(numbers)}"
+                )
+            return several[0]
         number = getattr(given, "number", given)
         if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
-            raise TypeError(f"an element is given by its number, not by {in_short(given)}")
+            raise TypeError(f"an element is given by its number or name, not by {in_short(given)}")
         index = self.data.element_index.get(int(number))
         if index is None:
             raise UnknownError(

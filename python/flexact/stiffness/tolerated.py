@@ -82,7 +82,7 @@ class Tolerated(Setting):
         about: object,
         of: Callable[[Linear], Pair],
     ) -> Pair:
-        off = misalignment(self.points, node, coordinate, 1.0, about)
+        off = misalignment(self.points, node, coordinate, 1.0, about, beyond=True)
         self.require_stiffness()
         self.require_determined()
         what = self.points.coordinate(node, coordinate), about

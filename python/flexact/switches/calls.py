@@ -8,17 +8,13 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..core.elements import Class, Role, coordinate_name
-from ..diagnostics.errors import ModelError
 from ..model.data import ModelData
-from ..model.model import Model
 from ..model.words import AT_P
-from ..text.calls import Call, coordinate_call, deformation_call, named_part
+from ..text.calls import MOST_TRIED, Call, coordinate_call, deformation_call, made, named_part
 from ..text.deformation import part_of, role_of
 from .board import Board, Edits
 from .places import CoordinatePlace, DeformationPlace, Edit
 
-#: Elements up to which calls in words are tried before they are shown.
-_MOST_TRIED = 3_000
 _BENDINGS = {
     **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), "bending about y"),
     **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q), "bending about z"),
@@ -45,27 +41,18 @@ class Calls:
 
     def _calls(self, edits: Edits) -> Sequence[Call]:
         given, wanted = self.board.model(edits[:-1]), self.board.model(edits)
-        if given.arrays.element_number.size <= _MOST_TRIED:
+        if given.arrays.element_number.size <= MOST_TRIED:
             for calls in _in_words(self.board, edits[-1]):
-                if _gives(given, calls, wanted):
+                if _same(made(given, calls), wanted):
                     return calls
         return list(_by_numbers(given, wanted))
 
 
-def _gives(given: ModelData, calls: Sequence[Call], wanted: ModelData) -> bool:
-    model = Model.from_data(given)
-    try:
-        for call in calls:
-            at = {} if call.at is None else {"at": call.at}
-            getattr(model, call.method)(*call.arguments, **at)
-    except ModelError:
-        return False
-    return _same(model.data, wanted)
-
-
-def _same(a: ModelData, b: ModelData) -> bool:
-    return np.array_equal(a.arrays.deformation_class, b.arrays.deformation_class) and (
-        np.array_equal(a.arrays.coordinate_class, b.arrays.coordinate_class)
+def _same(a: ModelData | None, b: ModelData) -> bool:
+    return (
+        a is not None
+        and np.array_equal(a.arrays.deformation_class, b.arrays.deformation_class)
+        and np.array_equal(a.arrays.coordinate_class, b.arrays.coordinate_class)
     )
 
 
@@ -97,7 +84,9 @@ def _worded(board: Board, place: DeformationPlace, method: str) -> Call | None:
         return call
     word = _BENDINGS.get(Role(_role(board, place)))
     index = outcome.data.element_index[place.element]
-    part = named_part(part_of(outcome, index), place.element)
+    part = named_part(
+        outcome.parts, part_of(outcome, index), int(outcome.condensed.elements[index])
+    )
     at = "p" if _role(board, place) in AT_P else "q"
     return None if word is None else Call(method, (part, word), at)
 

@@ -54,7 +54,9 @@ def proposals(board: Board, now: Result) -> tuple[Proposals, ...]:
 
 
 def _proposals(board: Board, now: Result, way: Way) -> Proposals:
-    together = way.step in (*(Step.DECLARE_INTERNAL, Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL),)
+    together = way.step in (
+        *(Step.DECLARE_INTERNAL, Step.DECLARE_FOLDS, Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL),
+    )
     if together:
         items = _together(board, way)
     else:
@@ -73,6 +75,7 @@ def _head(now: Result, step: Step) -> str:
     stress = "the self-stress" if stresses == 1 else "one self-stress"
     return {
         Step.DECLARE_INTERNAL: "To count each divided sheet or wire as one beam",
+        Step.DECLARE_FOLDS: "To declare the folds of folded sheets",
         Step.DECLARE_OR_HOLD: f"To settle {motion}, declare it or stop it",
         Step.DECLARE_OR_HOLD_RELEASED: f"To settle {motion} by a deformation",
         Step.DECLARE_OR_HOLD_ALL: "To settle all motions at once",
@@ -107,6 +110,7 @@ def _together(board: Board, way: Way) -> dict[str, Proposal]:
         words = listed(list(dict.fromkeys(place_in_words(board, place) for place in places)))
     verbs = {
         Step.DECLARE_INTERNAL: [("declare", Class.INDEPENDENT)],
+        Step.DECLARE_FOLDS: [("declare", Class.INDEPENDENT)],
         Step.DECLARE_OR_HOLD_ALL: [("declare", Class.INDEPENDENT), ("fix", Class.FIXED)],
         Step.RELEASE_ALL: [("release", Class.DEPENDENT)],
     }

@@ -298,7 +298,7 @@ class Session:
             return {"lines": [], "calls": [], "copy": "", "note": ""}
         if self.board.given.source is None:
             assert self._calls is not None
-            calls = [call.in_words(self.model_name, exact=True) for call in self._calls.of(edits)]
+            calls = [call.in_words(self.model_name) for call in self._calls.of(edits)]
             return {"lines": [], "calls": calls, "copy": "\n".join(calls), "note": ""}
         deck = self.deck()
         note = ""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from ..core.elements import NodeKind, keywords_of
 from ..model.parts.parts import Part, PartKind
 from ..text.deformation import bending_of, deformation_words
-from ..text.places import end_words, node_words, part_words, point_words, with_article
+from ..text.places import end_words, node_words, part_words, point_words, stands_for, with_article
 from .board import Board
 from .places import CoordinatePlace, DeformationPlace, Edit, Place, state_word
 
@@ -77,6 +77,8 @@ def elements_words(board: Board, part: Part) -> str:
 def node_title(board: Board, index: int) -> str:
     """What a node is called: a point of a body by its part, a turn by what turns."""
     if board.given.arrays.node_kind[index] <= NodeKind.POSITION:
-        name = board.parts.name_of_point(index)
-        return with_article(name) if name else end_words(board.parts, index)
+        name, body = board.parts.name_of_point(index), board.parts.body_at.get(index)
+        if name and (body is None or not stands_for(board.parts, index, body)):
+            return with_article(name)
+        return node_words(board.parts, index) if name else end_words(board.parts, index)
     return node_words(board.parts, index)

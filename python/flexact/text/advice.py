@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..advice.ways import Part, Step, Way, on_motions, on_self_stresses
+from ..advice.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 from ..result.result import Result
-from .calls import call_in_words
+from .calls import calls_of
 from .naming import counts_in_words, in_words, part_in_words
 from .places import listed, part_words
 from .sentences import Line, Pieces, plain, sentence
@@ -26,6 +26,8 @@ def lines_on_motions(result: Result) -> tuple[Line, ...]:
         internal = next(iter(advice), None)
         rest = lines_on_motions(whole)
         return rest if internal is None else (*_lines_on_internal(result, whole, internal), *rest)
+    if result.with_folds_declared is not None:
+        return tuple(_lines_on_folds(result, result.with_folds_declared))
     count = result.under_constrained
     heads = {
         Step.DECLARE_OR_HOLD: "To remove one motion, declare or hold one of: "
@@ -57,6 +59,15 @@ def _lines_on_internal(result: Result, whole: Result, advice: Way) -> Iterator[L
     yield Line(("To declare what is inside, instead of RLSE: ",), statements, (), advice.more)
 
 
+def _lines_on_folds(result: Result, whole: Result) -> Iterator[Line]:
+    """What declares the folds that turn, and what is to be done then."""
+    counts = counts_in_words(whole.under_constrained, whole.over_constrained)
+    yield _line(result, "To declare the folds: ", next(iter(on_motions(result))))
+    them = "it" if len(result.folds) == 1 else "them"
+    yield sentence(f"With {them} declared the mechanism is {counts}.")
+    yield from lines_on_motions(whole)
+
+
 def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
     """What may be released, freed or taken away so that there are fewer self-stresses."""
     is_hidden = not result.over_constrained
@@ -82,6 +93,7 @@ def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
 
 def _line(result: Result, head: str, advice: Way) -> Line:
     most = {
+        Step.DECLARE_FOLDS: len(advice.parts),
         Step.FREE_SUPPORT: _SUPPORTS,
         Step.DECLARE_OR_HOLD_ALL: len(advice.parts),
         Step.RELEASE_ALL: len(advice.parts),
@@ -90,18 +102,21 @@ def _line(result: Result, head: str, advice: Way) -> Line:
     for part in advice.parts:
         # Several nodes of one body are one place to a designer.
         words = part_in_words(result, part)
-        items.setdefault(plain(words), (words, _note(result, advice, part, first=not items)))
+        is_told = not items or advice.step is Step.DECLARE_FOLDS
+        items.setdefault(plain(words), (words, _note(result, advice, part, first=is_told)))
     pieces, notes = zip(*items.values(), strict=True)
     return Line((head,), pieces, notes, advice.more).shortened(most)
 
 
 def _note(result: Result, advice: Way, part: Part, first: bool) -> str:
     """How it is done with a part: in a deck by a statement, in Python by a call."""
+    if result.given.source is None:
+        calls = calls_of(result, advice, part) if first else ()
+        return f"({', '.join(calls)})" if calls else ""
     if not advice.keywords:
         return ""
-    if result.given.source is None:
-        call = call_in_words(result, advice, part) if first else ""
-        return f"({call})" if call else ""
+    if isinstance(part, Coordinate) and advice.step is Step.UNDECLARE:
+        return f"(without DYNX {part.operands})"
     statements = [f"{keyword} {part.operands}" for keyword in advice.keywords]
     if len(statements) == 1:
         return f"({statements[0]}{' instead' * advice.instead})"

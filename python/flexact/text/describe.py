@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import NamedTuple
@@ -22,6 +23,10 @@ from .warnings import warnings_of
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
 MOST_MODES = 12
 _PARTS = 6
+
+
+#: What services take for a command: two colons that begin a line, and ##[ anywhere.
+_COMMAND = re.compile(r"(?m)(^\s*:|#)(:|#\[)")
 
 
 class _Table(NamedTuple):
@@ -56,7 +61,9 @@ def describe(
         _notes(result, about_model),
     )
     blocks = ([_shown(told, width) for told in section] for section in sections)
-    return "\n\n".join("\n".join(block) for block in blocks if block)
+    text = "\n\n".join("\n".join(block) for block in blocks if block)
+    # In the log of a service that runs tests these would be commands, of whoever names a part.
+    return _COMMAND.sub(lambda found: f"{found[1]} {found[2]}", text)
 
 
 def _shown(told: _Told, width: int) -> str:
@@ -86,12 +93,26 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         if under == 1:
             declared = " is held by nothing and is not declared as a degree of freedom"
         reasons.append(f"{in_words(under)} motion{declared}")
+        reasons += _of_folds(under, len(result.folds))
     if over:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
     start = verdict_in_short(result)
     return VerdictInWords(f"{start[:1].upper()}{start[1:]}", f"{'; '.join(reasons) or none}.")
+
+
+def _of_folds(under: int, folds: int) -> list[str]:
+    """Which of the motions are folds that turn."""
+    if not folds:
+        return []
+    them, are = (
+        ("it", "is the fold of a folded sheet")
+        if folds == 1
+        else ("them", "are folds of folded sheets")
+    )
+    which = f"{in_words(folds)} of them" if folds < under else "they" if folds > 1 else "it"
+    return [f"{which} {are}: declare {them}"]
 
 
 def _verdict(result: Result) -> Iterator[Line]:
@@ -116,7 +137,7 @@ def _counts(result: Result) -> Iterator[_Told]:
 def _motions(result: Result, most: int | None) -> Iterator[Line]:
     told = result.motions[:most]
     internal = internal_in_words(result)
-    if internal:
+    if internal and result.with_internal_declared is not None:
         told = tuple(motion for motion in told if not motion.is_internal)
     modes = (Line((), motion_in_parts(motion, _PARTS)) for motion in told)
     kind = _Kind("motion", "s", "kinematically")

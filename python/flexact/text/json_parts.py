@@ -20,7 +20,7 @@ from ..result.failing import AnalysisError
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from ..result.verdict import Margin
-from .calls import call_in_words
+from .calls import calls_of
 from .deformation import deformation_word
 from .naming import freedom_in_words, node_name, part_in_words, unit_of_coordinate
 from .sentences import plain
@@ -30,7 +30,7 @@ from .sentences import plain
 _MOST_FREEDOMS, _MOST_ELEMENTS = 64, 10_000
 #: Components of the motion of a degree of freedom.
 _PARTS = 6
-_ALL = (Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL)
+_ALL = (Step.DECLARE_FOLDS, Step.DECLARE_OR_HOLD_ALL, Step.RELEASE_ALL)
 
 Entries = dict[str, Any]
 
@@ -133,7 +133,9 @@ def _one_advice(result: Result, about: str, item: Way) -> Entries:
         ],
         "more": item.more,
         "statements": [
-            {"keyword": keyword, "operands": item.parts[0].operands} for keyword in item.keywords
+            {"keyword": keyword, "operands": item.parts[0].operands}
+            for keyword in item.keywords
+            if not (item.step is Step.UNDECLARE and isinstance(item.parts[0], Coordinate))
         ],
         "calls": _calls(result, item),
         "instead": item.instead,
@@ -142,10 +144,7 @@ def _one_advice(result: Result, about: str, item: Way) -> Entries:
 
 def _calls(result: Result, item: Way) -> list[str]:
     """What does it with the first part of a model that was made in Python."""
-    if result.given.source is not None or not item.keywords:
-        return []
-    call = call_in_words(result, item, item.parts[0])
-    return [call] if call else []
+    return [] if result.given.source is not None else [*calls_of(result, item, item.parts[0])]
 
 
 def _part(result: Result, part: Part) -> Entries:

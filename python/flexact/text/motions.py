@@ -15,7 +15,7 @@ from ..result.outcome import Outcome
 from ..result.result import Result
 from ..result.screws import Screw, ScrewKind
 from .naming import coordinate_in_words, named_element, named_node, unit_of_coordinate
-from .places import direction_words, listed, part_words
+from .places import direction_words, joint_node, listed, part_words
 from .sentences import Pieces
 
 #: How many names stand in a row.
@@ -38,7 +38,7 @@ def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
             )
             for node, name, value in motion.largest(most + 1)
         )
-    if motion.is_internal:
+    if motion.is_internal and not motion.ends:
         return (("inside ", *parts_in_words(outcome, motion.internal_to)),)
     groups = largest_first(motion)
     alone = len(groups) == 1
@@ -46,10 +46,11 @@ def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
 
 
 def largest_first(motion: Motion) -> list[BodyMotion]:
-    """Bodies that move as one, the largest motion first, then joints."""
+    """Bodies that move as one, the largest motion first, then joints, or ends inside of parts."""
     length = motion.analysis.characteristic_length
     return sorted(
-        motion.bodies, key=lambda one: (one.is_joint, -round(_size(one.screw, length), 9))
+        motion.bodies or motion.ends,
+        key=lambda one: (one.is_joint, -round(_size(one.screw, length), 9)),
     )
 
 
@@ -81,13 +82,8 @@ def group_in_words(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
         names = parts_in_words(outcome, group.bodies)
     else:
         numbers = outcome.given.arrays.node_number
-        nodes = [
-            int(numbers[node])
-            for joint in group.joints
-            if (node := joint.position if joint.position is not None else joint.orientation)
-            is not None
-        ]
-        names = joined([(named_node(outcome, number),) for number in nodes])
+        nodes = [joint_node(outcome.parts, joint) for joint in group.joints]
+        names = joined([(named_node(outcome, int(numbers[node])),) for node in nodes])
     many = len(group.bodies or group.joints) > 1
     together = " together" if many else ""
     return (*names, f" {_verb(outcome, group.screw, many, alone)}{together}")

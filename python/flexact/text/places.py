@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,12 +11,15 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts
+from ..result.carriers import Joint
 from ..result.order import without_sense
 
 #: Names that say themselves what they are.
 _ARTICLES = ("the ", "a ", "an ")
 #: How many parts a sentence names where several meet.
 _MOST_NAMED = 2
+#: What guides and hinges call the points by which they are held.
+_GROUND = re.compile(r"(?:^| )ground \d+$")
 #: An axis is one of x, y, z where its other components are below this.
 _ALONG = 1.0e-6
 
@@ -54,16 +58,72 @@ def others_words(parts: Sequence[Part]) -> str:
 
 def node_words(parts: Parts, node: int) -> str:
     """What a node, by its index, stands for: a point, or the body that it turns with."""
-    if parts.data.arrays.node_kind[node] <= NodeKind.POSITION:
-        return place_words(parts, node)
     body = parts.body_at.get(node)
+    if parts.data.arrays.node_kind[node] <= NodeKind.POSITION:
+        if body is not None and stands_for(parts, node, body):
+            return part_words(parts.of_body(body))
+        return place_words(parts, node)
     if body is not None:
         return part_words(parts.of_body(body))
     place = parts.place_of(node)
+    turning = parts.turning(node)
     if place is not None:
-        return place_words(parts, place)
+        return _end_that_turns(parts, place, node) or place_words(parts, place)
+    if len(turning) > 1 and not parts.is_held(node):
+        return f"the joint of {parts_words(turning)}"
     side = "ground" if parts.is_held(node) else "other side"
-    return f"the {side} of {parts_words(parts.turning(node))}"
+    return f"the {side} of {parts_words(turning)}"
+
+
+def _end_that_turns(parts: Parts, place: int, node: int) -> str:
+    """Ends that turn for themselves, beside a body, a support or others at their place.
+
+    Empty where all that is there turns with this orientation.
+    """
+    if not _turns_alone(parts, place, node):
+        return ""
+    hinges = [part for part in parts.turning(node) if part.kind is PartKind.HINGE]
+    own = [part for part in parts.turning(node) if part.kind is not PartKind.HINGE]
+    what = f"the {'end' if len(own) == 1 else 'joint'} of {parts_words(own)}"
+    if hinges:
+        return f"{what} at {parts_words(hinges)}"
+    if len(own) == 1:
+        return f"{what} at {place_words(parts, place, own[0])}"
+    if place in parts.body_at:
+        return f"{what} at {place_words(parts, place)}"
+    return f"{what} at {point_words(parts, place)} m"
+
+
+def _turns_alone(parts: Parts, place: int, node: int) -> bool:
+    """Whether an orientation is not that of its place: others are there, or a pin holds it."""
+    is_pinned = parts.is_held(place) and not parts.is_held(node)
+    return parts.is_shared(node) or (is_pinned and not parts.name_of_point(place))
+
+
+def joint_node(parts: Parts, joint: Joint) -> int:
+    """The node by which a joint is named: its place, or what turns where others do not."""
+    place, node = joint.position, joint.orientation
+    if node is not None and (place is None or _turns_alone(parts, place, node)):
+        return node
+    assert place is not None
+    return place
+
+
+def joint_words(parts: Parts, joint: Joint) -> str:
+    """A joint that moves: "the joint of sheet 1 and bar 2", "the end of the wire at the notch"."""
+    return node_words(parts, joint_node(parts, joint))
+
+
+def stands_for(parts: Parts, position: int, body: int) -> bool:
+    """Whether what a point on a named body does is told of the body: it is its first point.
+
+    Or it is called the ground of an assembly that the body carries.
+    """
+    is_ground = bool(_GROUND.search(parts.name_of_point(position)))
+    is_first = parts.first_points[body] == position
+    return parts.of_body(body).is_named and (
+        is_first or (is_ground and not parts.is_held(position))
+    )
 
 
 def end_words(parts: Parts, position: int) -> str:
@@ -128,7 +188,7 @@ def _without_name(parts: Parts, position: int, within: Part | None) -> str:
     bodies = [part for part in others if part.kind is PartKind.BODY]
     if bodies:
         return part_words(bodies[0])
-    if not others:
+    if not others or (within is None and len(here) == 1 and position in here[0].ends):
         return "its free end" if within is not None else f"the free end of {parts_words(here)}"
     is_fold = len(here) == 2 and all(part.kind is PartKind.SHEET for part in here)
     kind = "fold" if is_fold else "joint"

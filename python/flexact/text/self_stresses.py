@@ -18,7 +18,7 @@ from ..result.screws import ROUNDING
 from ..result.wrenches import Wrench, WrenchKind
 from .motions import line_words
 from .naming import deformation_in_words, named_element, named_node, unit_of
-from .places import axis_words, listed, part_words, place_words
+from .places import axis_words, joint_node, listed, part_words, place_words
 from .sentences import Pieces
 
 #: What is below this part of a part's largest force or moment is not told.
@@ -101,8 +101,7 @@ def _is_between_parts(conflict: Conflict) -> bool:
 
 def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
     if isinstance(on, Joint):
-        node = on.position if on.position is not None else on.orientation
-        assert node is not None
+        node = joint_node(outcome.parts, on)
         return (named_node(outcome, int(outcome.given.arrays.node_number[node])),)
     number = int(outcome.given.arrays.element_number[on.elements[0]])
     return (named_element(outcome, number),)

@@ -41,10 +41,17 @@ def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
         told = told_of(result)
         judged(Judged(told))
         shown = shown_of(result, told, which, () if script is None else script.files())
-        kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
-        return replace(shown, result=kept, model=model)
+        return replace(shown, result=_kept(result), model=model)
     except Exception as error:
         return _broken(error, job.path, () if script is None else script.files())
+
+
+def _kept(result: Result) -> bytes:
+    """The result for who switches; empty where a script has put into it what cannot be kept."""
+    try:
+        return pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
+    except Exception:
+        return b""
 
 
 def _result(shown: object, name: str, job: Job) -> Result:

@@ -23,12 +23,15 @@ def main() -> None:
     narrow.prepare()
     jobs, line = _lines()
     said = _Said(line)
-    sys.stdout = io.TextIOWrapper(_Raw(said), "utf-8", "replace", line_buffering=True)
+    printed = io.TextIOWrapper(_Raw(said), "utf-8", "replace", line_buffering=True)
+    sys.stdout = printed
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_hear, args=(jobs, waiting), daemon=True).start()
     while True:
         answer = answer_of(waiting.get(), said.send)
-        sys.stdout.flush()
+        # A script may have closed it.
+        with contextlib.suppress(ValueError):
+            printed.flush()
         said.send(answer)
 
 

@@ -88,6 +88,10 @@ class Freed:
         one = self.result
         return Result(one.name, one.condensed, self._raw, one.asked)
 
+    def has(self, subject: Subject) -> bool:
+        """Whether none of its nodes is inside of a divided sheet or wire."""
+        return self._place_of.keys() >= {*subject.positions, *subject.orientations}
+
     @property
     def is_known(self) -> bool:
         """Whether all motions are kept; of very large mechanisms there may be too many."""

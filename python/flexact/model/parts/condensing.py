@@ -16,6 +16,7 @@ import numpy as np
 
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, IntArray, ModelArrays
+from ...core.elements import Class
 from ..appearance import Appearance
 from ..data import ModelData
 from ..names import part_name
@@ -130,8 +131,14 @@ class Condensed(Frozen):
         if chain is None:
             return place, deformation
         at_end = deformation in ((3,) if chain.is_planar else (4, 6))
-        beam = -1 if at_end else 0
-        return chain.elements[beam], chain.own(beam, deformation)
+        first = -1 if at_end else 0
+        places = [(each, chain.own(k, deformation)) for k, each in enumerate(chain.elements)]
+        of_data, of_given = (each.arrays.deformation_class for each in (self.data, self.given))
+        if of_data[deformation - 1, element] == Class.DEPENDENT:
+            # What one of the beams releases, and the others have declared, may stand elsewhere.
+            found = (at for at in places if of_given[at[1] - 1, at[0]] == Class.DEPENDENT)
+            return next(found, places[first])
+        return places[first]
 
 
 @dataclass(frozen=True, eq=False)

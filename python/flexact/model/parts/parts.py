@@ -15,7 +15,7 @@ from ...core.arrays import IntArray
 from ...core.elements import Class, Member, NodeKind
 from ...diagnostics.errors import model_error
 from ..data import ModelData
-from ..names import part_name
+from ..names import own_number, part_name
 from .bodies import Body, bodies_of
 from .chains import Chain
 from .forms import Form, forms_of, is_member
@@ -66,6 +66,11 @@ class Part(NamedTuple):
     number: int
     is_named: bool
 
+    @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and results hold very many parts."""
+        return True
+
     def __str__(self) -> str:
         """Its name."""
         return self.name
@@ -95,6 +100,15 @@ class Parts:
     def bodies(self) -> tuple[Body, ...]:
         """The rigid bodies, in the order of their first elements."""
         return bodies_of(self.data.arrays)
+
+    @cached_property
+    def first_points(self) -> tuple[int, ...]:
+        """Of each of `bodies`, index of the position node for which it stands."""
+        names, nodes = self.data.element_names, self.data.arrays.element_node[0]
+        first = (
+            min(body.elements, key=lambda i: (own_number(names[i]), i)) for body in self.bodies
+        )
+        return tuple(int(nodes[i]) - 1 for i in first)
 
     @cached_property
     def links(self) -> frozenset[int]:
@@ -129,6 +143,24 @@ class Parts:
     def of_body(self, body: int) -> Part:
         """The part that a body, by its index, is."""
         return self._part("body", body, self._of_body)
+
+    @cached_property
+    def elements_by_name(self) -> dict[str, list[int]]:
+        """Indices of elements by the name of their part, ascending."""
+        made: dict[str, list[int]] = {}
+        for index, name in enumerate(self.data.element_names):
+            if name:
+                made.setdefault(part_name(name), []).append(index)
+        return made
+
+    @cached_property
+    def points_by_name(self) -> dict[str, list[int]]:
+        """Indices of position nodes by their names, ascending."""
+        made: dict[str, list[int]] = {}
+        for index, name in enumerate(self.data.node_names):
+            if name:
+                made.setdefault(name, []).append(index)
+        return made
 
     def named(self, name: str) -> Part:
         """The part of a name.
@@ -191,6 +223,11 @@ class Parts:
             # Of several names the commonest, of those the first.
             return Part(kind, harmless(given.most_common(1)[0][0]), elements, ends, number, True)
         return Part(kind, f"{kind} {number}", elements, ends, number, False)
+
+    def is_one_beam(self, index: int) -> bool:
+        """Whether an element, by its index, is of a row of beams that are declared as one."""
+        chain = self._chain_of.get(index)
+        return chain is not None and self.data.chains[chain].condensed_classes is not None
 
     @cached_property
     def _chain_of(self) -> dict[int, int]:
@@ -259,6 +296,21 @@ class Parts:
             ):
                 made.setdefault(turned, place)
         return made
+
+    @cached_property
+    def orientations_at(self) -> dict[int, tuple[int, ...]]:
+        """The orientation nodes that stand at each position node, ascending."""
+        made: dict[int, list[int]] = {}
+        for node, place in sorted(self.position_of.items()):
+            made.setdefault(place, []).append(node)
+        return {place: tuple(nodes) for place, nodes in made.items()}
+
+    def is_shared(self, node: int) -> bool:
+        """Whether an orientation of no body stands where a body is, or another orientation."""
+        place = self.position_of.get(node)
+        if place is None or node in self.body_at:
+            return False
+        return place in self.body_at or len(self.orientations_at[place]) > 1
 
     def place_of(self, node: int) -> int | None:
         """The position node of a node: itself, or where an orientation stands."""

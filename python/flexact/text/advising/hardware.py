@@ -116,10 +116,8 @@ def _one(outcome: Outcome, part: Part, name: Named, element: int, number: int) -
         return _of_body(outcome, name, element, number)
     role, word = _role(outcome, element, number), _word(outcome, element, number)
     if role == Role.ELONGATION:
-        if part.kind is PartKind.SHEET and not _is_planar(outcome, element):
-            what = " across, so that it gives along its length"
-            return Phrase("fold ", name, what, "", " (elongation free)")
-        return Phrase("let ", name, " give along its length", "", " (elongation free)")
+        # No notch, cut or fold frees this alone: a sheet with a fold holds one thing, not two.
+        return Phrase("let ", name, " slide along its length", "", " (elongation free)")
     if role == Role.TORSION:
         return Phrase("make ", name, " soft in torsion", "", " (twist free)")
     if bending_of(outcome, outcome.data.element_index[element], number) is not None:
@@ -182,10 +180,8 @@ def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation
     free = f" ({_word(outcome, *mine[0])} free)"
     if _role(outcome, *mine[0]) != Role.ELONGATION:
         return Phrase("take ", name, " out", "", free)
-    instead = {
-        PartKind.BAR: "make it adjustable in length",
-        PartKind.WIRE: "give it a soft joint",
-    }.get(part.kind, "let it give along its length")
+    is_bar = part.kind is PartKind.BAR
+    instead = "make it adjustable in length" if is_bar else "let it slide along its length"
     return Phrase("take ", name, f" out, or {instead}", "", free)
 
 

@@ -19,6 +19,9 @@ def motion_in_sentence(result: Result, motion: Motion) -> Pieces:
     if not result.is_told_by_parts:
         return joined(motion_in_parts(motion, _MOST_NAMED))
     if motion.is_internal:
+        if motion.ends:
+            ends = [group_in_words(result, each, len(motion.ends) == 1) for each in motion.ends]
+            return (*joined(ends), ", and nothing else moves")
         inside = parts_in_words(result, motion.internal_to)
         return ("inside ", *inside, " something moves, and nothing outside does")
     told = moving_groups(result, motion)

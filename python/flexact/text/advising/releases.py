@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 from ...advice.change import Change
 from ...advice.proposal import Proposal, Purpose
-from ...advice.ways import Coordinate, Deformation, coordinate_of
+from ...advice.ways import Coordinate, coordinate_of
 from ...core.elements import AXES, NodeKind, coordinate_name
 from ...model.parts.parts import Part, PartKind
 from ...result.outcome import Outcome
 from ...result.result import Result
-from ..calls import HOLD, call_of
+from ..calls import HOLD, calls_of_change, method_of
 from ..naming import coordinate_in_words, in_words, named_element
 from ..places import end_words, listed, place_words
 from ..sentences import Named, Piece, Pieces, plain
@@ -20,8 +20,8 @@ from .hardware import Phrase, held, outcome_as_given, released
 
 #: How many alternatives of several parts each are named, and how many of one part.
 _MOST_SETS, _MOST_NAMED = 3, 11
-#: How many statements of a deck are told.
-_MOST_STATEMENTS = 8
+#: Of more statements or calls it is told how many there are.
+_MOST_STATEMENTS = 24
 #: Parts that are counted in the plural.
 _PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
 
@@ -56,8 +56,13 @@ def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
     more = [each for each in others if plain(each) != plain(own)]
     pieces: list[Piece] = ["declare ", *own, " independent"]
     pieces.append(f" ({declared})" if declared else "")
-    pieces.append(f", or hold {it}")
-    pieces.append(f" ({fixed})" if fixed else "")
+    # To hold a fold is to clamp it in mid-air.
+    folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
+    if folds.isdisjoint(
+        outcome.given.node_index[place[0]] for place in proposal.change.coordinates
+    ):
+        pieces.append(f", or hold {it}")
+        pieces.append(f" ({fixed})" if fixed else "")
     if more:
         pieces += ["; likewise ", *_shortened(more, len(proposal.change.coordinates))]
     return tuple(piece for piece in pieces if piece)
@@ -94,7 +99,9 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
     inside: dict[Part, int] = {}
-    part_of = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    insides = {node: each.part for each in outcome.carriers.insides for node in each.nodes}
+    own = {node for node, _ in outcome.carriers.own_ends}
+    part_of = {node: part for node, part in insides.items() if node not in own}
     shared = _of_several_points(outcome, change)
     for node, name, _ in change.coordinates:
         index = outcome.given.node_index[node]
@@ -208,22 +215,21 @@ def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
         statements = [_statements(outcome, change, "RLSE")] if change.deformations else []
         return ", ".join(filter(None, statements))
     if outcome.given.source is not None:
-        return f"without {_statements(outcome, change, 'RLSE')}"
+        return _statements(outcome, change, "RLSE", "without ")
     return _statements(outcome, change, HOLD)
 
 
-def _statements(outcome: Outcome, change: Change, keyword: str) -> str:
+def _statements(outcome: Outcome, change: Change, keyword: str, before: str = "") -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
     if outcome.given.source is not None:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
-        more = ["..."] * (len(statements) > _MOST_STATEMENTS)
-        return ", ".join(statements[:_MOST_STATEMENTS] + more)
-    parts: list[Deformation | Coordinate] = [
-        *(Deformation(element, number, "") for element, number, _ in change.deformations),
-        *(_coordinate(outcome, node, name) for node, name, _ in change.coordinates),
-    ]
-    calls = [call_of(outcome, keyword, part) for part in parts]
-    return ", ".join(calls) if all(calls) else ""
+        if len(statements) > _MOST_STATEMENTS:
+            return "" if keyword == "FIX" else f"{len(statements)} statements: --apply does it"
+        return f"{before}{', '.join(statements)}"
+    calls = [each.in_words() for each in calls_of_change(outcome, change, method_of(keyword))]
+    if len(calls) > _MOST_STATEMENTS:
+        return "" if keyword == "FIX" else f"{len(calls)} calls: apply() of the step does it"
+    return ", ".join(calls)
 
 
 def _operands(outcome: Outcome, change: Change) -> list[str]:

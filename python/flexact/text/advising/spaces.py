@@ -21,10 +21,10 @@ from ..naming import coordinate_in_words, in_words, named_element
 from ..places import (
     axis_words,
     direction_words,
+    joint_words,
+    node_words,
     others_words,
     part_words,
-    place_words,
-    with_article,
 )
 from ..sentences import Line, Named, Pieces, sentence
 from .screws import Geometry
@@ -56,7 +56,7 @@ def spaces_lines(result: Result, spaces: Spaces | None, *, added: bool = True) -
 
 
 def _lines(result: Result, spaces: Spaces) -> Iterator[Line]:
-    geometry, body = Geometry(result), body_words(spaces)
+    geometry, body = Geometry(result), body_words(result, spaces)
     start = f"{body[:1].upper()}{body[1:]}"
     free, held = spaces.freedom.dimension, spaces.constraint.dimension
     if free:
@@ -178,9 +178,9 @@ def _wire(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
     along, word = f" along {direction_words(ground - end)}", "wire"
     if isinstance(wire, AddedSheet):
         along, word = f"{along}, wide along {axis_words(np.array(wire.width))}", "sheet"
-    body = parts.body_at.get(parts.data.node_index[wire.orientation])
-    owner = "" if body is None else part_words(parts.of_body(body))
-    there = place_words(parts, node)
+    turned = parts.data.node_index[wire.orientation]
+    owner = node_words(parts, turned) if turned in parts.body_at else ""
+    there = node_words(parts, turned if parts.is_shared(turned) else node)
     if not np.array_equal(parts.data.arrays.node_value[:3, node], end):
         link = Named("node", wire.position, owner or there)
         return (f"a {word} from {geometry.point(end)}, on a link to ", link, f",{along}")
@@ -237,10 +237,12 @@ def dashed_in_words(wires: int) -> str:
     return f"; dashed: {'a wire' if wires == 1 else 'wires'} to add" if wires else ""
 
 
-def body_words(spaces: Spaces) -> str:
+def body_words(result: Result, spaces: Spaces) -> str:
     """What the body is called within a sentence, such as "the stage"."""
     body = spaces.body
-    return part_words(body) if isinstance(body, Part) else with_article(str(body))
+    if isinstance(body, Part):
+        return part_words(body)
+    return joint_words(result.parts, body)
 
 
 def _independent(count: int, word: str) -> str:

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from ...advice.proposal import Proposal
-from ...advice.ways import coordinate_of
+from ...advice.ways import Coordinate, Deformation, coordinate_of
 from ...core.elements import AXES, coordinate_name
 from ...result.result import Result
+from ..calls import taken_back
 from ..deformation import deformation_words
 from ..motions import joined
 from ..naming import coordinate_in_words, named_element
@@ -26,13 +29,21 @@ def undeclaration_in_words(result: Result, proposal: Proposal) -> Pieces:
     ]
     what += [coordinate_in_words(outcome, node, name) for node, name, _ in change.coordinates]
     s = "s" if len(what) > 1 else ""
-    note = _note(result, proposal) if result.given.source is not None else ""
+    note = _note(result, proposal) if result.given.source is not None else _calls(result, proposal)
     return (
         f"take back the declaration{s} of ",
         *joined(what),
         ", which is driven against a constraint" if not s else "",
         f" ({note})" if note else "",
     )
+
+
+def _calls(result: Result, proposal: Proposal) -> str:
+    """The calls that do it; empty where there is none for one of them."""
+    outcome, change = outcome_as_given(result), proposal.change
+    made = [taken_back(outcome, Deformation(e, k, "")) for e, k, _ in change.deformations]
+    made += [taken_back(outcome, Coordinate(n, name, "")) for n, name, _ in change.coordinates]
+    return ", ".join(chain.from_iterable(made)) if all(made) else ""
 
 
 def _note(result: Result, proposal: Proposal) -> str:

@@ -12,7 +12,7 @@ from ...core.arrays import ModelArrays
 from ...core.progress import Progress
 from ...deck.reading import read_bytes
 from ...diagnostics.errors import DeckError, ProblemsError
-from ...files.decks import FolderError
+from ...files.decks import FolderError, no_formula
 from ...result.failing import AnalysisError
 from ...result.outcome import Asked
 from ...result.result import Result, result_of
@@ -97,7 +97,7 @@ def first_error(error: Exception, name: str) -> str:
     elif isinstance(error, MemoryError):
         message = "not enough memory"
     elif isinstance(error, FolderError):
-        return harmless(message)  # which names it
+        return harmless(no_formula(message))  # which names it
     return harmless(f"{place}: {message}")
 
 
