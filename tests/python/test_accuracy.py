@@ -27,6 +27,7 @@ from flexact.page import entry_of, page
 from flexact.page.verdict_part import verdict_of_side
 from flexact.picture.make import _words as picture_words
 from flexact.switches import Session
+from flexact.text.comparing.side import side_of, stored_side
 from flexact.text.describe import verdict_in_words
 from flexact.text.margin import but_only, verdict_in_short
 from flexact.text.spacar_log import spacar_log
@@ -269,6 +270,8 @@ def stated(name: str, analysis: Analysis) -> dict[str, str]:
         "compared": html.unescape(
             re.findall(r'<b class="says">(.*?):</b>', verdict_of_side(analysis, ""))[0]
         ),
+        "side": side_of(analysis).words,
+        "stored side": stored_side(analysis.to_json().encode(), "").words,
         "index": entry_of(analysis, "deck", "deck.html").words,
         "watch, headline": told_of(analysis).verdict,
         "watch, panel": session.told()["verdict"],
@@ -280,6 +283,7 @@ def stated(name: str, analysis: Analysis) -> dict[str, str]:
         opinion = opinion_on(Deck(Document.of(text_of(name))))
         assert opinion is not None
         found["editor"] = opinion.words.partition(";")[0]
+    assert side_of(analysis).verdict == stored_side(analysis.to_json().encode(), "").verdict
     verdict = next(each for each in Verdict if each is not analysis.verdict)
     for finding in findings_about("deck", analysis, verdict):
         if finding.code.endswith("-constrained"):
@@ -291,24 +295,20 @@ def stated(name: str, analysis: Analysis) -> dict[str, str]:
 @pytest.mark.parametrize("accuracy", [None, 1e-2, (10.0, 1.0)])
 @pytest.mark.parametrize("name", STATED)
 def test_every_place_states_the_verdict_in_one_sentence(name: str, accuracy: object) -> None:
-    analysis = analyse(
-        ROOT / f"input_decks/{name}.dat",
-        accuracy=accuracy,  # type: ignore[arg-type]
-        beyond=True,
-    )
+    deck = ROOT / f"input_decks/{name}.dat"
+    analysis = analyse(deck, accuracy=accuracy, beyond=True)  # type: ignore[arg-type]
     short = verdict_in_short(analysis)
     for place, words in stated(name, analysis).items():
         if place.startswith("findings"):
             # A finding is of one part of the verdict.
-            assert but_only(analysis) in words, place
+            assert but_only(analysis.margin, analysis.accuracy) in words, place
         else:
             assert words.lower() == short.lower(), place
 
 
 def test_some_of_them_hold_only_within_the_accuracy() -> None:
-    lifted = [
-        but_only(analyse(ROOT / f"input_decks/{name}.dat", accuracy=10.0, beyond=True))
-        for name in STATED
-    ]
+    decks = (ROOT / f"input_decks/{name}.dat" for name in STATED)
+    every = [analyse(each, accuracy=10.0, beyond=True) for each in decks]
+    lifted = [but_only(each.margin, each.accuracy) for each in every]
     for words in ("only by", "alignment"):
         assert any(words in each for each in lifted)

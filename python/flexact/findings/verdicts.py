@@ -114,7 +114,9 @@ class _Verdict:
         result = self.result
         under = result.under_constrained if code == UNDER else 0
         over = result.over_constrained if code == OVER else 0
-        stated = counts_in_words(under, over).capitalize() + but_only(result)
+        stated = counts_in_words(under, over).capitalize() + but_only(
+            result.margin, result.accuracy
+        )
         return f"{stated}: {words}"
 
     def _related(self, parts: tuple[Pieces, ...]) -> Iterator[Related]:

@@ -46,17 +46,13 @@ def decision(result: Result) -> Iterator[Line]:
 
 
 def _taken_as_one(result: Result) -> str:
-    """Which parts are one beam in D(c), though the deck has several, and what D(c) is of then."""
+    """Which parts are one beam in D(c), though the deck has several."""
     chains = result.condensed.chains
     named = f"{len(chains)} divided sheets and wires"
     if result.is_told_by_parts:
         named = parts_words([result.parts.of_element(chain.elements[0]) for chain in chains])
     each, of = ("", "it") if len(chains) == 1 else (" each", "them")
-    coordinates, deformations = result.raw.counts[:, 0].tolist()
-    return (
-        f"Taken as one beam{each}, as what is inside of {of} is declared: {named}. D(c) is that of "
-        f"{coordinates} coordinates and {deformations} deformations."
-    )
+    return f"Taken as one beam{each} in D(c), as what is inside of {of} is declared: {named}."
 
 
 def _zeros(result: Result) -> str:

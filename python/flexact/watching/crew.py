@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from ..base.errors import reason_of
+from ..base.errors import FlexactError, reason_of
 from . import frames
 from .messages import Answer, Job, Judged, Printed
 
@@ -30,7 +30,7 @@ _PATIENCE = 5.0
 _CRASHED = 2**31
 
 
-class WorkerError(Exception):
+class WorkerError(FlexactError):
     """A worker ended before it had an answer; the text says how."""
 
 
