@@ -62,7 +62,7 @@ def offences(model: Model, done: Counter[str] | None = None) -> Iterator[Offence
     except Exception as error:
         yield Offence("failed", repr(error))
         return
-    yield from (Offence("failed", words) for words in advice.attempts.failed)
+    yield from (Offence("failed", words) for words in advice.failed)
     for step in advice:
         yield from _of_step(model, step, done)
     yield from of_causes(result, advice, done)

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -18,9 +18,9 @@ from ..advice.releases.declarations import Declarations, declarations_of
 from ..advice.releases.releases import Releases, releases_of
 from ..advice.spaces.spaces import Spaces, spaces_of
 from ..advice.undeclaring import undeclarations_of
-from ..base.attempts import Attempts
 from ..base.errors import FlexactError
 from ..base.frozen import Frozen
+from ..base.partial import attempted
 from ..core.progress import Progress
 from ..result.extents.decide import extents_of
 from ..result.extents.extent import EvidenceKind, Extent, Extents, Kind, Reason
@@ -33,6 +33,8 @@ from .motions import AdvisedMotion, AdvisedStress
 from .steps import Step, together
 
 #: What has a statement.
+_Made = TypeVar("_Made")
+_Given = TypeVar("_Given")
 _Told = TypeVar("_Told", AdvisedMotion, AdvisedStress, Step)
 #: Of self-stresses of more resultants in all those that stand on a screen are told.
 _MOST_ENTRIES = 20_000
@@ -69,35 +71,47 @@ class Advice(Frozen, Sequence[Step]):
     bodies: bool = False
 
     @cached_property
-    def attempts(self) -> Attempts:
-        """What could not be made of the advice; the rest of it is there."""
-        return Attempts()
+    def failed(self) -> list[str]:
+        """What could not be made of the advice, behind "Left out: "; the rest of it is there."""
+        return []
+
+    def made(self, what: str, make: Callable[[], _Made], instead: _Given) -> _Made | _Given:
+        """One piece of the advice, or what stands in its place where it cannot be made."""
+        return attempted(what, make, instead, self.failed, "{what}, which failed ({why})")
+
+    def _each(
+        self, what: str, items: Iterable[_Given], make: Callable[[_Given], _Made]
+    ) -> Iterator[_Made]:
+        """What `make` gives of each item, without those of which it fails."""
+        for item in items:
+            nothing: tuple[_Made, ...] = ()
+            yield from self.made(what, partial(_alone, make, item), nothing)
 
     @cached_property
     def causes(self) -> Causes:
         """Why motions and self-stresses are there: any geometry has them, or this one."""
         unknown, result = Cause(CauseKind.UNKNOWN), self.analysis
         none = Causes((unknown,) * len(result.motions), (unknown,) * len(result.self_stresses))
-        return self.attempts.make("causes", lambda: causes_of(result), none)
+        return self.made("causes", lambda: causes_of(result), none)
 
     @cached_property
     def extents(self) -> Extents:
         """Whether motions go on, or only begin."""
         unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
         none = Extents((unknown,) * len(self.analysis.motions), None)
-        return self.attempts.make("how far motions go", lambda: extents_of(self.analysis), none)
+        return self.made("how far motions go", lambda: extents_of(self.analysis), none)
 
     @cached_property
     def releases(self) -> Releases:
         """Sets of deformations whose release leaves no self-stress."""
         result, none = self.analysis, Releases(self.analysis.over_constrained, None)
-        return self.attempts.make("releases", lambda: releases_of(result, self.bodies), none)
+        return self.made("releases", lambda: releases_of(result, self.bodies), none)
 
     @cached_property
     def declarations(self) -> Declarations:
         """Sets of coordinates whose declaration, or holding, leaves no motion."""
         none = Declarations(self.analysis.under_constrained, None)
-        return self.attempts.make("declarations", lambda: declarations_of(self.analysis), none)
+        return self.made("declarations", lambda: declarations_of(self.analysis), none)
 
     @cached_property
     def spaces(self) -> Spaces | None:
@@ -110,9 +124,10 @@ class Advice(Frozen, Sequence[Step]):
         if self.body is not None or self.wanted:
             # What was asked for wrongly is told, not left out.
             spaces_of(*asked, wires=False)
-        make = self.attempts.make
-        made = make("wires and sheets to add", lambda: (spaces_of(*asked),), ())
-        made = made or make("freedom and constraint", lambda: (spaces_of(*asked, wires=False),), ())
+        made: tuple[Spaces | None, ...] = ()
+        made = self.made("wires and sheets to add", partial(_alone, spaces_of, *asked), made)
+        without = partial(_alone, spaces_of, *asked, wires=False)
+        made = made or self.made("freedom and constraint", without, made)
         return made[0] if made else None
 
     @cached_property
@@ -138,7 +153,7 @@ class Advice(Frozen, Sequence[Step]):
 
     def _told(self, what: str, every: Iterable[_Told]) -> Iterator[_Told]:
         """Those of which the words can be said."""
-        return self.attempts.each(what, every, lambda one: (one, one.statement)[0])
+        return self._each(what, every, lambda one: (one, one.statement)[0])
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
@@ -149,15 +164,14 @@ class Advice(Frozen, Sequence[Step]):
         return tuple(replace(step, number=k) for k, step in enumerate(told, start=1))
 
     def _proposals(self) -> Iterator[Proposal]:
-        attempts = self.attempts
-        yield from attempts.each("a step", self.causes.mends, self._as_it_stands)
-        yield from attempts.make(
+        yield from self._each("a step", self.causes.mends, self._as_it_stands)
+        yield from self.made(
             "declarations to take back", lambda: undeclarations_of(self.analysis), ()
         )
         yield from (*self.releases.sets, *self.releases.supports)
         yield from (*self.declarations.sets, *self.declarations.holds)
         if self.spaces is not None:
-            yield from attempts.each("a step", self.spaces.proposals, self._as_it_stands)
+            yield from self._each("a step", self.spaces.proposals, self._as_it_stands)
 
     def _as_it_stands(self, one: Proposal) -> Proposal:
         """A proposal that was tried with divided sheets as one beam each, tried without."""
@@ -220,6 +234,10 @@ class Advice(Frozen, Sequence[Step]):
 
     def _repr_html_(self) -> str:
         return html_of(self)
+
+
+def _alone(make: Callable[..., _Made], *given: object, **more: object) -> tuple[_Made, ...]:
+    return (make(*given, **more),)
 
 
 def advice_of(

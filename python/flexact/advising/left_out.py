@@ -31,7 +31,7 @@ def left_out(advice: Advice) -> Iterator[str]:
     causes = advice.causes
     if any(one.kind is CauseKind.UNKNOWN for one in (*causes.motions, *causes.self_stresses)):
         yield "whether another geometry would have them, too"
-    yield from advice.attempts.failed
+    yield from advice.failed
     unfollowed = sum(one.reason is Reason.TOO_LARGE for one in advice.extents.motions)
     if unfollowed:
         yield f"how far {counted(unfollowed, 'motion', ' goes', 's go')}: too large to be followed"

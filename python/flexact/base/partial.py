@@ -12,18 +12,24 @@ from .errors import FlexactError
 #: Where this is set in the environment, mistakes of Flexact's own are raised: as in its tests.
 STRICT = "FLEXACT_STRICT"
 _Part = TypeVar("_Part")
+_Instead = TypeVar("_Instead")
 
 
 def attempted(
-    what: str, make: Callable[[], _Part], instead: _Part, left_out: list[str] | None
-) -> _Part:
+    what: str,
+    make: Callable[[], _Part],
+    instead: _Instead,
+    left_out: list[str] | None,
+    words: str = "{what} is left out: {why}.",
+) -> _Part | _Instead:
     """One part of an output, or what stands in its place where it cannot be made.
 
     Args:
         what: The part, as the start of a sentence: "The drawing of motion 2".
         make: What makes it.
         instead: What is given where that fails.
-        left_out: Takes a sentence of what is left out and why; None where nothing is said.
+        left_out: Takes what is left out and why, once; None where nothing is said.
+        words: How that is said: a sentence, or what stands behind "Left out: ".
 
     Raises:
         Exception: A mistake of Flexact's own, where `STRICT` is set in the environment.
@@ -31,8 +37,9 @@ def attempted(
     try:
         return make()
     except Exception as error:
-        if left_out is not None:
-            left_out.append(f"{what} is left out: {why(error)}.")
+        told = words.format(what=what, why=why(error))
+        if left_out is not None and told not in left_out:
+            left_out.append(told)
         return instead
 
 
