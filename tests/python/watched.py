@@ -20,7 +20,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 #: For a machine on which much else is going on [s].
-PATIENCE = 15.0
+PATIENCE = 60.0
 ADDRESS = "127.0.0.1"
 #: Of the environment: what has a browser open.
 LEFT_OUT = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
