@@ -142,7 +142,9 @@ def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase
     if index in outcome.parts.links:
         nodes = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
         ends = dict.fromkeys(place_words(outcome.parts, node) for node in nodes if node >= 0)
-        between = f" between {' and '.join(ends)}" if len(ends) == 2 else ""
+        # A body is no place on itself.
+        is_told = len(ends) == 2 and name.words not in ends
+        between = f" between {' and '.join(ends)}" if is_told else ""
     elif own:
         name = name._replace(words=with_article(own))
     if role == Role.TORSION:
