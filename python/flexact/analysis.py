@@ -6,10 +6,10 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .base.cached import cached_property
 from .base.loading import load
 from .base.partial import attempted
 from .core.arrays import FloatArray

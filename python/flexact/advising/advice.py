@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -18,6 +18,7 @@ from ..advice.releases.declarations import Declarations, declarations_of
 from ..advice.releases.releases import Releases, releases_of
 from ..advice.spaces.spaces import Spaces, spaces_of
 from ..advice.undeclaring import undeclarations_of
+from ..base.cached import cached_property
 from ..base.errors import FlexactError
 from ..base.frozen import Frozen
 from ..base.partial import attempted

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
+from flexact.base.cached import cached_property
 from flexact.base.loading import load
 from flexact.base.partial import why
 from flexact.result.outcome import Asked

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import TypeVar
 
+from ..base.cached import cached_property
 from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..result.decompose import asked_for

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..base.partial import attempted
 from ..core.arrays import FloatArray

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from ..base import memory
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray

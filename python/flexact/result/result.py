@@ -6,9 +6,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from ..base.cached import cached_property
 from ..base.loading import load
 from ..base.plain_text import in_short
 from ..core.elements import Class

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.plain_text import in_short
 from ..base.quantities import without_units
 from ..core.arrays import FloatArray, IntArray

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core import calls, elastic
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elastic import ElasticState, RawLinear, RawModes, Waypoint

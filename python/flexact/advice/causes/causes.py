@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from itertools import chain
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray
 from ...result.modes import Motion
 from ...result.result import Result

@@ -9,10 +9,10 @@ geometry has a lower rank than the generic one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part

@@ -10,12 +10,12 @@ adds nothing to what a body can do.
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray
 from ...core.elements import Class
 from ...core.raw import RawAnalysis

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections import Counter
 from enum import Enum
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.plain_text import harmless, in_short
 from ...core.arrays import IntArray
 from ...core.elements import Class, Member, NodeKind
