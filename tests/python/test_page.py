@@ -155,7 +155,7 @@ def test_verdict_counts_decision_and_remedies_are_told() -> None:
         "Proven for the decimals as typed: the rank is 5.",
         "the fold turns about the line through (0.06, *, 0) m along y",
         "the first sheet, ground to fold in-plane moment -1 N m at the ground",
-        "If this motion is wanted, declare one of these independent",
+        "With it declared the mechanism is over-constrained by 1.",
         "To remove it, release one of:",
     ):
         assert told in words, told
@@ -174,8 +174,8 @@ def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
         "self-stress can exist without any load.",
         "Margin: no small misalignment of one node or element would change this.",
         "rank proven",
-        "Motion: If this motion is wanted, declare one of these independent; if not, hold (fix) "
-        "it: the fold about y (DYNX 4 3 or FIX 4 3)",
+        "Motion: To declare the fold: the first sheet, ground to fold : out-of-plane bending at "
+        "the fold (DYNE 1 6 instead of RLSE 1 6)",
         "Self-stress: To remove it, release one of: the first sheet, ground to fold : in-plane "
         "bending at the ground (RLSE 1 3); the second sheet, fold to end : in-plane bending",
     ):
