@@ -6,28 +6,20 @@ and a body stands for the first point of its first link; they do what is said fo
 """
 
 import pytest
-from pasting import analysis_pasted, notes_in
+from pasting import analysis_pasted, without_notes
 from reference_decks import NAMES, text_of
 from turned_elements import plain, turned
 
 import flexact
 from flexact import Model
-from flexact.text.describe import describe
-
-
-def words_of(model: Model) -> str:
-    words = " ".join(describe(flexact.analyse(model)).split())
-    for note in notes_in(words):
-        words = words.replace(f"({note})", "(CALL)")
-    return words
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_result_is_told_in_the_same_words(name: str) -> None:
     data = flexact.read_text(text_of(name), name).data
-    words = words_of(Model.from_data(plain(data)))
+    words = without_notes(flexact.analyse(Model.from_data(plain(data))).describe())
     for seed in range(2):
         result = flexact.analyse(turned(data, seed))
         model = Model.from_data(result.given)
-        assert words_of(model) == words
+        assert without_notes(result.describe()) == words
         assert [each for each in analysis_pasted(model, result) if not each.is_right] == []
