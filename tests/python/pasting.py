@@ -3,6 +3,8 @@
 
     notes_in(words: str) -> list[str]
         The notes with statements that a text holds; what stands in one belongs together.
+    without_notes(words: str) -> str
+        A text in which one word stands for each of them.
     pasted(given: Model | str, *notes: str) -> tuple[int, int]
         Motions and self-stresses of a model, or of the text of a deck, after these notes.
     steps_pasted(given: Model | str, advice: Advice) -> Iterator[Pasted]
@@ -56,6 +58,14 @@ def notes_in(words: str) -> list[str]:
             continue
         made.append(words[start + 1 : _closed(words, start)])
     return made
+
+
+def without_notes(words: str) -> str:
+    """A text in one line with a word in the place of each note."""
+    words = " ".join(words.split())
+    for note in notes_in(words):
+        words = words.replace(f"({note})", "(NOTE)")
+    return words
 
 
 def _closed(words: str, start: int) -> int:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from counted_sets import releases_counted, self_stresses
 from known_models import folded_sheet, ring, twelve_trusses
+from pasting import without_notes
 from random_models import framework, mechanism
 from reference_decks import NAMES, text_of, transform
 from turned_elements import plain as as_made
@@ -441,7 +442,9 @@ def test_words_depend_neither_on_units_nor_on_how_elements_are_told(name: str) -
     words = words_of(analysis)
     assert words_of(analyse(flexact.read_text(transform.scaled(text_of(name), 1e3)))) == words
     made = analyse(Model.from_data(as_made(analysis.given)))
-    assert words_of(analyse(turned(analysis.given, 1))) == words_of(made)
+    # Calls name what they can: numbers of beams that run against each other.
+    told = (words_of(analyse(turned(analysis.given, 1))), words_of(made))
+    assert [*map(without_notes, told[0])] == [*map(without_notes, told[1])]
 
 
 def test_a_divided_sheet_is_told_as_one_of_one_beam() -> None:

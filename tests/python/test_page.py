@@ -156,6 +156,7 @@ def test_verdict_counts_decision_and_remedies_are_told() -> None:
         "the fold turns about the line through (0.06, *, 0) m along y",
         "the first sheet, ground to fold in-plane moment -1 N m at the ground",
         "To declare the fold: the first sheet, ground to fold",
+        "With it declared the mechanism is over-constrained by 1.",
         "To remove it, release one of:",
     ):
         assert told in words, told

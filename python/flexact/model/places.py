@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 #: Of the size of a model: points nearer than this are at one place.
 ROUNDING = 1.0e-9
+#: Size of a cell of the table, in tolerances.
+_CELL = 16.0
 
 
 class Places:
@@ -23,6 +25,7 @@ class Places:
         """Of all position nodes that there are now."""
         self._draft = draft
         self._tolerance = tolerance
+        self._size = _CELL * tolerance or 1.0
         self._cells: dict[tuple[int, ...], list[int]] = {}
         for number, kind in draft.node_kind.items():
             if is_position(kind):
@@ -30,25 +33,31 @@ class Places:
 
     def add(self, number: int) -> None:
         """Take in a position node."""
-        self._cells.setdefault(self._cell(self._draft.node_value[number]), []).append(number)
+        for cell in self._cells_of(self._draft.node_value[number], 0.0):
+            self._cells.setdefault(cell, []).append(number)
 
-    def _cell(self, place: Iterable[float]) -> tuple[int, ...]:
-        size = 4.0 * self._tolerance or 1.0
-        return tuple(round(x / size) for x in itertools.islice(place, 3))
+    def _cells_of(self, place: Sequence[float], within: float) -> Iterable[tuple[int, ...]]:
+        """The cells that are met within a distance of a place: nearly always one."""
+        size = self._size
+        x, y, z = place[0] / size, place[1] / size, place[2] / size
+        i, j, k = cell = round(x), round(y), round(z)
+        inside = 0.5 - within / size
+        if abs(x - i) < inside and abs(y - j) < inside and abs(z - k) < inside:
+            return (cell,)
+        near = within / size
+        return itertools.product(*({round(v - near), round(v + near)} for v in (x, y, z)))
 
     def near(self, place: Sequence[float], tolerance: float | None = None) -> list[int]:
         """Numbers of the nodes at a place, in the order they were made.
 
         Args:
             place: (x, y, z) [m].
-            tolerance: At most twice that of all [m]; by default that.
+            tolerance: Of a few times that of all [m]; by default that.
         """
         within = self._tolerance if tolerance is None else tolerance
-        cell = self._cell(place)
         found = []
-        for offset in itertools.product((-1, 0, 1), repeat=3):
-            key = tuple(a + b for a, b in zip(cell, offset, strict=True))
-            for number in self._cells.get(key, []):
+        for cell in self._cells_of(place, within):
+            for number in self._cells.get(cell, ()):
                 value = self._draft.node_value[number]
                 if all(abs(value[k] - place[k]) <= within for k in range(3)):
                     found.append(number)

@@ -140,14 +140,18 @@ class Moving(Frozen):
         return not self.bodies and bool(self.internal_to)
 
     @cached_property
+    def nodes(self) -> tuple[int, ...]:
+        """Indices of the nodes that move, of the model as given."""
+        return tuple(np.flatnonzero(self._size > self._rest).tolist())
+
+    @cached_property
     def ends(self) -> tuple[BodyMotion, ...]:
         """Of a motion in which nothing moves but ends of flexures, how each of them turns."""
         carriers = self.outcome.carriers
         own = {node for node, _ in carriers.own_ends}
-        moving = np.flatnonzero(self._size > self._rest).tolist()
-        if not own.issuperset(moving):
+        if not own.issuperset(self.nodes):
             return ()
-        joints = [carriers.joint(self.outcome.parts.place_of(node), node) for node in moving]
+        joints = [carriers.joint(self.outcome.parts.place_of(node), node) for node in self.nodes]
         return tuple(BodyMotion((), (joint,), self._of_joint(joint)) for joint in joints)
 
     @cached_property
@@ -362,6 +366,11 @@ class Moves:
     def is_internal(self) -> bool:
         """Whether nothing moves but what is inside of sheets and wires."""
         return self._moving.is_internal
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Indices of the nodes that move, of the model as given."""
+        return self._moving.nodes
 
     @property
     def ends(self) -> tuple[BodyMotion, ...]:

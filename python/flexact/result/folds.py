@@ -26,12 +26,13 @@ def turning_folds(result: Result) -> tuple[tuple[int, int], ...]:
         return ()
     if result.with_internal_declared is not None:
         return ()
+    folds = {joint.orientation: joint for joint in result.carriers.joints if joint.is_fold}
     moving: dict[Joint, None] = {}
     count = 0
     for motion, is_between in zip(result.motions, result.are_between_ends, strict=True):
-        if is_between and not motion.is_internal:
-            count += 1
-            moving.update(dict.fromkeys(joint for one in motion.bodies for joint in one.joints))
+        mine = [folds[node] for node in motion.nodes if node in folds] if is_between else []
+        moving.update(dict.fromkeys(mine))
+        count += bool(mine)
     found = [_bending(result, joint) for joint in moving]
     made = tuple(place for place in found if place is not None)
     return made if len(made) == len(found) == count else ()

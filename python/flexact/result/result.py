@@ -128,23 +128,20 @@ class Result(Spaces):
 
         None where that would change more than that they are declared.
         """
-        folds = turning_folds(self)
-        then = self._with_declared(folds) if folds else None
-        if then is None or then.over_constrained != self.over_constrained:
-            return ()
-        return folds if then.under_constrained == self.under_constrained - len(folds) else ()
+        return () if self.with_folds_declared is None else turning_folds(self)
 
     @cached_property
     def with_folds_declared(self) -> Result | None:
         """The result with these folds declared; None where there is none."""
-        return self._with_declared(self.folds) if self.folds else None
-
-    def _with_declared(self, deformations: tuple[tuple[int, int], ...]) -> Result:
-        numbers = self.given.arrays.element_number
-        places = (self.condensed.in_given(*place) for place in deformations)
+        folds, numbers = turning_folds(self), self.given.arrays.element_number
+        if not folds:
+            return None
+        places = (self.condensed.in_given(*place) for place in folds)
         classes = {(int(numbers[at]), own): Class.INDEPENDENT for at, own in places}
         made = replace(with_classes(self.given, classes, {}), source=self.given.source)
-        return result_of(made, self.asked, self.name)
+        then: Result = result_of(made, self.asked, self.name)
+        over, under = self.over_constrained, self.under_constrained - len(folds)
+        return then if (then.under_constrained, then.over_constrained) == (under, over) else None
 
     @cached_property
     def evidence(self) -> Evidence:
