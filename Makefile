@@ -18,7 +18,7 @@ QUICK := element_table paper invariance analysis analysis_result methods margin 
 # Tests that compare words with files.
 WORDED := wording advice_wording broken_decks appearance docs docs_sessions element_table gallery keywords
 
-.PHONY: demo test check core-test lint wording gallery vscode attack fuzz bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
+.PHONY: demo test check core-test lint wording gallery vscode attack attack-steps fuzz crossing bench reference patterns paper wheel wheel-test sdist second-opinion docs clean
 
 demo: .venv/ready-to-run
 	$(BIN)/flexact analyse input_decks/paper/six_folded_sheets.dat -o results
@@ -63,14 +63,25 @@ gallery: .venv/ready-to-run
 vscode:
 	cd editors/vscode && npm ci && npm run package
 
-# Random decks with exact counts, until stopped with Ctrl-C; offending ones go to build/attack.
+# Advice on 100 random mechanisms; then random decks with exact counts, until stopped with Ctrl-C;
+# offending ones go to build/attack.
 attack: .venv/ready-to-test
+	$(BIN)/python tests/attack/run_steps.py --count 100
 	$(BIN)/python tests/attack/run.py --keep build/attack
+
+# Advice on 2,000 random mechanisms: steps, statements, hardware and causes; half an hour.
+attack-steps: .venv/ready-to-test
+	$(BIN)/python tests/attack/run_steps.py
 
 # Ten minutes of real decks with random mistakes; offending ones go to build/fuzz.
 fuzz: .venv/ready-to-test
 	PATH="$(CURDIR)/$(BIN):$$PATH" tools/test_core.sh --build-only
 	$(BIN)/python tests/fuzz/run.py --keep build/fuzz
+
+# Some hours: every mechanism of the gallery and every sample deck, changed in many ways, through every verb and form
+# of output. It goes on where it was stopped; CROSSING="--minutes 30 --only guide --again" and the like choose.
+crossing: .venv/ready-to-test
+	$(BIN)/python tests/crossing/run.py $(CROSSING)
 
 # Some minutes; for development, run.py --quick.
 bench: .venv/ready-to-test

@@ -48,6 +48,7 @@ if ! { echo end | gfortran -x f95 - -fsanitize=thread -o build/threads/probe && 
 fi
 configure threads -Dmatrices_only=true -Db_sanitize=thread -Db_lundef=false
 meson compile -C build/threads tests/fortran/test_cholesky tests/fortran/test_pinned
+# It takes ten times as long, and others may be at work besides.
 # Locks are those of the compiler's library; BLAS, which is not compiled for this, has no threads of its own.
 TSAN_OPTIONS=allocator_may_return_null=1:detect_deadlocks=0:halt_on_error=1 OPENBLAS_NUM_THREADS=1 \
-    meson test -C build/threads --no-rebuild --print-errorlogs cholesky pinned
+    meson test -C build/threads --no-rebuild --print-errorlogs --timeout-multiplier 10 cholesky pinned

@@ -80,6 +80,7 @@ contains
          return
       end if
       result%undecided = result%undecided + judgement%undecided
+      result%fading = result%fading + judgement%fading
       result%unseen = result%unseen + judgement%unseen
       if (judgement%left > result%left) then
          result%left = judgement%left

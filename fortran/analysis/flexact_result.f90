@@ -54,6 +54,8 @@ module flexact_result
       !> So many values that count as zero may not be, by exact arithmetic or more digits; and
       !> so many do not count as zero by exact arithmetic alone.
       integer :: undecided = 0, unseen = 0
+      !> So many of those undecided are only because their vectors fade.
+      integer :: fading = 0
       !> The largest of them, and what storing the geometry makes of it; zeros where that
       !> is not known.
       real(wp) :: left = 0.0_wp, explained = 0.0_wp

@@ -40,8 +40,8 @@ subroutine describe_names(n, enumeration, names, first, count)
 end subroutine describe_names
 
 ! Read a deck; name, choice, value and sizes are as give_deck says.
-subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements, vectors, &
-                     name, choice, value, sizes, diag_count, diag_number, diag_text)
+subroutine read_deck(n, text, most_nodes, most_elements, most_values, nodes, places, elements, vectors, &
+                     words, value, sizes, diag_count, diag_number, diag_text)
    use iso_c_binding
    use flexact_deck, only: read_text => read_deck
    use flexact_deck_model, only: deck_model_t
@@ -50,12 +50,12 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    use flexact_exchange, only: to_text, give_diagnostics
    implicit none
 !f2py threadsafe
-   integer(c_int), intent(in) :: n, most_nodes, most_elements
+   integer(c_int), intent(in) :: n, most_nodes, most_elements, most_values
    integer(c_signed_char), intent(in) :: text(n)
    integer(c_int), intent(inout) :: nodes(5, most_nodes), elements(12, most_elements)
    real(c_double), intent(inout) :: places(4, most_nodes), vectors(3, most_elements)
-   integer(c_int), intent(inout) :: name(2, most_elements + most_nodes), choice(2, most_elements)
-   real(c_double), intent(inout) :: value(12, 2*most_elements + most_nodes + 1)
+   integer(c_int), intent(inout) :: words(2, 2*most_elements + most_nodes)
+   real(c_double), intent(inout) :: value(12, most_values)
    integer(c_int), intent(out) :: sizes(8), diag_count(4), diag_number(8, 100)
    integer(c_signed_char), intent(out) :: diag_text(240, 4, 100)
    character(len=:), allocatable :: letters
@@ -67,7 +67,7 @@ subroutine read_deck(n, text, most_nodes, most_elements, nodes, places, elements
    call read_text(letters, deck, unused, diagnostics)
    call give_diagnostics(letters, diagnostics, diag_count, diag_number, diag_text)
    sizes = [0, 0, 0, unused, 0, 0, 0, 0]
-   if (.not. diagnostics%has_errors()) call give_deck(deck, nodes, places, elements, vectors, name, choice, value, sizes)
+   if (.not. diagnostics%has_errors()) call give_deck(deck, nodes, places, elements, vectors, words, value, sizes)
 end subroutine read_deck
 
 ! Check a model that was made without a deck. name: where in the text the names of the

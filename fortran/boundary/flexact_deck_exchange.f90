@@ -14,29 +14,33 @@ module flexact_deck_exchange
 
 contains
 
-   !> What a deck holds; there is room for it. name: of the elements, then of the nodes.
-   !> choice, value: as give_appearance, give_properties and give_loads say, where sizes says
-   !> that they are filled. sizes: nodes, elements, 1 for a planar model, one that stays, 1 where the
-   !> deck says how elements are drawn, where it has more digits than its numbers hold, where
-   !> it gives stiffness or mass, and where it gives loads.
-   pure subroutine give_deck(deck, nodes, places, elements, vectors, name, choice, value, sizes)
+   !> What a deck holds, where there is room for it; its sizes in any case. words: names of the
+   !> elements, names of the nodes, and what give_appearance chooses. value: as give_appearance,
+   !> give_properties and give_loads say, where sizes says that they are filled. sizes: nodes,
+   !> elements, 1 for a planar model, one that stays, 1 where the deck says how elements are
+   !> drawn, where it has more digits than its numbers hold, where it gives stiffness or mass,
+   !> and where it gives loads.
+   pure subroutine give_deck(deck, nodes, places, elements, vectors, words, value, sizes)
       type(deck_model_t), intent(in) :: deck
-      integer, intent(inout) :: nodes(:, :), elements(:, :), name(:, :), choice(:, :), sizes(:)
+      integer, intent(inout) :: nodes(:, :), elements(:, :), words(:, :), sizes(:)
       real(wp), intent(inout) :: places(:, :), vectors(:, :), value(:, :)
 
       associate (model => deck%model, nn => deck%model%nodes, ne => deck%model%elements)
-         call pack_model(model, nodes, places, elements, vectors)
          sizes(:2) = [nn, ne]
          sizes(3) = merge(0, 1, any(model%node_kind == node_position .or. model%node_kind == node_orientation))
          sizes(5) = merge(1, 0, allocated(deck%appearance))
          sizes(6) = merge(1, 0, deck%has_long_numbers)
          sizes(7) = merge(1, 0, allocated(deck%properties))
          sizes(8) = merge(1, 0, allocated(deck%loads))
-         name(1, :ne) = deck%element_names%first
-         name(2, :ne) = deck%element_names%last
-         name(1, ne + 1:ne + nn) = deck%node_names%first
-         name(2, ne + 1:ne + nn) = deck%node_names%last
-         if (allocated(deck%appearance)) call give_appearance(deck%appearance, choice(:, :ne), value(:, :ne))
+         if (nn > size(nodes, 2) .or. ne > size(elements, 2)) return
+         if (any(sizes([5, 7, 8]) == 1) .and. 2*ne + nn + 1 > size(value, 2)) return
+         call pack_model(model, nodes, places, elements, vectors)
+         words(1, :ne) = deck%element_names%first
+         words(2, :ne) = deck%element_names%last
+         words(1, ne + 1:ne + nn) = deck%node_names%first
+         words(2, ne + 1:ne + nn) = deck%node_names%last
+         if (allocated(deck%appearance)) &
+            call give_appearance(deck%appearance, words(:, ne + nn + 1:ne + nn + ne), value(:, :ne))
          if (allocated(deck%properties)) call give_properties(deck%properties, value(:, ne + 1:))
          if (allocated(deck%loads)) call give_loads(deck%loads, value(7:, 2*ne + 1:))
       end associate

@@ -117,7 +117,7 @@ contains
    !> wishes: task, count, gravity (3). given, answer: columns of force (3 nodes), misfit (6
    !> elements) and shift (3 nodes), of displacement, stress and reaction; modes are
    !> displacements alone, and of matrices given(1, :) has the coordinates and answer(:q, :3q)
-   !> three matrices. For errors given(1, 1) has the square and the rows of misfits have stresses;
+   !> three matrices. For errors given(1, 1) has the square, given(2, :) lengths, and the rows of misfits have stresses;
    !> answer(:2, :) the errors below and above zero. Behind answers stand motions without
    !> stiffness, as many as there is room for. values: mismatches, or the values of modes. facts: answers, motions without stiffness,
    !> negative stiffnesses, 1 where coordinates determine all others or
@@ -141,7 +141,7 @@ contains
       select case (nint(wishes(1)))
       case (1); call run_linear(elastic, base, given, answer, values, facts)
       case (2, 3); call run_modes(elastic, state, base, wishes, answer, values, facts)
-      case (4); call run_matrices(elastic, state, base, nint(given(1, :)), answer, facts)
+      case (4); call run_matrices(elastic, state, wishes(3:5), base, nint(given(1, :)), answer, facts)
       case (5); call run_errors(elastic, state, wishes(3:5), base, given, answer, facts)
       end select
       call blas_end(work)
@@ -197,16 +197,17 @@ contains
       facts(:4) = [k, modes%loose, modes%negative, merge(1, 0, modes%is_complete)]
    end subroutine run_modes
 
-   subroutine run_matrices(elastic, state, base, independent, answer, facts)
+   subroutine run_matrices(elastic, state, gravity, base, independent, answer, facts)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gravity(3)
       type(base_t), intent(inout) :: base
       integer, intent(in) :: independent(:)
       real(wp), intent(inout) :: answer(:, :), facts(:)
       type(matrices_t) :: matrices
       integer :: q
 
-      call find_matrices(elastic, state, base, independent, matrices)
+      call find_matrices(elastic, state, gravity, base, independent, matrices)
       q = size(independent)
       answer(:q, :q) = matrices%mass
       answer(:q, q + 1:2*q) = matrices%stiffness
@@ -227,7 +228,7 @@ contains
       first = size(elastic%scale)
       k = 6*elastic%model%elements
       call find_errors(elastic, state, gravity, base, given(1, 1), &
-                       reshape(given(first + 1:first + k, :), [6, k/6, size(given, 2)]), errors)
+                       reshape(given(first + 1:first + k, :), [6, k/6, size(given, 2)]), given(2, :), errors)
       facts(5) = merge(1.0_wp, 0.0_wp, base%space%failed .or. errors%failed)
       if (facts(5) > 0) return
       facts(:3) = [size(given, 2), errors%loose, errors%negative]

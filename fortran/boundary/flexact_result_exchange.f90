@@ -29,7 +29,7 @@ module flexact_result_exchange
                                                     'columns of largest', 'scaled values', 'pairs', 'motions', &
                                                     'self-stresses', 'proven rank', 'as typed', 'primes', &
                                                     'failure', 'undecided', 'unjudged', 'left', 'explained', &
-                                                    'unseen', 'bound']
+                                                    'unseen', 'bound', 'fading']
 
    !> Bytes that an analysis takes besides the factors of D(c): for each row and each column (to
    !> 900 were measured, of chains, lattices and loose bars), and on every occasion. Where the
@@ -120,7 +120,7 @@ contains
       end associate
       facts(31:32) = [answer%undecided, merge(1, 0, answer%unjudged)]
       facts(33:35) = [answer%left, answer%explained, real(answer%unseen, wp)]
-      facts(36) = answer%bound
+      facts(36:37) = [answer%bound, real(answer%fading, wp)]
    end subroutine run_with_blas
 
    !> As find_sensitivities in bindings.f90 says; nothing where sizes do not fit.

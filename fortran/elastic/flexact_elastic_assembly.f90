@@ -96,19 +96,17 @@ contains
       type(layout_t), intent(in) :: layout
       type(sparse_t), intent(inout) :: matrix
       real(wp), intent(inout) :: least(:)
-      real(wp) :: block(3, 3)
       integer :: node, i
 
       do node = 1, elastic%model%nodes
-         if (.not. abs(tangent%node_hessian(node)) > 0) cycle
-         block = 0.0_wp
+         if (.not. any(abs(tangent%node_hessian(:, :, node)) > 0)) cycle
          do i = 1, axes
-            block(i, i) = tangent%node_hessian(node)
             associate (j => layout%column(axes*(node - 1) + i), scale => elastic%scale(axes*node))
-               if (j > 0) least(j) = least(j) + abs(block(i, i))/scale**2
+               if (j > 0) least(j) = least(j) + abs(tangent%node_hessian(i, i, node))/scale**2
             end associate
          end do
-         call add_block(elastic, layout%of_node(:, :, node), axes*(node - 1) + [1, 2, 3], block, matrix)
+         call add_block(elastic, layout%of_node(:, :, node), axes*(node - 1) + [1, 2, 3], tangent%node_hessian(:, :, node), &
+                        matrix)
       end do
    end subroutine add_nodes
 

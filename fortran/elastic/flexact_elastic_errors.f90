@@ -49,6 +49,8 @@ module flexact_elastic_errors
    real(wp), parameter :: inside = 1 - 1.0e-6_wp
    !> Of residuals; errors, which are Rayleigh quotients, have the square of it.
    real(wp), parameter :: accuracy = 1.0e-6_wp
+   !> What is so many times as far as the nearest may be nearer with other meshes.
+   real(wp), parameter :: about = 1.2_wp
    !> Values so many times the nearest are rounding.
    real(wp), parameter :: rounding = 1.0e6_wp
 
@@ -74,20 +76,24 @@ contains
    end subroutine weigh
 
    !> The base is that of a state without stress. No errors are found where K - square M has
-   !> something negative, or K a motion without stiffness beside a square.
-   subroutine find_errors(elastic, state, gravity, base, square, stress, errors)
+   !> something negative, or K a motion without stiffness beside a square. lengths (stresses), of
+   !> unit errors: only what is about as near as the nearest is looked for, 0: all is.
+   subroutine find_errors(elastic, state, gravity, base, square, stress, lengths, errors)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: gravity(3), square, stress(:, :, :)
+      real(wp), intent(in) :: gravity(3), square, stress(:, :, :), lengths(:)
       type(base_t), target, intent(inout) :: base
       type(errors_t), intent(out) :: errors
       type(operator_t), target :: op
       type(sparse_t), target :: hessian
       type(sparse_t) :: mass, whole
       type(state_t) :: stressed
+      real(wp) :: nearest
       integer :: i
 
-      allocate (errors%below(size(stress, 3)), errors%above(size(stress, 3)))
+      allocate (errors%below(size(stress, 3)), source=-huge(1.0_wp))
+      allocate (errors%above(size(stress, 3)), source=huge(1.0_wp))
+      nearest = huge(nearest)
       call make_operator(elastic, base%tangent, base%space, .true., op)
       errors%failed = op%failed
       if (op%failed) return
@@ -107,10 +113,39 @@ contains
          call add_hessian(elastic, stressed, gravity, base%tangent)
          call assemble_hessian(elastic, base%tangent, base%space%layout, whole)
          call project(base%space%projection, whole, hessian)
+         if (nearest < huge(nearest)) then
+            if (is_stable_within(base, op, hessian, about*nearest/lengths(i))) cycle
+         end if
          call find_nearest(elastic, base, op, hessian, square, errors%below(i), errors%above(i), errors%failed)
          if (errors%failed) return
+         if (lengths(i) > 0) nearest = min(nearest, lengths(i)*min(-errors%below(i), errors%above(i)))
       end do
    end subroutine find_errors
+
+   !> Whether K - square M + d H is definite at both ends, and so everywhere in between.
+   logical function is_stable_within(base, op, hessian, end)
+      type(base_t), intent(in) :: base
+      type(operator_t), intent(in) :: op
+      type(sparse_t), intent(in) :: hessian
+      real(wp), intent(in) :: end
+      type(symmetric_factor_t) :: factor
+      type(sparse_t) :: matrix
+      type(error_t), allocatable :: error
+      real(wp) :: d
+      integer :: side
+
+      is_stable_within = .false.
+      if (size(op%loose, 2) > 0) return
+      matrix = op%matrix
+      do side = -1, 1, 2
+         d = side*end
+         matrix%value = op%matrix%value + d*hessian%value
+         call factorise(base%space%projection%pattern, matrix, factor, error, op%least)
+         if (allocated(error)) return
+         if (factor%negative > 0) return
+      end do
+      is_stable_within = .true.
+   end function is_stable_within
 
    !> Values d of (K - square M) v = -d H v on both sides of zero.
    subroutine find_nearest(elastic, base, op, hessian, square, below, above, failed)

@@ -71,7 +71,7 @@ contains
       integer :: k, node
 
       do node = 1, elastic%model%nodes
-         f(axes*node - 2:axes*node) = tangent%node_hessian(node)*v(axes*node - 2:axes*node)
+         f(axes*node - 2:axes*node) = matmul(tangent%node_hessian(:, :, node), v(axes*node - 2:axes*node))
       end do
       do k = 1, elastic%model%elements
          block = tangent%hessian(:, :, k)

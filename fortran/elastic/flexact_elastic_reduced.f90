@@ -7,7 +7,7 @@ module flexact_elastic_reduced
    use flexact_elastic_rows, only: rows_t
    use flexact_elastic_space, only: space_t, make_space, answer
    use flexact_elastic_state, only: state_t, unit_parameters
-   use flexact_elastic_tangent, only: add_mass, component_row
+   use flexact_elastic_tangent, only: add_hessian, add_mass, component_row
    use flexact_kinds, only: wp
    use flexact_slots, only: axes, node_orientation
    implicit none
@@ -24,9 +24,10 @@ contains
 
    !> independent: 3 node + axis of a coordinate, or -1 - (6 element + deformation), all from 0.
    !> An independent component of an orientation is an Euler parameter.
-   subroutine find_matrices(elastic, state, base, independent, matrices)
+   subroutine find_matrices(elastic, state, gravity, base, independent, matrices)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gravity(3)
       type(base_t), intent(inout) :: base
       integer, intent(in) :: independent(:)
       type(matrices_t), intent(out) :: matrices
@@ -47,6 +48,7 @@ contains
          call answer(space, elastic, c, x(:, i), wrong)
       end do
       call add_mass(elastic, state%configuration, base%tangent)
+      call add_hessian(elastic, state, gravity, base%tangent, on_parameters=.true.)
       allocate (matrices%mass(q, q), matrices%stiffness(q, q), matrices%geometric(q, q))
       do i = 1, q
          matrices%mass(:, i) = matmul(mass_times(elastic, base%tangent, x(:, i)), x)

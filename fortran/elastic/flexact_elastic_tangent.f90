@@ -20,8 +20,8 @@ module flexact_elastic_tangent
    type :: tangent_t
       !> (6, elements), (6, 12, elements).
       real(wp), allocatable :: deformation(:, :), derivative(:, :, :)
-      !> (12, 12, elements) of the stress and of gravity; (nodes) times the identity on spins.
-      real(wp), allocatable :: hessian(:, :, :), node_hessian(:)
+      !> (12, 12, elements) of the stress and of gravity; (3, 3, nodes) of reactions on spins.
+      real(wp), allocatable :: hessian(:, :, :), node_hessian(:, :, :)
       !> (12, 12, elements), (3, 3, nodes).
       real(wp), allocatable :: mass(:, :, :), node_mass(:, :, :)
       !> (3 nodes) of gravity.
@@ -42,7 +42,7 @@ contains
       associate (model => elastic%model)
          if (.not. allocated(tangent%deformation)) then
             allocate (tangent%deformation(6, model%elements), tangent%derivative(6, 12, model%elements))
-            allocate (tangent%hessian(12, 12, model%elements), tangent%node_hessian(model%nodes))
+            allocate (tangent%hessian(12, 12, model%elements), tangent%node_hessian(axes, axes, model%nodes))
             allocate (tangent%weight(axes*model%nodes))
          end if
          tangent%weight = 0.0_wp
@@ -74,14 +74,17 @@ contains
    end subroutine weigh_nodes
 
    !> Second derivatives under the stress and the reactions of a state, and of gravity. A reaction
-   !> where nothing is held any more stays as a dead load, dual to its Euler parameter.
-   subroutine add_hessian(elastic, state, gravity, tangent)
+   !> where nothing is held any more stays as a constant moment on the angle of its Euler parameter,
+   !> or, where it says so, as a constant force on the parameter itself.
+   subroutine add_hessian(elastic, state, gravity, tangent, on_parameters)
       type(elastic_model_t), intent(in) :: elastic
       type(state_t), intent(in) :: state
       real(wp), intent(in) :: gravity(3)
       type(tangent_t), intent(inout) :: tangent
+      logical, intent(in), optional :: on_parameters
       type(pose_t) :: p, q
-      real(wp) :: f(12), h(12, 12), euler(4)
+      real(wp) :: f(12), h(12, 12)
+      logical :: on_angles
       integer :: k, node
 
       do k = 1, elastic%model%elements
@@ -95,13 +98,39 @@ contains
             tangent%hessian(:, :, k) = tangent%hessian(:, :, k) + h
          end associate
       end do
+      on_angles = .true.
+      if (present(on_parameters)) on_angles = .not. on_parameters
       tangent%node_hessian = 0.0_wp
       do node = 1, elastic%model%nodes
-         if (elastic%model%node_kind(node) /= node_orientation) cycle
-         euler = unit_parameters(state%configuration(:, node))
-         if (elastic%is_free(axes*node)) tangent%node_hessian(node) = dot_product(state%reaction(:, node), euler(2:))/2
+         if (elastic%model%node_kind(node) /= node_orientation .or. .not. elastic%is_free(axes*node)) cycle
+         if (.not. any(abs(state%reaction(:, node)) > 0)) cycle
+         tangent%node_hessian(:, :, node) = &
+            reaction_hessian(unit_parameters(state%configuration(:, node)), state%reaction(:, node), &
+                             on_angles .and. .not. elastic%is_component(axes*node - 2:axes*node))
       end do
    end subroutine add_hessian
+
+   !> Minus the second derivatives of 2 lambda_i by the spin, times reactions; of angles
+   !> 2 asin(lambda_i), times the moments reaction_i cos(angle_i/2), where on_angle says so.
+   pure function reaction_hessian(euler, reaction, on_angle) result(h)
+      real(wp), intent(in) :: euler(4), reaction(3)
+      logical, intent(in) :: on_angle(3)
+      real(wp) :: h(3, 3)
+      real(wp) :: row(3), part
+      integer :: axis, i
+
+      h = 0.0_wp
+      do axis = 1, axes
+         part = reaction(axis)*euler(1 + axis)/2
+         do i = 1, axes
+            h(i, i) = h(i, i) + part
+         end do
+         row = component_row(euler, axis)
+         ! Twice the row has the length of the cosine: 0 at half a turn, where the angle ends.
+         if (on_angle(axis) .and. any(abs(row) > 0)) &
+            h = h - part*spread(row, 2, axes)*spread(row, 1, axes)/dot_product(row, row)
+      end do
+   end function reaction_hessian
 
    subroutine add_mass(elastic, configuration, tangent)
       type(elastic_model_t), intent(in) :: elastic

@@ -26,7 +26,7 @@ module flexact_slots
 
 contains
 
-   pure logical function is_position(kind)
+   elemental logical function is_position(kind)
       integer, intent(in) :: kind
       is_position = kind == node_planar_position .or. kind == node_position
    end function is_position

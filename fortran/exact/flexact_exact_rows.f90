@@ -4,13 +4,13 @@
 !> left out of it, so that nothing is rounded. They are rules on the roles of the
 !> deformations, theory.md (10) to (16).
 module flexact_exact_rows
+   use flexact_configuration, only: stand_in
    use flexact_element_table, only: element_kinds, frame_none, frame_about, frame_planar
    use flexact_exact_number, only: arithmetic_t, number_t, number_of, whole, operator(+), operator(-), operator(*)
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
    use flexact_roles
    use flexact_slots, only: axes, node_planar_position
-   use flexact_vectors, only: axis_across
    implicit none
    private
    public :: exact_element_t, make_exact_element, exact_row
@@ -46,14 +46,14 @@ contains
                                     - number_of(model%node_value(:seen, p), arithmetic)
          end if
          element%square = dot(element%offset, element%offset)
-         call make_frame(row%frame, chord, model%element_vector(:, k), arithmetic, element)
+         call make_frame(row%frame, chord, model%element_vector(:, k), stand_in(model, k), arithmetic, element)
       end associate
    end subroutine make_exact_element
 
-   !> Vectors along the axes of `reference_frame`.
-   pure subroutine make_frame(rule, chord, vector, arithmetic, element)
+   !> Vectors along the axes of `element_frame`.
+   pure subroutine make_frame(rule, chord, vector, axis, arithmetic, element)
       integer, intent(in) :: rule
-      real(wp), intent(in) :: chord(3), vector(3)
+      real(wp), intent(in) :: chord(3), vector(3), axis(3)
       type(arithmetic_t), intent(in) :: arithmetic
       type(exact_element_t), intent(inout) :: element
       real(wp) :: towards(3)
@@ -69,12 +69,12 @@ contains
       element%x = element%offset
       if (rule == frame_about) then
          element%x = number_of(vector, arithmetic)
-         towards = axis_across(vector)
+         towards = axis
       else if (.not. any(abs(chord) > 0)) then
          element%x = number_of([1.0_wp, 0.0_wp, 0.0_wp], arithmetic)
          towards = [0.0_wp, 1.0_wp, 0.0_wp]
       else if (.not. any(abs(vector) > 0)) then
-         towards = axis_across(chord)
+         towards = axis
       end if
       element%z = cross(element%x, number_of(towards, arithmetic))
       element%y = cross(element%z, element%x)

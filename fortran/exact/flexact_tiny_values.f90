@@ -32,6 +32,8 @@ module flexact_tiny_values
       !> The first are not zero; of these the last were not seen by the digits, but by
       !> exact arithmetic alone. The next may or may not be.
       integer :: nonzero = 0, unseen = 0, undecided = 0
+      !> So many of the undecided are so because their vectors fade, though no digits show them.
+      integer :: fading = 0
       !> The largest of those that may be zero, and what storing the geometry makes of it.
       real(wp) :: left = 0.0_wp, explained = 0.0_wp
    end type judgement_t
@@ -98,12 +100,14 @@ contains
    pure subroutine doubt_fading(asked, judgement)
       integer, intent(in) :: asked
       type(judgement_t), intent(inout) :: judgement
-      integer :: k
+      integer :: k, shown
 
+      shown = judgement%undecided
       do k = asked + 1, size(judgement%zeros%value)
          if (fades(judgement%zeros%left(:, k)) .and. fades(judgement%zeros%right(:, k))) &
             judgement%undecided = k - judgement%nonzero
       end do
+      judgement%fading = judgement%undecided - shown
    end subroutine doubt_fading
 
    !> Whether components are small, but not by rounding.

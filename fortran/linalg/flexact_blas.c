@@ -159,10 +159,12 @@ static void set_threads(void)
 static void before_fork(void) { pthread_mutex_lock(&lock); }
 static void after_fork(void) { pthread_mutex_unlock(&lock); }
 
-/* Threads that are at work stay behind in the parent. */
+/* Threads that are at work stay behind in the parent, and what they asked of OpenBLAS with them;
+ * under a limit it waits for the first call, which looks for room before. */
 static void in_child(void)
 {
     active = alone = buffered = 0;
+    if (has_threads() && !is_limited() && openblas_get_parallel() != openmp) set_threads();
     pthread_mutex_unlock(&lock);
 }
 

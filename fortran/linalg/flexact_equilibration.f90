@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Scales of a sparse symmetric matrix: entries over those of their row and column are at most
-!> about 1, and 1 on the diagonal of a definite matrix.
+!> about 1, the largest of each row is, and the diagonal of a definite matrix.
 module flexact_equilibration
    use flexact_kinds, only: wp
    use flexact_sparse, only: sparse_t
@@ -8,40 +8,45 @@ module flexact_equilibration
    private
    public :: find_scale
 
+   !> Each halves, in powers of ten, how far the largest entries are from 1.
+   integer, parameter :: rounds = 10
+   real(wp), parameter :: about_one = 1.5_wp
+
 contains
 
-   !> The root of the diagonal; where entries beside it stay above 1, more.
+   !> The root of the diagonal, or of `least` where that is larger; then, until the largest
+   !> scaled entry of each row is about 1, times the root of that entry, both ways (Ruiz,
+   !> Rutherford Appleton Laboratory RAL-TR-2001-034), but not below the root of `least`.
    pure subroutine find_scale(matrix, scale, least)
       type(sparse_t), intent(in) :: matrix
       real(wp), intent(out) :: scale(:)
       real(wp), intent(in), optional :: least(:)
-      real(wp) :: largest(size(scale)), unit(size(scale))
-      integer :: i, j, entry, round
+      real(wp) :: largest(size(scale)), low(size(scale)), entry
+      integer :: i, j, at, round
 
-      scale = 0.0_wp
-      largest = 0.0_wp
-      if (present(least)) scale = least
+      low = 0.0_wp
+      if (present(least)) low = sqrt(least)
+      scale = low
       do j = 1, matrix%columns
-         do entry = matrix%start(j), matrix%start(j + 1) - 1
-            i = matrix%place(entry)
-            if (i == j) scale(j) = max(scale(j), abs(matrix%value(entry)))
+         do at = matrix%start(j), matrix%start(j + 1) - 1
+            if (matrix%place(at) == j) scale(j) = max(scale(j), sqrt(abs(matrix%value(at))))
          end do
-      end do
-      scale = sqrt(scale)
-      do round = 1, 2
-         unit = 1/merge(scale, 1.0_wp, scale > 0)
-         largest = 0.0_wp
-         do j = 1, matrix%columns
-            do entry = matrix%start(j), matrix%start(j + 1) - 1
-               i = matrix%place(entry)
-               if (i <= j) cycle
-               largest(i) = max(largest(i), abs(matrix%value(entry)*unit(j)))
-               largest(j) = max(largest(j), abs(matrix%value(entry)*unit(i)))
-            end do
-         end do
-         if (all(largest <= scale)) exit
-         scale = max(scale, largest)
       end do
       where (.not. scale > 0) scale = 1.0_wp
+      do round = 1, rounds
+         largest = 0.0_wp
+         do j = 1, matrix%columns
+            do at = matrix%start(j), matrix%start(j + 1) - 1
+               i = matrix%place(at)
+               if (i < j) cycle
+               entry = abs(matrix%value(at)/scale(i)/scale(j))
+               largest(i) = max(largest(i), entry)
+               largest(j) = max(largest(j), entry)
+            end do
+         end do
+         where (.not. largest > 0) largest = 1.0_wp
+         if (all(largest <= about_one .and. (largest >= 1/about_one .or. scale <= low))) exit
+         scale = max(scale*sqrt(largest), low)
+      end do
    end subroutine find_scale
 end module flexact_equilibration

@@ -2,13 +2,16 @@
 !> What can be analysed and is hardly meant: warnings about a sound model.
 module flexact_silent_mistakes
    use flexact_coincident_nodes, only: check_coincident_nodes
+   use flexact_configuration, only: leans_on_near_tie
    use flexact_diagnostics, only: span_t, diagnostics_t
-   use flexact_element_table, only: element_kinds
+   use flexact_element_table, only: element_kinds, vector_optional
    use flexact_kinds, only: wp
-   use flexact_labels, only: names_t, two_labels, digits_of
+   use flexact_labels, only: names_t, element_label, two_labels, digits_of
    use flexact_model, only: model_t, class_fixed, class_independent
    use flexact_parallel_elements, only: check_parallel_elements
    use flexact_repeated_names, only: check_repeated_names
+   use flexact_roles, only: role_bending_xz_p, role_bending_xz_q, role_bending_xy_p, role_bending_xy_q, &
+                            role_offset_y, role_offset_z, role_tilt_y, role_tilt_z
    use flexact_slots, only: node_planar_position, node_position, node_orientation
    implicit none
    private
@@ -28,6 +31,7 @@ contains
 
       call check_support(model, diagnostics)
       call check_lengths(model, names, diagnostics)
+      call check_axes(model, names, diagnostics)
       call check_coincident_nodes(model, names, diagnostics)
       call check_parallel_elements(model, names, diagnostics)
       call check_repeated_names(model, names, diagnostics)
@@ -70,6 +74,54 @@ contains
                                'the longest', 'give all positions in one unit, metres', &
                                span_t(model%element_origin(shortest), 0))
    end subroutine check_lengths
+
+   !> Of the elements whose deformations depend on an axis that a tiny difference has chosen,
+   !> the first.
+   subroutine check_axes(model, names, diagnostics)
+      type(model_t), intent(in) :: model
+      type(names_t), intent(in) :: names
+      type(diagnostics_t), intent(inout) :: diagnostics
+      character(len=:), allocatable :: others, mend
+      integer :: k, first, found
+
+      found = 0
+      do k = 1, model%elements
+         if (.not. tells_axes_apart(model, k)) cycle
+         if (.not. leans_on_near_tie(model, k)) cycle
+         found = found + 1
+         if (found == 1) first = k
+      end do
+      if (found == 0) return
+      others = ''
+      if (found > 1) others = ', and of '//digits_of(found - 1)//merge(' others', ' other ', found > 2)
+      if (element_kinds(model%element_kind(first))%vector == vector_optional) then
+         mend = 'give the vector that its local y axis is towards'
+      else
+         mend = 'give coordinates that make these components equal, or clearly different'
+      end if
+      call diagnostics%warning('nearly-equal-components', span_t(model%element_origin(first), 0), &
+                               'a difference of rounding chooses the local y axis of '//element_label(model, names, first) &
+                               //trim(others)//', and what is held depends on it', &
+                               'two components of its direction are equal in size but for that', mend)
+   end subroutine check_axes
+
+   !> Whether it matters which way the axes across element k point: not where what each does
+   !> along ey and along ez has one class.
+   pure logical function tells_axes_apart(model, k)
+      type(model_t), intent(in) :: model
+      integer, intent(in) :: k
+      integer, parameter :: y(4) = [role_bending_xz_p, role_bending_xz_q, role_offset_y, role_tilt_y]
+      integer, parameter :: z(4) = [role_bending_xy_p, role_bending_xy_q, role_offset_z, role_tilt_z]
+      integer :: i
+
+      associate (role => element_kinds(model%element_kind(k))%role, class => model%deformation_class(:, k))
+         tells_axes_apart = .false.
+         do i = 1, size(y)
+            if (.not. any(role == y(i))) cycle
+            if (class(findloc(role, y(i), 1)) /= class(findloc(role, z(i), 1))) tells_axes_apart = .true.
+         end do
+      end associate
+   end function tells_axes_apart
 
    pure real(wp) function length_between(model, p, q) result(length)
       type(model_t), intent(in) :: model

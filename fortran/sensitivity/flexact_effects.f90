@@ -8,14 +8,13 @@ module flexact_effects
    use flexact_element_table, only: element_kinds, member_bar, frame_about, frame_planar, rule_along => frame_along
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
-   use flexact_configuration, only: element_reference
-   use flexact_element, only: reference_frame
+   use flexact_configuration, only: element_frame, element_reference, stand_in
    use flexact_pose, only: reference_t
    use flexact_roles, only: role_elongation, role_torsion, role_bending_xz_p, role_bending_xz_q, role_bending_xy_p, &
                             role_bending_xy_q, role_planar_bending_p, role_planar_bending_q, role_offset_x, role_offset_z, &
                             role_rotation, role_tilt_z
    use flexact_slots, only: has_axis
-   use flexact_vectors, only: axis_across, cross
+   use flexact_vectors, only: cross
    implicit none
    private
    public :: geometry_t, make_geometry, find_effects, parameters
@@ -56,8 +55,7 @@ contains
       geometry%length = reference%length
       geometry%vector = model%element_vector(:, k)
       geometry%frame = reference%frame
-      if (element_kinds(geometry%kind)%member == member_bar) &
-         geometry%frame = reference_frame(geometry%kind, geometry%offset, geometry%vector)
+      if (element_kinds(geometry%kind)%member == member_bar) geometry%frame = element_frame(model, k)
       if (model%element_node(3, k) > 0) &
          geometry%moves = [(has_axis(model%node_kind(model%element_node(3, k)), axis), axis=1, 3)]
       select case (element_kinds(geometry%kind)%frame)
@@ -68,11 +66,11 @@ contains
             call take_parts(geometry%vector, geometry)
          else
             ! The global axis that stands in for it must not change with the geometry.
-            call take_parts(axis_across(geometry%offset), geometry)
+            call take_parts(stand_in(model, k), geometry)
          end if
       case (frame_about)
          geometry%along = norm2(geometry%vector)
-         call take_parts(axis_across(geometry%vector), geometry)
+         call take_parts(stand_in(model, k), geometry)
       case (frame_planar)
          geometry%along = geometry%length
       end select

@@ -12,7 +12,8 @@ module flexact_sensitivity
    use flexact_model, only: model_t
    use flexact_partition, only: partition_t, make_partition
    use flexact_slots, only: axes, is_position
-   use flexact_rounding, only: decimal, decimal_t, difference, half_bit, half_units, last_bits, looks_printed, looks_rounded
+   use flexact_rounding, only: decimal, decimal_t, difference, digits_of, half_bit, half_units, last_bits, looks_printed, &
+                               looks_rounded
    use flexact_scaling, only: extent_of
    use flexact_vectors, only: cross
    implicit none
@@ -21,6 +22,9 @@ module flexact_sensitivity
 
    !> Of several that change as much as can be told, the first is named.
    real(wp), parameter :: more = 1 + 1.0e-6_wp
+
+   !> Of so many nodes one is where digits are counted from.
+   integer, parameter :: most_origins = 12
 
    !> Zeros that were turned are no larger than this part of the geometry.
    real(wp), parameter :: remnant = 16*epsilon(1.0_wp)
@@ -193,7 +197,7 @@ contains
       type(model_t), intent(in) :: model
       real(wp), intent(in) :: by_node(:, :, :)
       type(sensitivity_t), intent(inout) :: found(:)
-      type(decimal_t), allocatable :: number(:, :)
+      type(decimal_t), allocatable :: number(:, :), counted(:, :)
       logical, allocatable :: rounded(:, :)
       logical :: printed(axes)
       real(wp) :: half(axes), bits(axes), units(axes), extent
@@ -201,11 +205,13 @@ contains
 
       allocate (number(axes, model%nodes), rounded(axes, model%nodes))
       number = decimal(model%node_value(1:axes, :))
-      call find_rounded(model, number, rounded, printed)
+      counted = number
+      call count_from_a_node(model, counted)
+      call find_rounded(model, counted, rounded, printed)
       extent = extent_of(model)
       do node = 1, model%nodes
          if (.not. is_position(model%node_kind(node))) cycle
-         half = half_units(number(:, node), rounded(:, node))
+         half = half_units(counted(:, node), rounded(:, node))
          bits = last_bits(model%node_value(1:axes, node), extent)
          units = stored_or_printed(model%node_value(1:axes, node), number(:, node), printed, extent)
          do i = 1, size(found)
@@ -217,6 +223,38 @@ contains
          end do
       end do
    end subroutine add_lifts_of_nodes
+
+   !> Coordinates along each axis from that of a node on, where they have clearly fewer digits
+   !> so: what was moved by decimals has more of them, and is known no worse.
+   pure subroutine count_from_a_node(model, number)
+      type(model_t), intent(in) :: model
+      type(decimal_t), intent(inout) :: number(:, :)
+      type(decimal_t) :: shifted(model%nodes), best(model%nodes)
+      logical :: is_place(model%nodes), is_apart(model%nodes)
+      integer :: axis, node, looked_at, digits, fewest
+
+      is_place = is_position(model%node_kind)
+      do axis = 1, axes
+         best = number(axis, :)
+         fewest = sum(digits_of(best), is_place)
+         looked_at = 0
+         do node = 1, model%nodes
+            if (.not. (is_place(node) .and. number(axis, node)%short)) cycle
+            shifted = difference(number(axis, node), number(axis, :))
+            ! What has too many digits then stays as it is.
+            where (.not. shifted%short) shifted = number(axis, :)
+            digits = sum(digits_of(shifted), is_place)
+            is_apart = is_place .and. shifted%mantissa /= 0
+            if (digits < fewest .and. 4*digits <= 3*sum(digits_of(number(axis, :)), is_apart)) then
+               best = shifted
+               fewest = digits
+            end if
+            looked_at = looked_at + 1
+            if (looked_at == most_origins) exit
+         end do
+         number(axis, :) = best
+      end do
+   end subroutine count_from_a_node
 
    !> Which coordinates look rounded, both by themselves and, along their axis, as
    !> seen along some element: the joints 100, 101, ... of a lattice do not. Along

@@ -8,13 +8,13 @@ The names are loaded when they are first used, so that a command which needs few
 starts quickly.
 """
 
-from typing import TYPE_CHECKING
+import typing as _typing
 
-from .base.loading import load
-from .base.version import VERSION
-from .model.showing import shown_by
+from .base.loading import load as _load
+from .base.version import VERSION as _VERSION
+from .model.showing import shown_by as _shown_by
 
-if TYPE_CHECKING:
+if _typing.TYPE_CHECKING:
     from .advising import Advice, Step
     from .analysis import Analysis, analyse
     from .base.errors import FlexactError
@@ -71,7 +71,7 @@ if TYPE_CHECKING:
     from .variants.table import Table
     from .variants.tolerances import Tolerances, tolerances
 
-__version__ = VERSION
+__version__ = _VERSION
 
 #: The module of each public name.
 _HOMES = {
@@ -181,9 +181,9 @@ __all__ = [
 
 
 # A model may know nothing of what stands on top of it.
-shown_by(
-    lambda model, path: load("flexact.analysis").show_model(model, path),
-    lambda model: load("flexact.notebook.models").html_of(model.data),
+_shown_by(
+    lambda model, path: _load("flexact.analysis").show_model(model, path),
+    lambda model: _load("flexact.notebook.models").html_of(model.data),
 )
 
 
@@ -191,12 +191,12 @@ def __getattr__(name: str) -> object:
     """A public name, loaded from its module."""
     if name not in _HOME_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    load("flexact.core.narrow").prepare()
-    value: object = getattr(load(f"flexact.{_HOME_OF[name]}"), name)
+    _load("flexact.core.narrow").prepare()
+    value: object = getattr(_load(f"flexact.{_HOME_OF[name]}"), name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
     """The public names."""
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

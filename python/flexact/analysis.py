@@ -6,11 +6,12 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .base.cached import cached_property
 from .base.loading import load
+from .base.partial import attempted
 from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.models import read
@@ -93,7 +94,7 @@ class Analysis(Result):
         path: str | os.PathLike[str],
         *,
         motion: int | None = None,
-        freedom: int | None = None,
+        freedom: int | str | None = None,
         stress: int | None = None,
         quantity: str | None = None,
         view: str | None = None,
@@ -147,19 +148,23 @@ class Analysis(Result):
         self.save(target)
         return open_page(target)
 
-    def advice(self, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
+    def advice(
+        self, body: str | None = None, wanted: Sequence[str] = (), bodies: bool = False
+    ) -> Advice:
         """What is wrong and why, and steps that mend it, each analysed before it is shown.
 
         Args:
             body: The body whose freedom and constraint are looked at, by name.
             wanted: Motions that are meant to be free, such as "stage: translation z"; what else
                 moves is unwanted.
+            bodies: Whether insides of rigid bodies may be released where anything else does it,
+                too.
 
         Raises:
             ModelError: no body has this name, or a text is not understood.
         """
         # Few ask for it, and it takes a while to load.
-        made: Advice = load("flexact.advising").advice_of(self, body, wanted)
+        made: Advice = load("flexact.advising").advice_of(self, body, wanted, bodies)
         return made
 
     def describe(self) -> str:
@@ -170,7 +175,8 @@ class Analysis(Result):
         words = describe(self, most=MOST_MODES)
         if self.over_constrained and self.given.properties is not None:
             # It takes a while to load.
-            words = load("flexact.costing.glance").with_glance(words, self)
+            glance, told = load("flexact.costing.glance"), words
+            words = attempted("", lambda: str(glance.with_glance(told, self)), words, None)
         return words
 
     def __repr__(self) -> str:
@@ -202,6 +208,7 @@ def analyse(
     tolerance: float | None = None,
     prove: bool | None = None,
     accuracy: AccuracyGiven | None = None,
+    beyond: bool = False,
     name: str | None = None,
     progress: Progress | None = None,
 ) -> Analysis:
@@ -222,6 +229,7 @@ def analyse(
         accuracy: To what the parts are made and put together: a length [m], or a length and an
             angle [rad]. A margin that is smaller is said beside the verdict, and has another
             colour; see `Analysis.is_marginal`.
+        beyond: Whether the accuracy may be larger than the model.
         name: What the result is called; by default the model's name or the path.
         progress: Called with what is being done and how much of that is done, from 0 to 1,
             some times a second.
@@ -230,7 +238,8 @@ def analyse(
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
         AnalysisError: the model is too large for the memory, the decomposition did not
-            converge, or this build lacks what the method needs.
+            converge, or this build lacks what the method needs; or the accuracy is larger than
+            the model, and not `beyond`.
         TypeError: what is given is neither a model nor a path, or the tolerance no number,
             the method or the name no text, `prove` no truth value, the accuracy neither a
             number nor two, or `progress` nothing to call.
@@ -247,6 +256,8 @@ def analyse(
     asked = asked_for(method, tolerance, prove, accuracy)
     if not isinstance(model, Model):
         model = read(model)
+    if asked.accuracy is not None and not beyond:
+        asked.accuracy.require_within(model.data.size)
     return result_of(model.data, asked, name, progress, Analysis)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from .base.errors import BatchError
 from .base.loading import load
+from .base.partial import attempted
 from .drawing.selection import select_motion
 from .files.outputs import OutputError, write_together
 from .mesh import mesh_writer
@@ -87,15 +88,23 @@ def page_bytes(analysis: Result, place: str | None = None) -> bytes:
         analysis: The result.
         place: Path of the page beside an index, to which it has a link then.
     """
-    still = picture_bytes(analysis, ".png") if has_packages() else None
-    made = page(analysis, still)
+    missing: list[str] = []
+    still = None
+    if has_packages():
+        what = "The still picture"
+        still = attempted(what, lambda: picture_bytes(analysis, ".png"), None, missing)
+    made = page(analysis, still, missing=missing)
     return as_bytes(made if place is None else with_way_back(made, place))
 
 
 def small_picture(analysis: Result) -> bytes | None:
-    """A small picture without words for an index, as PNG, where the packages are installed."""
+    """A small picture without words for an index, as PNG, where it can be made."""
     if not has_packages():
         return None
+    return attempted("The picture", lambda: _small(analysis), None, None)
+
+
+def _small(analysis: Result) -> bytes:
     drawn = picture_bytes(analysis, ".png", size=_SMALL, plain=True)
     # An index holds very many.
     pillow = load("PIL.Image")

@@ -7,6 +7,7 @@ is kept as c, y, z of its directions: c the chord or axis, z = c x v of a vector
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import TypeVar
@@ -67,19 +68,17 @@ def rows_of(
 def second_vector(deck: Deck, element: Element) -> Vector:
     """What the y axis of its frame is to be near to: the vector given, or a global axis.
 
-    Among axes that are about as far from the first the doubles choose: which one is taken is a
-    matter of convention.
+    The first of those along which the decimals of its direction are smallest.
     """
     if element.kind.planar or element.keyword == "TRUSS":
         return ORIGIN
     if element.keyword in ("HINGE", "BEARING"):
-        first = [abs(float(part)) for part in element.vector or ()]
+        first = element.vector or ORIGIN
     elif element.vector is not None:
         return element.vector
     else:
-        p, q = ([float(part) for part in deck.place(node)] for node in element.positions)
-        first = [abs(b - a) for a, b in zip(p, q, strict=True)]
-    return AXES[first.index(min(first))]
+        first = deck.chord(element)
+    return min(AXES, key=lambda axis: abs(sum(map(operator.mul, axis, first))))
 
 
 def rows(

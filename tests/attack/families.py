@@ -11,6 +11,7 @@ from typing import NamedTuple
 from . import families_bodies as bodies
 from . import families_chains as chains
 from . import families_frameworks as frameworks
+from . import families_lattices as lattices
 from .deck_text import (
     Style,
     exact,
@@ -72,6 +73,10 @@ FAMILIES: dict[str, Callable[[Chance], Sketch]] = {
     "loop": bodies.loop,
     "mixed": bodies.mixed,
     "far-whole": bodies.far_whole,
+    "ties": lattices.ties,
+    "joints": lattices.joints,
+    "hinged": lattices.hinged,
+    "units": lattices.units,
     "pair": pair,
 }
 #: Points that are this close, as a part of their distance from the origin, are one point.
@@ -94,6 +99,8 @@ class Case(NamedTuple):
     """Of what they stand for, where that is known."""
     digits: float
     """Digits of its largest number; endless where nothing was rounded."""
+    alike: tuple[str, ...] = ()
+    """The same in other units, moved by decimals."""
 
     @property
     def truths(self) -> tuple[Counts, ...]:
@@ -116,7 +123,10 @@ def case_of(family: str, seed: int, number: int) -> Case:
             end = chance.getstate()
             drawn = _without_hair(family, drawn, start)
             chance.setstate(end)
-        return Case(name, text, counts_of(typed), _meant(drawn), drawn.style.digits)
+        alike = tuple(
+            _moved(drawn.shown, unit, chance) for unit in drawn.sketch.alike * lattices.UNITS
+        )
+        return Case(name, text, counts_of(typed), _meant(drawn), drawn.style.digits, alike)
     raise RuntimeError(f"{name}: no deck that is sound")
 
 
@@ -191,6 +201,15 @@ def _placed(deck: Deck, chance: Chance) -> Deck:
         side = frameworks.direction(chance, deck.planar)
         shift = plus(shift, side, far)
     return mapped(deck, lambda place: plus((0, 0, 0), plus(turn(place), shift), scale), turn)
+
+
+def _moved(deck: Deck, unit: Fraction, chance: Chance) -> str:
+    """In another unit, and shifted by decimals."""
+    shift = vector(Fraction(chance.randint(-999, 999), 100) for _ in range(3))
+    if deck.planar:
+        shift = vector(shift[:2])
+    moved = mapped(deck, lambda place: plus((0, 0, 0), plus(place, shift), unit), lambda v: v)
+    return text_of(moved, Style(exact, exact, math.inf))
 
 
 def _is_sound(deck: Deck) -> bool:

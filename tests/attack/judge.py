@@ -13,6 +13,7 @@ import numpy as np
 import flexact
 from flexact.core.arrays import FloatArray
 from flexact.core.elements import Class
+from flexact.text.decision import certainty_word
 
 from .exact_deck import read
 from .families import Case
@@ -40,11 +41,12 @@ class Judgement(str, Enum):
     NEEDLESS = "doubtful without need"
     MISSING = "doubtful, truth missing"
     WRONG = "certain, wrong"
+    UNLIKE = "other in other units"
     REFUSED = "refused"
 
 
 #: What the claim forbids.
-OFFENCES = (Judgement.WRONG, Judgement.MISSING)
+OFFENCES = (Judgement.WRONG, Judgement.MISSING, Judgement.UNLIKE)
 
 
 class Answer(NamedTuple):
@@ -83,7 +85,13 @@ def judge(case: Case, chosen: tuple[str, ...]) -> Judged:
 
 def _answered(case: Case, model: flexact.Model, method: str) -> Answer:
     try:
-        return _answer(case, _analysed(model, method))
+        analysis = _analysed(model, method)
+        answer = _answer(case, analysis)
+        for text in case.alike:
+            other = _analysed(flexact.read_text(text), method)
+            if unlike := _differences(analysis, other, method not in UNPROVED):
+                return Answer(Judgement.UNLIKE, f"{answer.words}; {unlike} in another unit")
+        return answer
     except flexact.AnalysisError as error:
         return Answer(Judgement.REFUSED, str(error).splitlines()[0])
 
@@ -129,6 +137,17 @@ def _answer(case: Case, analysis: flexact.Analysis) -> Answer:
     if offered:
         words += f", offered {[tuple(each) for each in offered]}"
     return Answer(judgement, f"{words} {' '.join(codes)}".strip())
+
+
+def _differences(one: flexact.Analysis, other: flexact.Analysis, proved: bool) -> str:
+    """What is not the same of a deck in another unit, moved; rounding is not, without proofs."""
+    same = {
+        "counts": (one.under_constrained, one.over_constrained)
+        == (other.under_constrained, other.over_constrained),
+        "certainty": not proved or certainty_word(one) == certainty_word(other),
+        "axes": np.allclose(one.data.frames.frame, other.data.frames.frame, atol=1e-9),
+    }
+    return ", ".join(name for name, holds in same.items() if not holds)
 
 
 def _offered(analysis: flexact.Analysis) -> Iterator[Counts]:

@@ -39,6 +39,7 @@ _HEADS = {
     Judgement.NEEDLESS: "needless",
     Judgement.MISSING: "MISSING",
     Judgement.WRONG: "WRONG",
+    Judgement.UNLIKE: "UNLIKE",
     Judgement.REFUSED: "refused",
 }
 #: What is written into the folder of offending decks.

@@ -56,6 +56,7 @@ class Sketch:
         meant: Counts that are meant, where the fractions themselves are rounded.
         plain: Whether it is to be typed as it is, every digit of it.
         long: Whether that may be more digits than a double has.
+        alike: Whether the same is to be said of it in other units, and elsewhere.
     """
 
     planar: bool
@@ -63,6 +64,7 @@ class Sketch:
     meant: Counts | None = None
     plain: bool = False
     long: bool = False
+    alike: bool = False
     _numbers: int = 0
 
     def __post_init__(self) -> None:

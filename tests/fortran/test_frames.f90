@@ -5,7 +5,7 @@ program test_frames
    use flexact_model, only: model_t
    use flexact_slots, only: node_position, node_orientation, node_planar_position, node_angle
    use flexact_pose, only: pose_t, reference_t
-   use flexact_vectors, only: cross
+   use flexact_vectors, only: axis_across, cross, is_near_tie
    use flexact_euler, only: relative_rotation, no_rotation
    use flexact_configuration, only: element_reference
    use flexact_configuration, only: make_poses
@@ -22,6 +22,8 @@ program test_frames
 
    call set_random()
    call test_beam_frames()
+   call test_ties()
+   call test_ties_of_odd_numbers()
    call test_hinge_frames()
    call test_planar_frame()
    call test_rotation_matrix()
@@ -80,6 +82,50 @@ contains
       size = 1.0e-310_wp
       call check_frame(reference_of(find_element_kind('BEAM'), size*[1, 0, 1], size*y), [r, 0.0_wp, r], y, 'subnormal coordinates')
    end subroutine test_beam_frames
+
+   !> On lattices of hundredths, in three units, moved: the axis is that of whole numbers.
+   subroutine test_ties()
+      integer, parameter :: places(3) = [100, 10, 1]
+      integer :: p(3), q(3), move(3), size(3), expected, round, i, unlike
+      real(wp) :: random(9), from(3), to(3)
+
+      unlike = 0
+      do round = 1, 20000
+         call random_number(random)
+         p = int(41*random(:3)) - 20
+         size = int(4*random(4:6))
+         q = p + merge(size, -size, random(7:9) < 0.5_wp)
+         move = int(1999*random(7:9)) - 999
+         expected = minloc(size, 1)
+         do i = 1, 3
+            from = real(p, wp)/places(i)
+            to = real(q, wp)/places(i)
+            if (maxloc(axis_across(from, to), 1) /= expected) unlike = unlike + 1
+            if (is_near_tie(from, to)) unlike = unlike + 1
+            from = real(p + move, wp)/places(i)
+            to = real(q + move, wp)/places(i)
+            if (maxloc(axis_across(from, to), 1) /= expected) unlike = unlike + 1
+            if (is_near_tie(from, to)) unlike = unlike + 1
+         end do
+      end do
+      call tally%check(unlike == 0, 'ties of decimals, X before Y before Z')
+   end subroutine test_ties
+
+   subroutine test_ties_of_odd_numbers()
+      real(wp), parameter :: tiny = 1.0e-40_wp, s = sqrt(0.02_wp)
+
+      call tally%near(axis_across([0.0_wp, tiny, 0.0_wp], [1.0_wp, -1.0_wp, 5.0_wp]), x, 0.0_wp, 'smaller by 1e-40')
+      call tally%near(axis_across([tiny, 0.0_wp, 0.0_wp], [-1.0_wp, 1.0_wp, 5.0_wp]), y, 0.0_wp, 'larger by 1e-40')
+      call tally%near(axis_across([-tiny, 0.0_wp, 0.0_wp], [-1.0_wp, 1.0_wp, 5.0_wp]), x, 0.0_wp, 'smaller again')
+      call tally%check(is_near_tie([tiny, 0.0_wp, 0.0_wp], [-1.0_wp, 1.0_wp, 5.0_wp]), 'hardly meant to be larger')
+      call tally%near(axis_across(none, [0.123456789012346_wp, 0.123456789012345_wp, 5.0_wp]), y, 0.0_wp, 'fifteen digits')
+      call tally%near(axis_across(none, [nearest(s, 1.0_wp), s, 5.0_wp]), x, 0.0_wp, 'no decimals, and a bit apart')
+      call tally%check(is_near_tie(none, [nearest(s, 1.0_wp), s, 5.0_wp]), 'which is told')
+      call tally%check(.not. is_near_tie(none, [s, s, 5.0_wp]), 'one number twice is no near tie')
+      call tally%near(axis_across(none, [s + 1.0e-8_wp, s, 5.0_wp]), y, 0.0_wp, 'far enough apart')
+      call tally%near(axis_across(none, [1.0e-17_wp, 0.0_wp, 0.1_wp]), y, 0.0_wp, 'decimals though hardly meant')
+      call tally%near(axis_across(none, [0.1_wp*cos(2*atan(1.0_wp)), 0.0_wp, 0.1_wp]), x, 0.0_wp, 'rounding of a quarter turn')
+   end subroutine test_ties_of_odd_numbers
 
    subroutine test_hinge_frames()
       type(reference_t) :: reference

@@ -26,6 +26,7 @@ program test_symmetric_factor
    call all_zero()
    call widely_spread()
    call what_cancels()
+   call tiny_diagonals()
    call tally%finish()
 
 contains
@@ -283,4 +284,47 @@ contains
       call factorise(pattern, sparse_of(a), factor, error, [1.0_wp, 1.0_wp])
       call tally%check(factor%zero == 1, 'a leftover')
    end subroutine what_cancels
+
+   !> A regular matrix is so, however small its diagonal is beside it.
+   subroutine tiny_diagonals()
+      integer, parameter :: n = 12
+      real(wp) :: a(n, n), copy(n, n), values(n), x(n, 1), b(n, 1), two(2, 2), chance(n), worst
+      type(symmetric_pattern_t) :: pattern
+      type(symmetric_factor_t) :: factor
+      type(error_t), allocatable :: error
+      integer :: round, i, wrong, singular, tried
+
+      two = reshape([1.0e-14_wp, 1.0_wp, 1.0_wp, 1.0e-14_wp], [2, 2])
+      call factorise_dense(two, pattern, factor)
+      x(:2, 1) = [2.0_wp, 1.0_wp]
+      call solve(pattern, factor, x(:2, :))
+      call tally%check(factor%zero == 0 .and. factor%negative == 1, 'nothing but its partner')
+      call tally%near(x(:2, 1), [1.0_wp, 2.0_wp], 1.0e-13_wp, 'and its solution')
+      singular = 0
+      wrong = 0
+      tried = 0
+      worst = 0.0_wp
+      do round = 1, 4000
+         a = random_pattern(n, 0.5_wp)
+         call random_number(chance)
+         do i = 1, n
+            a(i, i) = 10.0_wp**(-12*chance(i))
+         end do
+         copy = a
+         call symmetric_eigenpairs(copy, values, error)
+         if (minval(abs(values)) < 1.0e-5_wp*maxval(abs(values))) cycle
+         tried = tried + 1
+         call factorise_dense(a, pattern, factor)
+         if (factor%zero > 0) singular = singular + 1
+         if (factor%negative /= count(values < 0)) wrong = wrong + 1
+         call random_number(x)
+         b = matmul(a, x)
+         call solve_refined(pattern, factor, sparse_of(a), b, 3)
+         worst = max(worst, maxval(abs(b - x)))
+      end do
+      call tally%check(tried > 3000, 'most random matrices are regular')
+      call tally%check(singular == 0, 'none of them is called singular')
+      call tally%check(wrong == 0, 'signs of their eigenvalues')
+      call tally%near([worst], [0.0_wp], 1.0e-6_wp, 'their solutions')
+   end subroutine tiny_diagonals
 end program test_symmetric_factor

@@ -52,7 +52,7 @@ contains
       integer(c_signed_char), intent(in) :: text(:)
       integer(c_int) :: sizes(8), diag_count(4), diag_number(8, 100)
       integer(c_signed_char), allocatable :: diag_text(:, :, :)
-      integer(c_int), allocatable :: nodes(:, :), elements(:, :), name(:, :), choice(:, :)
+      integer(c_int), allocatable :: nodes(:, :), elements(:, :), words(:, :)
       real(c_double), allocatable :: places(:, :), vectors(:, :), value(:, :)
       integer :: n, nn, ne
 
@@ -60,13 +60,13 @@ contains
       ne = min(count(text == 10) + 1, n/10 + 1)
       nn = min(4*ne, n/2 + 4)
       allocate (nodes(5, nn), elements(12, ne), places(4, nn), vectors(3, ne))
-      allocate (name(2, ne + nn), choice(2, ne), value(12, 2*ne + nn + 1), diag_text(240, 4, 100))
-      call read_deck(n, text, nn, ne, nodes, places, elements, vectors, name, choice, value, sizes, &
+      allocate (words(2, 2*ne + nn), value(12, 2*ne + nn + 1), diag_text(240, 4, 100))
+      call read_deck(n, text, nn, ne, 2*ne + nn + 1, nodes, places, elements, vectors, words, value, sizes, &
                      diag_count, diag_number, diag_text)
       if (diag_count(1) > 0) return
       nn = sizes(1)
       ne = sizes(2)
-      call take_model(text, nodes(:, :nn), places(:, :nn), elements(:, :ne), vectors(:, :ne), name(:, :ne + nn))
+      call take_model(text, nodes(:, :nn), places(:, :nn), elements(:, :ne), vectors(:, :ne), words(:, :ne + nn))
    end subroutine take_deck
 
    subroutine take_model(text, nodes, places, elements, vectors, name)

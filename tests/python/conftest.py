@@ -12,8 +12,13 @@ from left_out import pytest_make_collect_report, pytest_runtest_makereport  # no
 from small_decks import DECKS, write
 from wording import AsStored
 
+from flexact.base.partial import STRICT
+
 # Workers of xdist state a width that is no terminal's.
 os.environ.pop("COLUMNS", None)
+
+# Mistakes that an output would go on without are raised, also in processes that tests start.
+os.environ[STRICT] = "1"
 
 # Shells start what runs in the background deaf to Control-C, and its children with it.
 signal.signal(signal.SIGINT, signal.default_int_handler)

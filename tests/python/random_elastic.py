@@ -152,6 +152,14 @@ def _along(draw: Draw, model: Callable[..., Any], **options: Any) -> Any:
     return [[s.force, s.energy, *np.ravel(s.compliance(draw.point))] for s in states]
 
 
+def _turned(draw: Draw, model: Callable[..., Any], **options: Any) -> Any:
+    """Driven about an axis, while the end may tilt about the others."""
+    turn = "rz" if draw.planar else ("rx", "ry", "rz")[draw.axis]
+    states = model(**options).along(draw.point + 1, turn, [6 * draw.load * k for k in (0.5, 1)])
+    return [[s.force, s.energy, *np.ravel(s.compliance(draw.point)), *s.frequencies[:3]]
+            for s in states]  # fmt: skip
+
+
 def _misaligned(draw: Draw, model: Callable[..., Any]) -> Any:
     elastic = model()
     turn = "rz" if draw.planar else "ry"
@@ -199,6 +207,7 @@ QUESTIONS: dict[str, Ask] = {
     "along": _along,
     "along, locked": lambda d, m: _along(d, m, drive="locked"),
     "along, three beams": lambda d, m: _along(d, m, beams=3),
+    "turned": _turned,
     "misaligned": _misaligned,
     "misfit": lambda d, m: _everything(d, m().misfit(d.flexible[-1], 2, 1e-3)),
     "misfit, three beams": lambda d, m: _everything(d, m(beams=3).misfit(d.flexible[-1], 3, 1e-3)),

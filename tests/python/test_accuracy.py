@@ -5,21 +5,34 @@ Two wires of one metre at an angle t to each other are parallel after a move of 
 turn of t, so that the margin of every case is known: tests/python/test_margin.py.
 """
 
+import html
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from known_models import ring, twelve_trusses
+from reference_decks import ROOT, text_of
 from small_decks import DECKS, json_lines, write
 from test_margin import two_wires
 
-from flexact import Analysis, Verdict, analyse
+from flexact import Analysis, AnalysisError, Verdict, analyse
 from flexact.cli.main import main
+from flexact.editor.deck import Deck
+from flexact.editor.document import Document
+from flexact.editor.verdicts import opinion_on
+from flexact.findings.verdicts import findings_about
 from flexact.notebook.output import html_of
-from flexact.page import page
+from flexact.page import entry_of, page
+from flexact.page.verdict_part import verdict_of_side
+from flexact.picture.make import _words as picture_words
+from flexact.switches import Session
+from flexact.text.comparing.side import side_of, stored_side
 from flexact.text.describe import verdict_in_words
+from flexact.text.margin import but_only, verdict_in_short
+from flexact.text.spacar_log import spacar_log
 from flexact.text.units import angle_in_words, length_in_words
+from flexact.watching.told import told_of
 
 TEN_MICROMETRES = 1e-5
 GREEN = Verdict.EXACT.colour
@@ -220,3 +233,82 @@ def test_results_carry_their_accuracy() -> None:
     analysis: Analysis = analyse(two_wires(TEN_MICROMETRES), accuracy=(20e-6, 1e-4))
     assert analysis.accuracy == (20e-6, 1e-4)
     assert analyse(ring(3)).accuracy is None
+
+
+def test_an_accuracy_beyond_the_model_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    """20 is 20 m."""
+    deck = str(ROOT / "input_decks" / "flexures" / "parallel_guide.dat")
+    with pytest.raises(AnalysisError, match=r"larger than .*--beyond.*beyond=True"):
+        analyse(deck, accuracy=20)
+    assert analyse(deck, accuracy=20, beyond=True).accuracy is not None
+    assert main(["analyse", deck, "--accuracy", "20"]) != 0
+    assert "--beyond" in capsys.readouterr().err
+    assert main(["analyse", deck, "--accuracy", "20", "--beyond"]) == 0
+
+
+# One sentence states the verdict
+
+#: Decks of each verdict, some of which a small misalignment changes.
+STATED = (
+    "flexures/parallel_guide",
+    "flexures/five_wires",
+    "flexures/parallel_guide_wavy_8_beams",
+    "flexures/sheet_clamped_both_ends_four_beams_undeclared",
+    "frameworks/octahedral_platform_yaw_80",
+    "linkages/bennett",
+    "paper/twelve_trusses",
+)
+
+
+def stated(name: str, analysis: Analysis) -> dict[str, str]:
+    """The verdict in each place that states it."""
+    session = Session(Path("deck.dat"))
+    session.renew(analysis)
+    words = " ".join(analysis.describe().split())
+    found: dict[str, str] = {
+        "page": html.unescape(re.findall(r'<b class="says">(.*?):</b>', page(analysis))[0]),
+        "compared": html.unescape(
+            re.findall(r'<b class="says">(.*?):</b>', verdict_of_side(analysis, ""))[0]
+        ),
+        "side": side_of(analysis).words,
+        "stored side": stored_side(analysis.to_json().encode(), "").words,
+        "index": entry_of(analysis, "deck", "deck.html").words,
+        "watch, headline": told_of(analysis).verdict,
+        "watch, panel": session.told()["verdict"],
+        "picture": picture_words(analysis)[1].partition(":")[0],
+        "log": re.findall("Flexact: (.*)", spacar_log(analysis))[0],
+        "notebook": html.unescape(re.findall("<b>(.*?): ", analysis._repr_html_())[0]),
+    }
+    if analysis.accuracy is None:
+        opinion = opinion_on(Deck(Document.of(text_of(name))))
+        assert opinion is not None
+        found["editor"] = opinion.words.partition(";")[0]
+    assert side_of(analysis).verdict == stored_side(analysis.to_json().encode(), "").verdict
+    verdict = next(each for each in Verdict if each is not analysis.verdict)
+    for finding in findings_about("deck", analysis, verdict):
+        if finding.code.endswith("-constrained"):
+            found[f"findings, {finding.code}"] = finding.message
+    assert verdict_in_short(analysis) in words.lower()
+    return found
+
+
+@pytest.mark.parametrize("accuracy", [None, 1e-2, (10.0, 1.0)])
+@pytest.mark.parametrize("name", STATED)
+def test_every_place_states_the_verdict_in_one_sentence(name: str, accuracy: object) -> None:
+    deck = ROOT / f"input_decks/{name}.dat"
+    analysis = analyse(deck, accuracy=accuracy, beyond=True)  # type: ignore[arg-type]
+    short = verdict_in_short(analysis)
+    for place, words in stated(name, analysis).items():
+        if place.startswith("findings"):
+            # A finding is of one part of the verdict.
+            assert but_only(analysis.margin, analysis.accuracy) in words, place
+        else:
+            assert words.lower() == short.lower(), place
+
+
+def test_some_of_them_hold_only_within_the_accuracy() -> None:
+    decks = (ROOT / f"input_decks/{name}.dat" for name in STATED)
+    every = [analyse(each, accuracy=10.0, beyond=True) for each in decks]
+    lifted = [but_only(each.margin, each.accuracy) for each in every]
+    for words in ("only by", "alignment"):
+        assert any(words in each for each in lifted)

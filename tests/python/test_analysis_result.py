@@ -71,7 +71,7 @@ def test_json_has_the_agreed_names_and_reads_back_exactly() -> None:
         *("characteristic_length", "rank", "rows", "columns", "method", "connected_components"),
         *("tolerance", "bound", "gap", "singular_values", "singular_values_given"),
         *("condition_number", "certainty", "proof", "nearly", "alternatives", "parts"),
-        *("internal_motions", "freedoms"),
+        *("taken_as_one", "internal_motions", "freedoms"),
         *("motions", "self_stresses", "advice", "warnings"),
     ]
     assert read["deck"] == "decks/twelve.dat"
@@ -221,3 +221,51 @@ def test_results_travel_between_processes() -> None:
     with pytest.raises(flexact.DeckError) as error:
         flexact.read_text("TRUS 1 1 2", "a.dat")
     assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+# What newcomers type
+
+
+def test_a_verdict_is_compared_with_its_word() -> None:
+    """As the command has it, and in its own words; a verdict is a key like its words."""
+    words = {"exact": "EXACT", "under": "UNDER", "over": "OVER", "both": "BOTH"}
+    for word, name in words.items():
+        verdict = flexact.Verdict[name]
+        assert verdict.word == word
+        for other in words:
+            assert (verdict == other) is (other == word)
+            assert (verdict != other) is (other != word)
+        assert verdict == verdict.value and {verdict.value: 1}[verdict] == 1
+        assert pickle.loads(pickle.dumps(verdict)) is flexact.Verdict(verdict.value) is verdict
+        assert sum(each == verdict for each in flexact.Verdict) == 1
+
+
+def test_a_mode_that_is_not_there_is_refused_with_how_many_there_are() -> None:
+    model = flexact.Model(planar=True)
+    model.truss((0, 0), (1, 0))
+    model.fix((0, 0))
+    analysis = flexact.analyse(model)
+    assert len(analysis.motions) == 1
+    with pytest.raises(IndexError, match="there is 1 motion: none has the index 1; they count"):
+        analysis.motions[1]
+    with pytest.raises(IndexError, match="there are no self-stresses: none has the index 0"):
+        analysis.self_stresses[0]
+    assert analysis.self_stresses[:3] == () and analysis.motions[-1] == analysis.motions[0]
+
+
+def test_a_model_of_a_name_says_how_it_is_made() -> None:
+    with pytest.raises(TypeError, match=r"Model\(name='x.dat'\).*flexact.read\('x.dat'\)"):
+        flexact.Model("x.dat")
+
+
+@pytest.mark.parametrize(
+    "name", ["::set-output name=a::b", "##[error]x", " ::warning::x", "a ##[b]"]
+)
+def test_no_line_is_a_command_of_a_service(name: str) -> None:
+    """GitHub takes lines that begin with two colons for commands, and ##[ wherever it stands."""
+    model = flexact.Model(name=name)
+    model.truss((0, 0, 0), (1, 0, 0), name=name)
+    model.sheet((0, 0, 0), (0, 1, 0), width=(0, 0, 1), name=name * 5)
+    words = flexact.analyse(model).describe()
+    assert "##[" not in words
+    assert not [line for line in words.splitlines() if line.lstrip().startswith("::")]

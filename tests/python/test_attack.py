@@ -5,20 +5,21 @@ Exact counts come from the decimals of the decks, in arithmetic that rounds noth
 """
 
 import json
+import math
 import sys
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
-from reference_decks import NAMES, REFERENCE, text_of
+from reference_decks import NAMES, REFERENCE, ROOT, text_of
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from attack.exact_deck import Deck, read
 from attack.exact_rows import rows_of
 from attack.families import FAMILIES, Case, case_of
-from attack.judge import OFFENCES, Answer, Judgement, judge, methods
+from attack.judge import OFFENCES, UNPROVED, Answer, Judgement, judge, methods
 from attack.truth import Counts, counts_of_text, is_prime, primes
 
 import flexact
@@ -33,6 +34,7 @@ DECKS = 40
 TODAY: dict[Judgement, tuple[str, ...]] = {
     Judgement.WRONG: (),
     Judgement.MISSING: (),
+    Judgement.UNLIKE: (),
 }
 #: Decks whose digits do not close, as irrational numbers stand in them: what is typed.
 NOT_AS_MEANT = {
@@ -75,6 +77,40 @@ def claims() -> list[object]:
 def test_no_answer_offends(family: str, method: str, offence: Judgement) -> None:
     """No wrong count is called certain, and what is not certain has the truth among it."""
     assert offending(family, method, offence) == []
+
+
+@pytest.mark.parametrize("method", methods())
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "tests/attack/decks").glob("*.dat")), ids=lambda path: path.stem
+)
+def test_decks_that_once_offended(path: Path, method: str) -> None:
+    """The exact counts are given, or among the alternatives, also of what is certain."""
+    text = path.read_text(encoding="utf-8")
+    case = Case(path.stem, text, counts_of_text(text), None, math.inf)
+    answer = judge(case, (method,)).answers[method]
+    assert answer.judgement not in OFFENCES, answer.words
+    assert str(tuple(case.typed)) in answer.words or (
+        path.stem == "long_whole_numbers" and method in UNPROVED
+    )
+
+
+@pytest.mark.parametrize("family", ["long-digits", "mirrored", "levers", "far-whole"])
+def test_exact_counts_stand_beside_certain_ones(family: str) -> None:
+    """Where arithmetic of the numbers to the last digit says otherwise."""
+    otherwise = 0
+    for case in cases(family):
+        analysis = flexact.analyse(flexact.read_text(case.text))
+        proof = analysis.proof
+        if proof is None or proof.rank == analysis.rank:
+            continue
+        otherwise += analysis.certainty is flexact.Certainty.CERTAIN
+        exact = analysis.columns - proof.rank, analysis.rows - proof.rank
+        offered = [each[:2] for each in analysis.alternatives]
+        assert exact in offered, case.name
+        assert (analysis.nearly is None) == (analysis.certainty is flexact.Certainty.CERTAIN)
+        told = json.loads(analysis.to_json())["alternatives"]
+        assert [(each["under_constrained"], each["over_constrained"]) for each in told] == offered
+    assert otherwise or family not in ("long-digits", "mirrored")
 
 
 # The truth itself

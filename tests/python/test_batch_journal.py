@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 import zlib
 from pathlib import Path
 
@@ -150,3 +151,94 @@ def test_long_heads_and_records_are_read(tmp_path: Path) -> None:
     assert [journal.read(journal.add(r)) for r in (RECORDS[0], long)] == [RECORDS[0], long]
     journal.close()
     assert records(tmp_path / "journal") == [RECORDS[0], long]
+
+
+#: Begins or resumes a journal at a moment that all agree on, works a while, and says what came.
+RACE = """
+import sys, time
+from pathlib import Path
+from flexact.variants.batches.journal import Journal, JournalError
+path, moment, mark = Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3]
+while time.time() < moment: pass
+try:
+    journal = Journal.resume(path) or Journal.begin(path, {"decks": []})
+except JournalError:
+    print("refused")
+else:
+    journal.add({"by": mark})
+    time.sleep(0.3)
+    lost = not path.exists() or mark not in path.read_text()
+    print("lost" if lost else "won")
+    journal.close()
+"""
+
+
+@pytest.mark.posix
+def test_of_runs_that_begin_together_one_goes_on(tmp_path: Path) -> None:
+    for number in range(5):
+        path = tmp_path / f"{number}.journal"
+        moment = time.time() + 1.0
+        runs = [
+            subprocess.Popen(
+                [sys.executable, "-c", RACE, str(path), str(moment), f"mark {k}"],
+                env=process_environment(),
+                stdout=subprocess.PIPE,
+                text=True,
+            )
+            for k in range(4)
+        ]
+        said = sorted(run.communicate()[0].strip() for run in runs)
+        assert said == ["refused"] * 3 + ["won"]
+
+
+def test_a_journal_that_came_meanwhile_is_not_written_over(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = path.read_bytes()
+    for links in (True, False):
+        if not links:
+            monkeypatch.setattr(os, "link", refuse)
+        with pytest.raises(JournalError, match="has just begun"):
+            Journal.begin(path, {"decks": ["other"]})
+        assert path.read_bytes() == before and os.listdir(path.parent) == [path.name]
+    Journal.begin(path.with_name("new"), HEAD).close()
+    assert journal_of(path.with_name("new")).head == HEAD
+
+
+def refuse(*_: object) -> None:
+    """As file systems do that have no further names."""
+    raise PermissionError(1, "Operation not permitted")
+
+
+@pytest.mark.posix
+def test_a_journal_that_was_taken_away_before_it_was_locked_is_none(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As by a run that ends between."""
+    lock = Journal._lock
+    taken = []
+
+    def late(journal: Journal) -> None:
+        if not taken:
+            taken.append(path.unlink())
+        lock(journal)
+
+    monkeypatch.setattr(Journal, "_lock", late)
+    assert Journal.resume(path) is None
+
+
+def line(text: bytes) -> bytes:
+    return b"%08x %s\n" % (zlib.crc32(text), text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [b"{", b"[]", b"7", b"null", b'"x"', b"[" * 100_000 + b"]" * 100_000, b"9" * 5000, b"\xff"],
+)
+def test_a_line_with_a_right_sum_and_no_record_is_passed_over(text: bytes, path: Path) -> None:
+    lines = path.read_bytes().splitlines(keepends=True)
+    path.write_bytes(b"".join([*lines[:2], line(text), *lines[2:]]))
+    assert records(path) == RECORDS
+    path.write_bytes(b"".join([line(text), *lines]))
+    with pytest.raises(JournalError, match="does not begin as a journal does"):
+        Journal.resume(path)

@@ -370,3 +370,89 @@ def test_control_c_does_not_wait_for_a_large_deck(workers: str, tmp_path: Path) 
     _, said = run.communicate(timeout=20.0)
     assert run.returncode == -signal.SIGINT
     assert said.startswith(b"stopped; 1 of 2 decks are done") and said.count(b"\n") == 1
+
+
+#: What somebody may have written into a journal, in place of the record of the first deck.
+CRAFTED: dict[str, Any] = {
+    "not an object": [1, 2],
+    "nothing": {},
+    "deck": [{"deck": k} for k in (10**9, -1, "0", 0.0, None, True, [0])],
+    "of": [{"of": k} for k in (None, 7, ["x"])],
+    "row": [
+        {"row": k}
+        for k in (None, "x", [], [1], {"a": 1}, ["x"] * 13, [{}] * 13, [[]] * 13, [True] * 13)
+    ],
+    "wanted": [{"wanted": k} for k in (None, 1, "yes", [])],
+    "sizes": [{"files": k} for k in ("x", 7, {}, [-1], [1], ["x"], [None] * 9)],
+    "page": [{"page": k} for k in ("x", 7, [1], ["x"])],
+    "entry": [
+        {"entry": k}
+        for k in (7, [], "x", {}, {"kind": 1}, {"picture": "%"}, {"counts": [1]}, {"name": 7})
+    ],
+    "entry part": [
+        {"entry": {"own": {part: wrong}}}
+        for part in (
+            "name",
+            "kind",
+            "picture",
+            "counts",
+            "margin_length",
+            "marked",
+            "line",
+            "error",
+        )
+        for wrong in (7, [7], {"a": 1}, "%")
+    ],
+}
+
+
+def test_crafted_records_count_as_if_they_were_not_there(
+    decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With right check sums: the run does the deck again, and says nothing of itself."""
+    table, journal = tmp_path / "table.csv", tmp_path / "table.csv.journal"
+    words = ["batch", str(decks), "-o", str(table), "-j1", "--report", str(tmp_path / "pages")]
+    kept = keep_journal(words, journal, tmp_path)
+    whole = but_for_times(table)
+    head, *lines = kept.splitlines(keepends=True)
+    first = json.loads(lines[0][9:])
+    crafted = [
+        one for each in CRAFTED.values() for one in (each if isinstance(each, list) else [each])
+    ]
+    for change in crafted:
+        record = change if not isinstance(change, dict) or not change else {**first, **change}
+        part = change.get("entry") if isinstance(change, dict) else None
+        if isinstance(part, dict) and "own" in part:
+            record = {**first, "entry": {**first["entry"], **part["own"]}}
+        text = json.dumps(record).encode()
+        journal.write_bytes(head + b"%08x %s\n" % (zlib.crc32(text), text) + b"".join(lines[1:]))
+        table.unlink()
+        assert main([*words, "--resume"]) == 0, change
+        assert but_for_times(table) == whole, change
+        assert "Traceback" not in capsys.readouterr().err
+
+
+def keep_journal(words: list[str], journal: Path, folder: Path) -> bytes:
+    """The journal of a whole run, as it is when all is done and nothing is written yet."""
+    kept = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Journal, "remove", lambda own: kept.append(own.path.read_bytes()))
+        assert main(words) == 0
+    journal.unlink()
+    return bytes(kept[0])
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"options": 7}, {"options": None}, {"decks": 7}, {"decks": [[]]}, {"decks": {"a": 1}}],
+)
+def test_a_crafted_head_is_refused_in_words(
+    change: dict[str, Any], decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table, journal = tmp_path / "table.csv", tmp_path / "table.csv.journal"
+    words = ["batch", str(decks), "-o", str(table), "-j1"]
+    head = json.loads(keep_journal(words, journal, tmp_path).splitlines()[0][9:])
+    text = json.dumps({**head, **change}).encode()
+    journal.write_bytes(b"%08x %s\n" % (zlib.crc32(text), text))
+    assert main([*words, "--resume"]) == 2
+    assert "is of another run" in capsys.readouterr().err

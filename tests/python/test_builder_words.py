@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Words of deformations, at which end, and the beams of a divided flexure that they act on."""
 
+import pickle
 from collections.abc import Callable
+from enum import Enum
 
 import numpy as np
 import pytest
@@ -225,3 +227,32 @@ def test_a_divided_wire_takes_one_motion() -> None:
     ]
     analysis = flexact.analyse(model)
     assert (analysis.under_constrained, analysis.over_constrained) == (5, 0)
+
+
+class Name(str, Enum):
+    """Names that the script alone knows."""
+
+    MODEL, POINT, BAR, SHEET, WIRE, BODY = "m", "p", "bar", "sheet", "wire", "body"
+    FOLDED, OTHER, GUIDE = "folded", "other", "guide"
+
+
+def test_a_name_of_whatever_kind_of_text_is_plain_text() -> None:
+    """So that a model, and its result, can be read where the script is not."""
+    model = flexact.Model(name=Name.MODEL)
+    model.node(0, 0, 0, name=Name.POINT)
+    model.truss((0, 0, 0), (1, 0, 0), name=Name.BAR)
+    model.sheet((0, 1, 0), (1, 1, 0), width=(0, 0, 1), name=Name.SHEET)
+    model.wire((0, 2, 0), (1, 2, 0), name=Name.WIRE)
+    model.body([(1, 0, 0), (1, 1, 0), (1, 2, 0)], name=Name.BODY)
+    folded = model.folded_sheet(
+        (0, 3, 0), (0.5, 3, 0.1), (1, 3, 0), width=(0, 1, 0), name=Name.FOLDED
+    )
+    model.rename("wire", Name.OTHER)
+    model.rename("p", Name.GUIDE)
+    model.rename(folded, Name.WIRE)
+    for made in (model.data, flexact.analyse(model)):
+        kept = pickle.dumps(made)
+        assert __name__.encode() not in kept and b"Name" not in kept.replace(b"DeckNames", b"")
+    assert {"bar", "sheet", "other", "body", "wire, leaf 1"} <= {
+        name.partition(",")[0] if "leaf" not in name else name for name in model.element_names
+    }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -132,7 +133,7 @@ def test_without_pyyaml_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "yaml", None)
     with pytest.raises(PackageError, match="PyYAML"):
         read_tables(b"nodes: []", "tables", ".yaml")
-    with pytest.raises(PackageError, match=r"flexact\[yaml\]"):
+    with pytest.raises(PackageError, match="pip install PyYAML"):
         text_of({}, ".yaml")
     assert text_of({}, ".json") == "{}\n"
 
@@ -329,3 +330,23 @@ def test_the_command_fixes_points_and_releases_what_is_flexible(tmp_path: Path) 
         assert flexact.read(target).deformation_classes.tolist() == [
             [1, wanted, 1, 1, wanted, wanted]
         ]
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("suffix", [".json", ".yaml", ".vtu"])
+def test_pipes_and_devices_are_refused(suffix: str, tmp_path: Path) -> None:
+    """Which would keep whoever reads them for ever, or have no end."""
+    pipe, zero = tmp_path / f"pipe{suffix}", tmp_path / f"zero{suffix}"
+    os.mkfifo(pipe)
+    zero.symlink_to("/dev/zero")
+    for path in (pipe, zero):
+        with pytest.raises(flexact.FlexactError, match=r"not a regular file|no such file"):
+            read_any(path)
+
+
+def test_errors_of_meshes_move_no_cursor(tmp_path: Path) -> None:
+    path = tmp_path / "\x1b[2Jx.vtu"
+    path.write_text("<\x1b]0;evil\x07")
+    with pytest.raises(MeshError) as caught:
+        read_any(path)
+    assert str(caught.value).isprintable()

@@ -220,11 +220,64 @@ def test_stiffness_and_mass_follow_from_the_section() -> None:
     )
 
 
+def test_held_warping_raises_the_stiffness_in_torsion() -> None:
+    """Against the closed forms: G It k L/(k L - 2 tanh(k L/2)) held at both ends, and
+    G It k L/(k L - tanh(k L)) at one, with k^2 = G It/(E Iw) and Iw = b^3 t^3/144 (Timoshenko,
+    Strength of Materials II, 1956, art. 54); a sheet of the builder likewise."""
+    modulus, shear, b, t, length = 200e9, 80e9, 0.04, 0.001, 0.1
+    section = {"emod": modulus, "smod": shear, "cshape": "rect", "dim": [b, t]}
+
+    def torsion(nprops: list[Any], **more: object) -> float:
+        tables = changed(
+            eprops=[{**BEAM["eprops"][0], **section, **more}],
+            nprops=nprops,
+            nodes=[[0, 0, 0], [0, length, 0]],
+        )
+        model = model_of(tables)
+        assert not [item for item in model.diagnostics if "warping:" in item.message]
+        assert model.data.properties is not None
+        assert len({*model.data.properties.stiffness[:, 1]}) == 1
+        return float(model.data.properties.stiffness[0, 1])
+
+    free = torsion([{"fix": True}, {}])
+    kl = length * math.sqrt(free / (modulus * b**3 * t**3 / 144))
+    both, one = kl / (kl - 2 * math.tanh(kl / 2)), kl / (kl - math.tanh(kl))
+    assert both > 1.2 > one > 1.1
+    held = [{"fix": True}, {"fix_warp": True}]
+    assert torsion([{"fix": True}, {}], cw=True) == pytest.approx(both * free)
+    assert torsion(held, warping=True) == pytest.approx(both * free)
+    assert torsion(held, warping=True, nbeams=3) == pytest.approx(both * free)
+    assert torsion([{"fix": True}, {}], warping=True) == pytest.approx(one * free)
+    assert torsion([{}, {"fix_warp": True}], warping=True) == pytest.approx(one * free)
+    assert torsion([{"fix_pos": True}, {}], warping=True) == free
+    model = flexact.Model()
+    model.sheet(
+        *((0, 0, 0), (0, length, 0), "x"),
+        **{"thickness": t, "breadth": b, "warping": True},
+        material=flexact.Material("steel", modulus, shear),
+    )
+    assert model.data.properties is not None
+    assert model.data.properties.stiffness[0, 1] == pytest.approx(both * free)
+
+
+def test_warping_that_means_nothing_here_is_told_with_its_place() -> None:
+    tables = changed(nprops=[{"fix_warp": True}, {}])
+    notes = [item.message for item in model_of(tables).diagnostics]
+    assert "warping: nprops[1].fix_warp: no element warps (1)" in notes
+
+
 def test_what_a_model_does_not_hold_is_told_once_each() -> None:
     notes = [(item.code, item.message) for item in model_of(CROSS).diagnostics]
     assert notes == [
-        ("left-out", "warping: eprops.warping (2)"),
         ("left-out", "what is for a simulation: opt.filename (1)"),
+        *(
+            ("left-out", f"warping: eprops[{k}].warping of element {e}: {why} (1)")
+            for k, e, why in (
+                (1, 1, "at node 3 it depends on element 2"),
+                (2, 2, "it has no stiffness in torsion"),
+                (1, 3, "at node 2 it depends on element 2"),
+            )
+        ),
     ]
     codes = [item.message for item in model_of(WALKTHROUGH).diagnostics]
     assert "values of prescribed motions (1)" in codes

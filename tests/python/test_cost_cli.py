@@ -195,7 +195,7 @@ def test_a_stroke_beyond_reach_says_how_far_and_exits_with_1(
 ) -> None:
     """Rigid sheets of 0.1 m lead no farther than that."""
     options = ("--beams", 1, "--held", "rigid", "--release", "none", "--points", 3)
-    assert run(guide, *options, "--stroke", "5:x=0..0.5") == 1
+    assert run(guide, *options, "--stroke", "5:x=0..0.5", "--beyond") == 1
     told = capsys.readouterr()
     assert "reached from 0 to" in told.err
     reached = float(told.err.split("reached from 0 to ")[1].split(" ")[0])

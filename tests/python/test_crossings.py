@@ -269,7 +269,10 @@ def test_what_changes_the_topology_or_fails_ends_a_search() -> None:
 
     table = sweep(make, {"t": np.linspace(0, 1, 10)}, workers=1)
     assert table.error[4].startswith("ZeroDivisionError")
-    assert len(table.crossings(workers=1)) == 0
+    found = table.crossings(workers=1)
+    assert len(found) == 0
+    # Rows 3 and 6 are beside rows that could not be made: the dips there lead nowhere.
+    assert all("ZeroDivisionError" in each.error for each in found.missed)
 
 
 def test_another_mechanism_between_two_rows_is_not_followed() -> None:
@@ -281,7 +284,148 @@ def test_another_mechanism_between_two_rows_is_not_followed() -> None:
 
     table = sweep(make, {"t": [0.0, 0.2, 0.4, 0.6, 0.8]}, workers=1)
     assert set(table.verdict) == {Verdict.EXACT.value}
-    assert len(table.crossings(workers=1)) == 0
+    found = table.crossings(workers=1)
+    assert len(found) == 0
+    (missed,) = found.missed
+    assert missed.rows == (2, 3) and 0.45 < missed.parameters["t"] < 0.55
+    assert "another mechanism" in missed.error and "1 search given up" in repr(found)
+
+
+# Functions that are called in a search as they are called for rows
+
+
+def test_functions_get_the_numbers_of_python_in_rows_and_in_searches() -> None:
+    """The third line passes the point where the two others meet at 0, by a factor of 7."""
+    kinds: set[type] = set()
+
+    def make(s: float, n: int, word: str) -> Model:
+        kinds.update((type(s), type(n), type(word)))
+        # A function may read what it has written.
+        return passing(7.0 * float(f"{s!r}"))
+
+    rows = {"s": np.array([-0.3, 0.2]), "n": np.array([3, 3]), "word": np.array(["a", "a"])}
+    found = sweep(make, rows, workers=1).crossings(workers=1)
+    assert found.of("s") == pytest.approx([0.0], abs=1e-15)
+    assert kinds == {float, int, str} and not found.missed
+    assert all(type(value) in kinds for value in found[0].parameters.values())
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("steps", [2, 24])
+def test_what_a_function_refuses_in_a_search_is_told(workers: int, steps: int) -> None:
+    """It makes rows, but nothing between them: each search that is given up is counted."""
+    rows = np.linspace(-1.0, 1.0, steps) + 0.01
+
+    def make(t: float) -> Model:
+        if t not in rows:
+            raise LookupError("no such part in the catalogue")
+        return passing(math.sin(20.0 * t))
+
+    changes = int(np.count_nonzero(np.diff(np.sign(np.sin(20.0 * rows)))))
+    found = sweep(make, {"t": rows}, workers=1).crossings(workers=workers)
+    assert len(found) == 0
+    told = [each for each in found.missed if "LookupError" in each.error]
+    assert len(told) == len(found.missed) >= changes > 0
+    for each in told:
+        a, b = sorted(rows[list(each.rows)])
+        assert a < each.parameters["t"] < b
+    assert "given up" in repr(found) and "catalogue" in repr(found)
+
+
+# Each crossing once, and none left out that the rows show
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_roots_by_pairs_are_found_each_once(seed: int) -> None:
+    """The third line passes the point at the value of a polynomial whose roots are chosen.
+
+    Rows may be symmetrical to a pair, so that two of them dip alike; or one of them a root.
+    """
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(6, 14))
+    rows = np.linspace(0.0, 1.0, count)
+    step = rows[1]
+    middle = 0.5 if seed % 3 == 0 else float(rng.choice(rows[2:-2]) + step * rng.uniform(0.2, 0.8))
+    half = step * rng.uniform(0.02, 0.45)
+    half = min(
+        half, 0.9 * min(middle - rows[rows < middle].max(), rows[rows > middle].min() - middle)
+    )
+    roots = [middle - half, middle + half]
+    if seed % 5 == 0:
+        roots = [float(rng.choice(rows[1:-1]))]
+
+    def make(t: float) -> Model:
+        return passing(math.prod((t - root) * 2.0 for root in roots))
+
+    found = sweep(make, {"t": rows}, workers=1).crossings(workers=1)
+    assert found.of("t") == pytest.approx(sorted(roots), abs=1e-12)
+    assert len(found) == len(roots) and not found.missed
+
+
+def test_a_pair_amid_rows_that_dip_alike_is_two_crossings() -> None:
+    def make(t: float) -> Model:
+        return passing((t - 0.5) ** 2 - 0.03**2)
+
+    found = sweep(make, {"t": np.linspace(0, 1, 10)}, workers=1).crossings(workers=1)
+    assert found.of("t") == pytest.approx([0.47, 0.53], rel=1e-12)
+
+
+def two_bars(angle: float) -> Model:
+    """A pin on two bars of length 1, from the ground; they are in line at 0 and 180 degrees."""
+    c, s = math.cos(math.radians(angle / 2.0)), math.sin(math.radians(angle / 2.0))
+    model = Model(planar=True)
+    for side in (-1.0, 1.0):
+        model.truss((side * c, 0.0), (0.0, s))
+        model.fix((side * c, 0.0))
+    return model
+
+
+@pytest.mark.parametrize("beside", [1e-3, 1e-6, 1e-8, 1e-9, 1e-10])
+def test_rows_close_beside_a_singular_place_are_searched(beside: float) -> None:
+    found = sweep(two_bars, {"angle": [-beside, 1.3 * beside]}, workers=1).crossings(workers=1)
+    assert len(found) == 1
+    assert found.of("angle") == pytest.approx([0.0], abs=1e-3 * beside)
+    yaws = [90.0 - beside, 90.0 + 0.7 * beside]
+    found = sweep(platform, {"yaw": yaws}, workers=1).crossings(workers=1)
+    assert found.of("yaw") == pytest.approx([90.0], abs=1e-13 + 1e-2 * beside)
+
+
+@pytest.mark.parametrize("first", [0.3, 0.5])
+def test_a_root_between_a_singular_row_and_the_next_is_found(first: float) -> None:
+    """The row has no sign of its own: that just beside it counts."""
+    rows = [0.1, 0.3, 0.5, 0.7]
+
+    def make(t: float) -> Model:
+        return passing((t - first) * (t - 0.42) * 3.0)
+
+    found = sweep(make, {"t": rows}, workers=1).crossings(workers=1)
+    assert sorted(found.of("t")) == pytest.approx(sorted([first, 0.42]), rel=1e-12)
+
+
+def four_bar(angle: float) -> Model:
+    """Ground 4, crank 1 at an angle in degrees, coupler 3.5, rocker 2.5, whose end is driven."""
+    pin = (math.cos(math.radians(angle)), math.sin(math.radians(angle)))
+    dx, dy = 4.0 - pin[0], -pin[1]
+    far = math.hypot(dx, dy)
+    along = (3.5**2 - 2.5**2 + far**2) / (2.0 * far)
+    up = math.sqrt(3.5**2 - along**2)
+    end = (pin[0] + (along * dx - up * dy) / far, pin[1] + (along * dy + up * dx) / far)
+    model = Model(planar=True)
+    for p, q in (((0, 0), pin), (pin, end), (end, (4.0, 0.0))):
+        model.truss(p, q)
+    model.fix((0, 0), (4.0, 0.0))
+    model.independent(end, "y")
+    return model
+
+
+@pytest.mark.parametrize("rows", [9, 14, 25])
+def test_dead_centres_of_a_four_bar(rows: int) -> None:
+    """Crank and coupler are in line, outstretched or folded: the law of cosines."""
+    outer = math.degrees(math.acos((4.5**2 + 4.0**2 - 2.5**2) / (2 * 4.5 * 4.0)))
+    inner = 180.0 + math.degrees(math.acos((2.5**2 + 4.0**2 - 2.5**2) / (2 * 2.5 * 4.0)))
+    table = sweep(four_bar, {"angle": np.linspace(1.0, 359.0, rows)}, workers=1)
+    found = table.crossings(workers=1)
+    assert found.of("angle") == pytest.approx([outer, inner], rel=1e-12)
 
 
 def test_positions_are_followed_along_straight_lines() -> None:

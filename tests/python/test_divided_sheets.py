@@ -8,6 +8,7 @@ sheet has closed forms, and the rank of all its beams together is found by numpy
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -29,10 +30,12 @@ from pasting import without_notes
 from reference_decks import text_of
 
 import flexact
-from flexact import Model, analyse
-from flexact.core.elements import Class
+from flexact import Model, analyse, read_text
+from flexact.core.elements import Class, NodeKind
 from flexact.drawing import Form, drawing_of
 from flexact.model.names import part_name
+from flexact.page import page
+from flexact.text.spacar_log import spacar_log
 
 SHAPES = {
     "straight": Division(),
@@ -62,11 +65,11 @@ def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> 
         for against, turned in ((False, False), (True, True)):
             division = replace(how, beams=beams, seed=beams, against=against, turned=turned)
             several = analyse(make(division))
+            told, wanted = but_own_counts(several), but_own_counts(one)
             if against:
                 # No name stands for beams that run against each other, but their numbers do.
-                assert without_notes(several.describe()) == without_notes(one.describe())
-            else:
-                assert several.describe() == one.describe()
+                told, wanted = without_notes(told), without_notes(wanted)
+            assert told == wanted
             for mine, wanted in zip(several.margins, one.margins, strict=True):
                 for size, of_one in ((mine.length, wanted.length), (mine.angle, wanted.angle)):
                     assert (size is None) == (of_one is None)
@@ -75,6 +78,13 @@ def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> 
             np.testing.assert_allclose(
                 several.singular_values, one.singular_values, rtol=1e-12, atol=1e-14
             )
+
+
+def but_own_counts(analysis: flexact.Analysis) -> str:
+    """The words but for the counts, which are the deck's own, and what is taken as one beam."""
+    verdict, _, decision, *rest = analysis.describe().split("\n\n")
+    decision = re.sub(r"Taken as one beam.*?(?=D\(c\) has)", "", decision, flags=re.S)
+    return "\n\n".join((verdict, decision, *rest))
 
 
 def components(analysis: flexact.Analysis) -> list[list[tuple[str, str, float]]]:
@@ -398,3 +408,97 @@ def test_sheets_in_different_planes_are_two() -> None:
         model.release(element, 3, 4)
     (chain,) = model.data.chains
     assert chain.elements == (0, 1)
+
+
+# Counts are the deck's own
+
+
+def mechanism(seed: int) -> Model:
+    """Sheets and wires, some of them divided, from the ground to a stage; planar or spatial."""
+    dice = np.random.default_rng(seed)
+    planar = bool(seed % 2)
+    model = Model(planar=planar)
+    ends = []
+    for k in range(int(dice.integers(1, 5))):
+        place = [0.02 * k, 0.03 * (k % 2), *([] if planar else [0.01 * k * k])]
+        end = [*place[:-1], place[-1] + 0.1]
+        across = {} if planar else {"width": (0, 1, 0)}
+        add = model.wire if dice.integers(2) and not planar else model.sheet
+        more = across if add == model.sheet else {}
+        beams = int(dice.integers(1, 6))
+        add(place, end, beams=beams, name=f"part {k + 1}", **more)  # type: ignore[operator]
+        model.fix(place)
+        ends.append(end)
+    if len(ends) > 1:
+        model.body(ends, name="stage")
+    model.independent(ends[0], "x")
+    return model
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_counts_are_the_decks_own(seed: int) -> None:
+    """As SPACAR counts, which knows no rows of beams: but for what it has of Euler parameters."""
+    deck = mechanism(seed).to_deck()
+    analysis = analyse(read_text(deck, "deck.dat"))
+    found = dict(
+        re.findall(r"\b(NE\w*|NX\w*) *= *(\d+)", spacar_log(analysis).partition("WITHOUT")[0])
+    )
+    n = {name: int(count) for name, count in found.items()}
+    (ndof,) = map(int, re.findall(r"NDOF= *(\d+)", spacar_log(analysis)))
+    euler = int(np.count_nonzero(analysis.given.arrays.node_kind == NodeKind.ORIENTATION))
+    own, declared = analysis.counts, analysis.degrees_of_freedom
+    assert own.coordinates == (
+        n["NXM"] - euler,
+        n["NXO"],
+        n["NXC"] - n["NXO"] - euler,
+        n["NXM"] - n["NXC"],
+    )
+    assert own.deformations == (
+        n["NEC"] - euler,
+        n["NEO"] - euler,
+        n["NEC"] - n["NEM"],
+        n["NEM"] - n["NEO"],
+    )
+    assert declared == ndof
+    # The same in every form, beside the size of what was decomposed.
+    record = analysis.to_dict()
+    assert record["counts"]["coordinates"] == own.coordinates._asdict()
+    assert record["counts"]["deformations"] == own.deformations._asdict()
+    assert record["degrees_of_freedom"] == declared
+    assert (record["rows"], record["columns"]) == (analysis.rows, analysis.columns)
+    words = analysis.describe()
+    for name, part in own._asdict().items():
+        assert [int(word) for word in re.findall(rf"{name} +(.*)", words)[0].split()] == [*part]
+    head, table = (
+        " ".join(re.sub("<[^>]*>", " ", part).split()) for part in pieces(page(analysis))
+    )
+    assert f"{declared} degree" in words and f"{declared} degree" in head
+    assert " ".join(map(str, own.coordinates)) in table
+    rows = [each for each in analysis.given.chains if len(each.elements) > 1]
+    assert len(record["taken_as_one"]) == len(rows)
+    assert ("Taken as one beam" in words) == ("Taken as one beam" in table) == bool(rows)
+    assert bool(rows) == (analysis.rows < own.deformations.fixed + own.deformations.independent)
+
+
+def pieces(text: str) -> tuple[str, str]:
+    """Head and decision of a page, as words."""
+    head, *_ = re.findall(r"<header.*?</header>", text, re.S)
+    table, *_ = re.findall(r'<section id="decision".*?</section>', text, re.S)
+    return words_in(head), words_in(table)
+
+
+def words_in(text: str) -> str:
+    return " ".join(re.sub("<[^>]*>", " ", text).split())
+
+
+def test_a_chain_of_which_all_is_declared_has_the_freedoms_of_all_its_beams() -> None:
+    """27 planar beams, 28 points: 84 coordinates and 81 deformations, each of them declared."""
+    deck = "".join(
+        f"PLBEAM {k} {2 * k - 1} {2 * k} {2 * k + 1} {2 * k + 2}\n" for k in range(1, 28)
+    )
+    deck += "".join(f"X {2 * k + 1} {0.01 * k} {0.004 * (k // 9)}\n" for k in range(28))
+    deck += "FIX 1\nFIX 2\n" + "".join(f"DYNE {k}\n" for k in range(1, 28))
+    analysis = analyse(read_text(deck, "deck.dat"))
+    assert analysis.counts.coordinates.total == 84
+    assert analysis.counts.deformations == (81, 0, 0, 81)
+    assert analysis.degrees_of_freedom == 81

@@ -322,4 +322,29 @@ def test_without_pygls_it_says_what_is_missing(tmp_path: Any) -> None:
         check=False,
     )
     assert ended.returncode == ExitCode.OTHER and ended.stdout == ""
-    assert "pip install 'flexact[editor]'" in ended.stderr and "Traceback" not in ended.stderr
+    assert "pip install 'pygls>=2'" in ended.stderr and "Traceback" not in ended.stderr
+
+
+WRONG = (
+    {"textDocument": {"uri": URI}, "position": "x"},
+    {"textDocument": {"uri": URI}, "position": {"line": "x", "character": []}},
+    {"textDocument": 7},
+    {"textDocument": {"uri": URI}, "position": {"line": 0, "character": 0}, "context": {}},
+    {},
+    [],
+    "x",
+    None,
+)
+
+
+@pytest.mark.parametrize(
+    "method",
+    ["hover", "completion", "definition", "codeAction", "documentSymbol", "rename", "formatting"],
+)
+def test_a_request_of_a_wrong_form_is_answered(client: Client, method: str) -> None:
+    """With an error or with nothing; an editor may wait for it for ever."""
+    client.open("TRUSS 1 1 2\nX 2 1 0 0\n")
+    for params in WRONG:
+        answer = client.answer(f"textDocument/{method}", params)
+        assert "result" in answer or answer["error"]["message"]
+    assert client.at("hover", 0, 1) is not None

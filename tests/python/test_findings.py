@@ -330,3 +330,23 @@ def test_format_of_meshes_by_its_old_name(
     err = capsys.readouterr().err
     assert "is now called --mesh" in err
     assert Path("out/exact.vtk").is_file()
+
+
+def test_names_are_no_links(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of the characters that SARIF reads, each has a backslash before it (2.1.0, 3.11.6)."""
+    name = "[see](https://evil.example) \\\\ []"
+    Path("x.dat").write_text(
+        f"BEAM 1 1 2 3 4 0 1 0 % {name}\nX 3 0.1 0 0\nBEAM 1 1 2 3 4 % {name}\n"
+    )
+    for words in (["check", "x.dat"], ["analyse", "x.dat", "--expect", "exact"]):
+        _, run = sarif(capsys, *words)
+        texts = [one["message"]["text"] for one in run["results"]]
+        texts += [
+            each["message"]["text"]
+            for one in run["results"]
+            for each in one.get("relatedLocations", ())
+        ]
+        assert texts and all(not re.search(r"[\[\]]", re.sub(r"\\.", "", text)) for text in texts)
+    Path("y.dat").write_text(f"BEAM 1 1 2 3 4 0 1 0 % {name}\nX 3 0.1 0 0\n")
+    _, run = sarif(capsys, "analyse", "y.dat", "--expect", "exact")
+    assert r"\[see\](https://evil.example)" in json.dumps(run).replace("\\\\", "\\")

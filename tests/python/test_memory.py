@@ -17,6 +17,7 @@ from verdicts import counts
 
 import flexact
 from flexact.base import memory
+from flexact.cli.main import main
 from flexact.core import _core
 
 PAGE = mmap.PAGESIZE
@@ -177,6 +178,61 @@ print(len(found), *set(found) - {flexact.analyse(model).over_constrained})
     assert done.stdout.split() == [b"24"], done.stderr.decode()
 
 
+@LIMITED
+def test_a_deck_of_twenty_megabytes_in_one_gigabyte(tmp_path: Path) -> None:
+    """A million lines; before, three gigabytes were asked for."""
+    deck = write(tmp_path / "large.dat", bar_grid(497))
+    assert deck.stat().st_size > 20e6
+    done = limited(["-m", "flexact", "check", str(deck)], 1_000_000 // 1024, "2")
+    assert (done.returncode, done.stderr) == (0, b""), done.stderr.decode()
+
+
+#: Lines of each element, and behind all of them, by what reading them takes the most of.
+TAKING = {
+    "bars of nodes of their own": ("TRUSS {a} {b} {c}", ""),
+    "bars of a chain": ("TRUSS {k} {k} {n}", "X {n} {k} 0"),
+    "bars with names": ("TRUSS {k} 1 {n} % bar {k}", "X {n} {k} 0 % point {n}"),
+    "beams of nodes of their own": ("BEAM {k} {b} {c} {d} {e}", ""),
+    "beams with warping": ("BEAMW {a} {b} {c} {d} {e} {f} {g}", ""),
+    "arms": ("RBEAM {k} {k} 1000000 {n}", "X {n} {k} 0"),
+    "places": ("X 1 0", ""),
+    "supports": ("PLTRUSS {k} {k} {n}", "X {n} {k}\nFIX {n}"),
+    "indented": ("        TRUSS {k} {k} {n}", "    X {n} {k} 0"),
+    "stiffness": ("BEAM {k} {b} {c} {d} {e}", "ESTIFF {k} 1 2\nXM {b} 1\nXF {b} 1"),
+}
+
+
+@LIMITED
+@pytest.mark.parametrize("lines", TAKING.values(), ids=TAKING)
+def test_reading_takes_no_more_than_is_asked_for(lines: tuple[str, str], tmp_path: Path) -> None:
+    """Otherwise the process would end where a limit is near."""
+    code = """
+import sys
+import numpy as np
+from flexact.core import _core, calls
+def status(name):
+    with open("/proc/self/status") as file:
+        return next(1024 * int(line.split()[1]) for line in file if line.startswith(name))
+text = np.fromfile(sys.argv[1], np.int8)
+room, reading = calls._most_in(text)
+made, before = room.made(), status("VmSize")
+sizes, *_ = _core.read_deck(text, *made)
+assert all(np.less_equal(sizes[:2], room[:2])), (sizes, room)
+assert status("VmPeak") - before < reading, (status("VmPeak") - before, reading)
+"""
+    stated, behind = (
+        "\n".join(
+            form.format(k=k, n=k + 1, **{c: 49 * k + 8 * i for i, c in enumerate("abcdefg")})
+            for k in range(1, 131_100)
+        )
+        for form in lines
+    )
+    end = "END\n" if "ESTIFF" in behind else ""
+    deck = write(tmp_path / "deck.dat", f"TRUSS 9999999 1 2\n{stated}\n{end}{behind}\nEND\nEND\n")
+    done = subprocess.run([sys.executable, "-c", code, str(deck)], capture_output=True)
+    assert done.returncode == 0, done.stderr.decode()
+
+
 def bar_grid(side: int) -> str:
     """A deck of triangles in the plane, of about three bars a node."""
     lines = []
@@ -238,3 +294,19 @@ def test_threads_of_blas_are_given_back(blas: ctypes.CDLL) -> None:
         thread.join()
     assert found == [(1, 1)] * 160
     assert blas.openblas_get_num_threads() == many
+
+
+@pytest.mark.parametrize("where", ["calls.read_deck", "_content"])
+def test_a_deck_that_does_not_fit_is_not_the_deck_s_fault(
+    where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exit code 2, of what is about the run: docs/command.md."""
+
+    def full(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(f"flexact.deck.reading.{where}", full)
+    deck = write(tmp_path / "x.dat", "TRUSS 1 1 2\nX 2 1 0 0\n")
+    for verb in ("analyse", "check", "advise"):
+        assert main([verb, str(deck)]) == 2
+        assert "does not fit into memory" in capsys.readouterr().err

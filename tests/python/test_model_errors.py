@@ -102,18 +102,92 @@ def test_wrong_use_changes_nothing() -> None:
     assert model.deformation_classes[0].tolist() == [1, 1, 3, 1, 1, 1]
 
 
+@pytest.mark.parametrize("planar", [False, True])
+@pytest.mark.parametrize("where", ["same", "twin", "place", "name"])
+def test_an_element_between_a_point_and_itself_is_refused_where_it_is_made(
+    where: str, planar: bool
+) -> None:
+    """Each method that makes an element between two points, however the points are given."""
+    place = (1.0, 2.0) if planar else (1.0, 2.0, 3.0)
+    model = Model(planar=planar)
+    a = model.node(place, name="a")
+    b: object = {"same": a, "place": place, "name": "a"}.get(where) or model.node(place)
+    made: dict[str, tuple[object, ...]] = {
+        **{name: (a, b) for name in ("truss", "beam", "rigid", "wire")},
+        "sheet": (a, b, None if planar else "y"),
+        "hinge": (a, None if planar else "z", b),
+    }
+    for name, ends in made.items():
+        if name == "hinge" and where == "twin":
+            continue
+        with pytest.raises(ModelError) as error:
+            getattr(model, name)(*ends, name="it")
+        assert code_of(error) in ("same-node", "zero-length"), name
+        assert f"{name} 'it'" in str(error.value)
+        assert not len(model.element_numbers)
+    # A point beyond a hinge is another one, at the same place.
+    beyond = model.hinge(a, None if planar else "z")
+    with pytest.raises(ModelError, match="give two"):
+        model.beam(a, beyond, name="it")
+
+
+def _twice(make: str, joined: bool) -> Model:
+    """Two parts of the same name, apart or with a node in common, made one way or another."""
+    model = Model()
+    a, b, d = model.node(0, 0, 0), model.node(0, 0, 1), model.node(1, 0, 1)
+    c = b if joined else model.node(1, 0, 0)
+    for p, q in ((a, b), (c, d)):
+        if make == "sheets":
+            model.sheet(p, q, "y", beams=3, name="s")
+        elif make == "sheet":
+            model.sheet(p, q, "y", name="s")
+        elif make == "body":
+            points = [model.pivot(p), model.pivot(q), model.node(3 + p.position, 1, 1)]
+            model.body(points, "s")
+        else:
+            getattr(model, make)(p, q, name="s")
+    return model
+
+
+@pytest.mark.parametrize("joined", [False, True])
+@pytest.mark.parametrize("make", ["body", "sheets", "sheet", "wire", "truss", "beam"])
+def test_two_of_one_name_are_told_and_the_name_finds_neither(make: str, joined: bool) -> None:
+    """As test_silent_mistakes has it of parts that do not hang together: here also of others."""
+    model = _twice(make, joined)
+    (told,) = [each for each in model.diagnostics if each.code == "repeated-name"]
+    assert "'s'" in told.message and told.help and not told.is_error
+    with pytest.raises(ModelError, match="another name") as error:
+        model.part("s")
+    assert code_of(error) == "ambiguous-name"
+
+
+def test_parts_of_several_elements_have_one_name() -> None:
+    model = Model()
+    model.sheet((0, 0, 0), (0, 0, 1), "y", beams=4, name="s")
+    stage = model.body([(0, 0, 1), (1, 0, 1), (0, 1, 1)], "stage")
+    model.body([stage, (2, 0, 1)])
+    model.body([(2, 0, 1), (3, 0, 1)], "stage")
+    model.folded_sheet((1, 0, 1), (1, 0, 2), (2, 0, 2), "y", name="fold")
+    guide = model.parallel_guide((9, 0, 0), (9, 0, 1), (1, 0, 0), name="g")
+    model.fix(*guide.ground)
+    model.pattern(3, "z", at=(-5, 0, 0), parts=["s"])
+    assert "repeated-name" not in [each.code for each in model.diagnostics]
+    assert len(model.part("stage").nodes) == 5
+
+
 def test_core_checks_are_model_errors() -> None:
     model = Model()
-    a, b, c = model.node(1, 1, 1), model.node(1, 1, 1), model.node(2, 1, 1)
+    a, b, c = model.node(1, 1, 1), model.node(1, 1, 2), model.node(2, 1, 1)
     model.truss(a, b)
     model.beam(a, c, y=(-3, 0, 0))
-    model.truss(a, a)
+    # What the builder would refuse comes about later.
+    model.move(b, (1, 1, 1))
     for call in (flexact.analyse, flexact.jacobian, Model.check):
         with pytest.raises(ModelError) as error:
             call(model)
         codes = [item.code for item in error.value.diagnostics]
-        assert codes == ["zero-length", "parallel-vector", "same-node"]
-        named = ("TRUSS 1", "BEAM 2", "TRUSS 3")
+        assert codes == ["zero-length", "parallel-vector"]
+        named = ("TRUSS 1", "BEAM 2")
         for item, element in zip(error.value.diagnostics, named, strict=True):
             assert element in item.message
 

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of results: planned before anything is computed, written together or not at all."""
 
+import io
 import os
 import re
 import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from small_decks import files_in, write
@@ -14,7 +16,7 @@ from small_decks import files_in, write
 from flexact.base.errors import BatchError
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.files.decks import DeckFile, FolderError, find_decks
-from flexact.files.outputs import OutputError, plan_files, write_together
+from flexact.files.outputs import OutputError, plan_files, write_together, written_whole
 from flexact.files.temporary import remove_left, temporary_name
 
 
@@ -149,13 +151,16 @@ def test_what_may_not_be_replaced_is_left(tmp_path: Path) -> None:
 
 
 def test_an_interruption_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write_bytes = Path.write_bytes
+    class Interrupted(io.BytesIO):
+        def write(self, content: Any) -> int:
+            super().write(content[:3])
+            raise KeyboardInterrupt
 
-    def interrupt(path: Path, content: bytes) -> int:
-        write_bytes(path, content[:3])
-        raise KeyboardInterrupt
+    def begun(path: Path, _: Path) -> io.BytesIO:
+        path.write_bytes(b"fir")
+        return Interrupted()
 
-    monkeypatch.setattr(Path, "write_bytes", interrupt)
+    monkeypatch.setattr("flexact.files.outputs.new_file", begun)
     with pytest.raises(KeyboardInterrupt):
         write_together({tmp_path / "x.json": b"first"})
     assert list(tmp_path.iterdir()) == []
@@ -233,15 +238,14 @@ def test_a_folder_in_the_way_leaves_all_as_it_was(tmp_path: Path) -> None:
 def test_a_write_that_fails_half_way_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write_bytes = Path.write_bytes
+    class Full(io.FileIO):
+        def write(self, content: Any) -> int:
+            if content == b"second":
+                super().write(content[:3])
+                raise OSError(28, "No space left on device")
+            return super().write(content)
 
-    def fill_up(path: Path, content: bytes) -> int:
-        if content == b"second":
-            write_bytes(path, content[:3])
-            raise OSError(28, "No space left on device")
-        return write_bytes(path, content)
-
-    monkeypatch.setattr(Path, "write_bytes", fill_up)
+    monkeypatch.setattr("flexact.files.outputs.new_file", lambda path, _: Full(path, "x"))
     with pytest.raises(OutputError, match=r"x\.log"):
         write_together({tmp_path / "x.json": b"first", tmp_path / "x.log": b"second"})
     assert files_in(tmp_path) == []
@@ -255,3 +259,49 @@ def test_a_name_too_long_for_the_file_system_is_an_error(tmp_path: Path) -> None
 
 def test_output_errors_are_errors_of_the_batch() -> None:
     assert issubclass(OutputError, BatchError)
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("whole", [False, True])
+@pytest.mark.parametrize("kind", ["link", "file", "dangling"])
+def test_what_is_laid_where_a_temporary_file_goes_is_not_touched(
+    whole: bool, kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    target = write(tmp_path / "target", "theirs")
+    laid = tmp_path / "laid"
+    if kind == "file":
+        write(laid, "theirs")
+    else:
+        laid.symlink_to(target if kind == "link" else tmp_path / "none")
+    monkeypatch.setattr("flexact.files.outputs.temporary_name", lambda: "laid")
+    with pytest.raises(OutputError, match="cannot write"):
+        if whole:
+            with written_whole(tmp_path / "x.json") as file:
+                file.write(b"ours")
+        else:
+            write_together({tmp_path / "x.json": b"ours"})
+    assert target.read_text() == "theirs"
+    assert not (tmp_path / "x.json").exists() and not (tmp_path / "none").exists()
+
+
+def test_names_of_temporary_files_cannot_be_known() -> None:
+    made = {re.split("[-.]", temporary_name())[-2] for _ in range(100)}
+    assert len(made) == 100 and {len(each) for each in made} == {16}
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o666, 0o444 | 0o200])
+def test_a_file_that_is_written_over_keeps_its_mode(mode: int, tmp_path: Path) -> None:
+    old, link = write(tmp_path / "x.json", ""), tmp_path / "link.json"
+    old.chmod(mode)
+    link.symlink_to(old)
+    for target in (old, link):
+        write_together({target: b"new"})
+        assert old.stat().st_mode & 0o777 == mode
+        with written_whole(target) as file:
+            file.write(b"newer")
+        assert old.read_bytes() == b"newer" and old.stat().st_mode & 0o777 == mode
+    umask = os.umask(0)
+    os.umask(umask)
+    write_together({tmp_path / "y.json": b""})
+    assert (tmp_path / "y.json").stat().st_mode & 0o777 == 0o666 & ~umask

@@ -22,3 +22,17 @@ def test_the_build_names_every_source() -> None:
         if path.suffix in KINDS
     }
     assert sorted(named) == sorted(there)
+
+
+def test_messages_say_which_package_is_to_be_installed() -> None:
+    """Each names packages of the extras, and none that no index has, such as this one."""
+    project = (PYTHON.parent / "pyproject.toml").read_text(encoding="utf-8")
+    _, _, extras = project.partition("[project.optional-dependencies]\n")
+    known = {name.lower() for name in re.findall(r'"([\w-]+)', extras.partition("\n[")[0])}
+    # Of further formats of meshes, which no extra brings.
+    known.add("meshio")
+    named: set[str] = set()
+    for path in (PYTHON / "flexact").rglob("*.py"):
+        for words in re.findall(r"pip install ([^\"(;]*)", path.read_text(encoding="utf-8")):
+            named |= {re.split("[>=]", name)[0].lower() for name in words.strip(" '").split()}
+    assert {"matplotlib", "pillow", "pandas", "vtk", "pyyaml", "distributed"} <= named <= known

@@ -403,3 +403,9 @@ def test_verdicts_have_one_colour_in_pages_and_pictures() -> None:
     assert {found[kind] for kind in kinds} == {verdict.colour for verdict in flexact.Verdict}
     for kind, name in kinds.items():
         assert found[kind] == flexact.Verdict[name].colour
+
+
+def test_data_of_an_index_are_harmless() -> None:
+    entry = Entry("a/\x9b\u202e\x1b<x>", "", ("broken", "x"), "none", "None")
+    card = index_page([entry]).split('<ul class="cards">')[1]
+    assert not [c for c in card if not c.isprintable() and c != "\n"]

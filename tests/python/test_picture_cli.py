@@ -181,7 +181,7 @@ def test_a_missing_package_is_told_before_anything_is_read(
 ) -> None:
     monkeypatch.setattr("flexact.picture.make.find_spec", lambda name: None)
     assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / "x.png")]) == 2
-    assert "pip install 'flexact[pictures]'" in capsys.readouterr().err
+    assert "pip install matplotlib pillow" in capsys.readouterr().err
 
 
 def test_other_verbs_do_not_load_what_draws(decks: Path) -> None:

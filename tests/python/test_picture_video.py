@@ -177,7 +177,7 @@ def test_without_an_encoder_both_ways_are_named(
     for suffix in (".mp4", ".webm"):
         assert main(["picture", str(missing), "-o", str(tmp_path / f"x{suffix}")]) != 0
         err = capsys.readouterr().err
-        assert "ffmpeg" in err and "PATH" in err and "pip install 'flexact[video]'" in err
+        assert "ffmpeg" in err and "PATH" in err and "pip install imageio-ffmpeg" in err
     with pytest.raises(VideoError, match="imageio-ffmpeg"):
         picture_bytes(of_text(tmp_path, COLLINEAR), ".mp4")
 

@@ -54,7 +54,7 @@ def test_without_matplotlib_pages_are_made_and_it_is_said(
     monkeypatch.setattr("flexact.picture.make._missing", lambda: ["matplotlib"])
     out = tmp_path / "out"
     assert main(["report", str(decks / "over.dat"), "-o", str(out)]) == 0
-    assert "pip install 'flexact[pictures]'" in capsys.readouterr().err
+    assert "pip install matplotlib pillow" in capsys.readouterr().err
     assert files_in(out) == ["index.html", "over.html"]
     assert "data:image/png" not in (out / "over.html").read_text(encoding="utf-8")
 

@@ -3,9 +3,11 @@
 What is a mistake and what is not is put together by hand.
 """
 
+import runpy
+
 import numpy as np
 import pytest
-from reference_decks import NAMES, text_of
+from reference_decks import NAMES, ROOT, text_of
 
 import flexact
 from flexact.diagnostics.diagnostic import Diagnostic, Severity
@@ -20,6 +22,11 @@ OF_SLIPS = {
     "unused-node",
     "no-support",
     "lengths-differ",
+    "long-sheet",
+    "unlikely-modulus",
+    "unlikely-density",
+    "thick-section",
+    "nearly-equal-components",
 }
 
 
@@ -418,3 +425,59 @@ def test_a_hundred_thousand_elements(spread: float) -> None:
     # Each bar between nodes 2 and 3 but the first, those at one place, and no support.
     assert problems.warnings == n + at_one_place + 1
     assert problems.notes == 1
+
+
+# Numbers of another unit -------------------------------------------------------------------
+
+STEEL = {"E": 2.1e11, "G": 8.1e10, "density": 7850.0}
+
+
+def sheet(
+    unit: float = 1.0, thick: float = 5e-4, divided: int = 1, **other: float
+) -> flexact.Model:
+    """A sheet of 60 mm, in a unit, of a material in others."""
+    made = flexact.Model()
+    made.fix(made.node(0, 0, 0, name="foot"))
+    made.sheet(
+        *("foot", made.node(0, 0.06 * unit, 0, name="end"), "z", divided, "leaf"),
+        thickness=thick,
+        breadth=0.02 * thick / 5e-4,
+        material={**STEEL, **other},
+    )
+    made.independent("end", "x")
+    return made
+
+
+@pytest.mark.parametrize(
+    ("made", "wanted", "said"),
+    [
+        (sheet(1e3, 0.5), ["long-sheet"], "60 mm are 0.06 m"),
+        (sheet(150.0, divided=8), ["long-sheet"], "9 mm"),
+        (sheet(E=210.0), ["unlikely-modulus"], "GPa"),
+        (sheet(E=2.1e5), ["unlikely-modulus"], "MPa"),
+        (sheet(E=3e14), ["unlikely-modulus"], "Pa"),
+        (sheet(density=7.85), ["unlikely-density"], "g/cm3"),
+        (sheet(density=7.85e-6), ["unlikely-density"], "kg/mm3"),
+        (sheet(density=7.85e-9), ["unlikely-density"], "t/mm3"),
+        (sheet(thick=0.5), ["thick-section"], "0.5 m"),
+        (sheet(1e3, 0.5, E=2.1e5), ["long-sheet", "unlikely-modulus"], "mm"),
+        (sheet(E=210.0, density=7.85), ["unlikely-modulus", "unlikely-density"], "GPa"),
+        (sheet(), [], ""),
+        (sheet(density=0.0), [], ""),
+    ],
+)
+def test_numbers_of_another_unit(made: flexact.Model, wanted: list[str], said: str) -> None:
+    """One sheet in the units of drawings; its deck has the same, word for word."""
+    again = flexact.read_text(made.to_deck())
+    for model in (made, again):
+        assert codes(model) == wanted
+        assert not wanted or said in " ".join(
+            f"{item.message} {item.help}" for item in slips(model)
+        )
+        assert not wanted or "leaf" in slips(model)[0].message
+    assert [item.message for item in slips(made)] == [item.message for item in slips(again)]
+
+
+def test_gallery_models_are_not_warned_of() -> None:
+    for file in sorted((ROOT / "docs" / "gallery").glob("*.py")):
+        assert codes(runpy.run_path(str(file))["model"]) == [], file

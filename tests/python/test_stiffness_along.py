@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Strokes: forces, energy, snap-through, drives that are free or locked, and their ends."""
 
+import contextlib
 import math
+import warnings
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,6 +12,8 @@ from stiffness_decks import (
     EA,
     EI,
     LENGTH,
+    MASS,
+    SHEET,
     THICK,
     arch,
     cross_hinge,
@@ -155,3 +160,150 @@ def test_errors_go_along_a_stroke() -> None:
     assert mended[1].force == pytest.approx(plain[1].force, rel=1e-3)
     assert off.undeformed().energy == 0.0
     assert off.assembled().energy == pytest.approx(lifted[0].energy, rel=1e-3)
+
+
+def _blade(held: str, along: str = "0.06 0.03 0.07", axis: int = 4) -> str:
+    """A blade in a skew direction; its end is driven about an axis, of others some are held."""
+    return deck(
+        f"BEAM 1 1 2 3 4 0.3 1 -0.2\nX 3 {along}\nFIX 1\nFIX 2\n{held}\nDYNX 4 {axis}\n"
+        "RLSE 1 1 2 3 4 5 6",
+        f"ESTIFF 1 {SHEET}\nEM 1 {MASS}\nXM 3 0.3\nXM 4 1e-3 2e-4 0 2e-3 1e-4 3e-3",
+    )
+
+
+_FOLDED = deck(
+    "BEAM 1 1 2 3 4 0.3 1 -0.2\nBEAM 2 3 4 5 6 1 0.1 0.2\nX 3 0.06 0.03 0.07\nX 5 0.02 0.1 0.05\n"
+    "FIX 1\nFIX 2\nDYNX 6 3\nDYNX 5 1\nRLSE 1 1 2 3 4 5 6\nRLSE 2 1 2 3 4 5 6",
+    f"ESTIFF 1 {SHEET}\nESTIFF 2 {SHEET}\nEM 1 {MASS}\nEM 2 {MASS}\nXM 5 0.3\n"
+    "XM 6 1e-3 0 0 1e-3 0 1e-3",
+)
+_PLANAR = deck(
+    f"PLBEAM 1 1 2 3 4\nX 3 {LENGTH} 0\nFIX 1\nFIX 2\nDYNX 4 1\nRLSE 1 1 2 3",
+    f"ESTIFF 1 {EA} {EI}\nEM 1 {MASS}\nXM 3 0.3\nXM 4 1e-4",
+)
+#: Mechanisms with a node that is turned, about what, and how far [rad].
+TURNED = {
+    "cross hinge": (cross_hinge(), 2, "ry", (0.1, 0.2, 0.4, 0.6)),
+    "skew, all free": (_blade(""), 4, "rz", (0.3, 0.6)),
+    "skew, one held": (_blade("FIX 4 2"), 4, "rz", (0.3, 0.6)),
+    "skew, both others held": (_blade("FIX 4 2\nFIX 4 3"), 4, "rz", (-0.3, 0.6)),
+    "two drives": (_FOLDED, 6, "ry", (0.3, -0.6)),
+    "planar": (_PLANAR, 4, "rz", (0.6,)),
+}
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_a_free_rotary_drive_has_a_constant_moment(name: str) -> None:
+    """1/compliance about the driven axis is the slope of the moment along the path."""
+    text, node, coordinate, angles = TURNED[name]
+    model = elastic(text, beams=2)
+    for angle in angles:
+        low, here, high = model.along(node, coordinate, [angle - 1e-4, angle, angle + 1e-4])
+        slope = (high.force - low.force) / 2e-4
+        about = _driven_axis(here, node, coordinate)
+        size = about.size
+        compliance = about @ here.compliance(node)[-size:, -size:] @ about
+        assert 1 / compliance == pytest.approx(slope, rel=1e-5)
+
+
+def test_frequencies_are_those_at_a_constant_moment() -> None:
+    """All inertia is about the axis, so that the square is the slope of the moment over it."""
+    text = cross_hinge().replace("XM 1 0.3", "XM 2 0 0 0 2e-4 0 0").replace("EM ", "# EM ")
+    model = elastic(text, beams=4)
+    for angle in (0.2, 0.4, 0.6):
+        low, here, high = model.along(2, "ry", [angle - 1e-4, angle, angle + 1e-4])
+        slope = (high.force - low.force) / 2e-4
+        assert here.frequencies[0] == pytest.approx(math.sqrt(slope / 2e-4) / 2 / math.pi, rel=1e-5)
+
+
+def test_matrices_keep_euler_parameters() -> None:
+    """SPACAR's: second derivatives of the energy by the Euler parameter sin(a/2)."""
+    model = elastic(cross_hinge(), beams=1)
+    for angle in (0.2, 0.6):
+        low, here, high = model.along(2, "ry", [angle - 1e-4, angle, angle + 1e-4])
+        # The force on the parameter is the moment times the derivative of the angle.
+        forces = [2 * s.force / math.cos(s.stroke / 2) for s in (low, high)]
+        parameters = [math.sin(s.stroke / 2) for s in (low, high)]
+        slope = (forces[1] - forces[0]) / (parameters[1] - parameters[0])
+        whole = here.stiffness_matrix + here.geometric_matrix
+        assert whole[0, 0] == pytest.approx(slope, rel=1e-5)
+
+
+def _driven_axis(state: Any, node: int, coordinate: str) -> Any:
+    """The axis along which the spin changes the angle: (l0 e + l x e)/cos(angle/2)."""
+    turn = state.position(node)
+    if np.size(turn) == 1:
+        return np.ones(1)
+    angle = float(np.linalg.norm(turn))
+    scalar, vector = math.cos(angle / 2), turn * (math.sin(angle / 2) / angle)
+    e = np.eye(3)["xyz".index(coordinate[1])]
+    axis = scalar * e + np.cross(vector, e)
+    assert np.linalg.norm(axis) == pytest.approx(math.cos(state.stroke / 2), rel=1e-9)
+    return axis / np.linalg.norm(axis)
+
+
+def test_strokes_from_rest_and_far_from_it() -> None:
+    model = elastic(guide(), beams=1)
+    there = model.along(9, "x", [0.025, 0.028])
+    found = model.along(9, "x", [0, "3 mm"], from_rest=True)
+    assert [s.stroke for s in found] == pytest.approx([s.stroke for s in there], abs=1e-15)
+    with pytest.warns(flexact.stiffness.StrokeWarning, match=r"rests at 0.025.*from_rest=True"):
+        model.along(9, "x", [0, 0.003])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        model.along(9, "x", [0.02, 0.03])
+        elastic(cross_hinge(), beams=1).along(2, "ry", [0.3, 0.4])
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda m, **o: m.along(9, "x", [-3.0], **o),
+        lambda m, **o: m.along(9, "x", [3.0], from_rest=True, **o),
+        lambda m, **o: m.misaligned(1, "x", 50, **o),
+        lambda m, **o: m.misaligned(1, "ry", 50.0, **o),
+        lambda m, **o: m.misfit(1, 1, 0.3, **o),
+        lambda m, **o: m.misfit(1, 2, -7.0, **o),
+        lambda m, **o: m.imperfect(misaligned=[(1, "z", -0.2)], **o),
+        lambda m, **o: m.imperfect(misfit=[(1, 1, 0.2)], **o),
+    ],
+)
+def test_what_is_larger_than_the_model_is_refused(ask: Any) -> None:
+    model = elastic(guide(), beams=1)
+    with pytest.raises(flexact.ElasticError, match=r"larger than .*beyond=True"):
+        ask(model)
+    # It is tried then.
+    with contextlib.suppress(flexact.StrokeError):
+        ask(model, beyond=True)
+
+
+def test_points_are_given_by_places_and_bodies_by_their_first_point() -> None:
+    made = flexact.Model(name="guide")
+    for k, x in enumerate((0.0, 0.05)):
+        made.fix(made.node(x, 0, 0, name=f"foot {k}"))
+        made.sheet(
+            *(f"foot {k}", made.node(x, 0.1, 0, name=f"head {k}"), "z", 2, f"leaf {k}"),
+            thickness=5e-4,
+            breadth=0.02,
+            material="steel",
+        )
+    made.body([(0.025, 0.1, 0), "head 0", "head 1"], name="stage", mass=0.5)
+    made.independent("stage", "x")
+    model = flexact.elastic(made, beams=2)
+    number = int(made.node_numbers[np.argmin(np.abs(made.positions - (0.025, 0.1, 0)).sum(1))])
+    rest = model.undeformed()
+    wanted = rest.compliance(number)
+    for given in ((0.025, 0.1, 0), [0.025 + 1e-13, 0.1, 0.0], np.array([0.025, 0.1, 0]), "stage"):
+        assert rest.compliance(given) == pytest.approx(wanted)
+        (state,) = model.along(given, "x", [0.027])
+        assert state.position(number)[0] == pytest.approx(0.027)
+    off = model.misaligned((0.05, 0.0, 0.0), "y", 1e-5)
+    assert off.energy == pytest.approx(model.misaligned("foot 1", "y", 1e-5).energy)
+    named = zip(made.element_numbers, made.element_names, strict=True)
+    numbers = [n for n, name in named if "leaf 1" in name]
+    assert off.peak_stress("leaf 1") == pytest.approx(max(map(off.peak_stress, numbers)))
+    for wrong in ((0.025, 0.1001, 0), "nothing", "leaf 1"):
+        with pytest.raises(flexact.FlexactError, match="no point is"):
+            rest.compliance(wrong)
+    with pytest.raises(TypeError):
+        rest.compliance((1, 2, 3, 4))

@@ -94,6 +94,15 @@ def test_reduced_matrices_are_those_of_the_deck_in_its_order() -> None:
     state = elastic(order).undeformed()
     np.testing.assert_allclose(state.stiffness_matrix, np.diag([0, 0, 8.0]), atol=1e-12)
     np.testing.assert_allclose(state.mass_matrix, 2 * np.eye(3), atol=1e-12)
+    mass = np.diag([2.0, 3.0])
+    for first in ("DYNX 4 2", "DYNX +4 2", "dynx 004 2", "\t DynX\t+04\t2  % x"):
+        # Node 4 before node 2, however the number is written.
+        numbers = deck(
+            f"TRUSS 1 1 2\nTRUSS 2 3 4\nX 2 1 0 0\nX 3 0 1 0\nX 4 1 1 0\nFIX 1\nFIX 3\n"
+            f"FIX 2 1 2\nFIX 4 1 3\n{first}\nDYNX 2 3\n% DYNX 2 3",
+            "XM 4 2\nXM 2 3",
+        )
+        np.testing.assert_allclose(elastic(numbers).undeformed().mass_matrix, mass, atol=1e-12)
     assert elastic(cantilever()).undeformed().mass_matrix.shape == (0, 0)
 
 

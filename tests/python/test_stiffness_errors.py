@@ -74,7 +74,7 @@ def test_what_has_no_answer_is_refused_with_the_reason(words: str) -> None:
         lambda: flexact.elastic(3),  # type: ignore[arg-type]
         lambda: elastic(guide(), beams="many"),
         lambda: elastic(guide(), release=[5]),
-        lambda: elastic(guide()).misfit("sheet", 1, 1e-6),
+        lambda: elastic(guide()).misfit(1.5, 1, 1e-6),
     ],
 )
 def test_what_is_of_another_kind(call: Callable[[], Any]) -> None:

@@ -585,3 +585,21 @@ def test_what_is_no_json_is_refused_in_words(body: bytes) -> None:
     session.renew(board_of("flexures/parallel_guide").base)
     reply = answered(session, body)
     assert 400 <= reply.status < 500 and reply.content["error"] and not reply.changed
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize(
+    "name",
+    ["x" * 240, "\u00e4" * 120, "a:b", "tab\tx", ".hidden", "\u202ex", "x_edited_2", "a b", "%s"],
+)
+def test_the_name_that_is_proposed_is_taken(name: str, tmp_path: Path) -> None:
+    watched = tmp_path / f"{name}.dat"
+    watched.write_text(TWO)
+    session = session_of(watched, watched)
+    switched(session, in_plane())
+    made = []
+    for _ in range(3):
+        proposed = session.told()["save"]
+        made.append(session.ask({"do": "save", "name": proposed}).content["saved"])
+        assert made[-1] == proposed
+    assert len(set(made)) == 3

@@ -2,6 +2,7 @@
 """Tables as files: what stands in them reads back to the last bit, whole or not at all."""
 
 import csv
+import io
 import json
 import math
 import os
@@ -110,11 +111,10 @@ def test_rows_that_fail_leave_what_was_there(suffix: str, tmp_path: Path) -> Non
 def test_a_full_disk_leaves_what_was_there(
     suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The temporary file leads to a device that takes nothing."""
+    """The temporary file is a device that takes nothing."""
     path = tmp_path / f"table{suffix}"
     path.write_text("before")
-    (tmp_path / "temporary").symlink_to("/dev/full")
-    monkeypatch.setattr("flexact.files.outputs.temporary_name", lambda: "temporary")
+    monkeypatch.setattr("flexact.files.outputs.new_file", lambda *_: io.FileIO("/dev/full", "wb"))
     with pytest.raises(OutputError, match="no space left"):
         write_table(path, NAMES, ROWS * 20_000)
     assert path.read_text() == "before"

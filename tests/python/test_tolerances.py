@@ -167,7 +167,7 @@ def test_the_picture_counts_every_sample(tmp_path: Path) -> None:
     [
         ({"sd": -1.0}, ValueError, "negative"),
         ({"sd": math.nan}, ValueError, "finite"),
-        ({"sd": "wide"}, TypeError, "numbers"),
+        ({"sd": "wide"}, ValueError, "a length"),
         ({"sd": [1.0, 2.0]}, ValueError, "nodes"),
         ({"sd": {"clamp 3": 1.0}}, flexact.ModelError, "clamp 3"),
         ({"sd": {99: 1.0}}, flexact.ModelError, "99"),
@@ -176,7 +176,8 @@ def test_the_picture_counts_every_sample(tmp_path: Path) -> None:
         ({"sd": 1e-3, "samples": 1.5}, TypeError, "samples"),
         ({"sd": 1e-3, "seed": -1}, ValueError, "seed"),
         ({"sd": 1e-3, "below": 0.0}, ValueError, "positive"),
-        ({"sd": 1e-3, "below": "1 mm"}, TypeError, "str"),
+        ({"sd": 1e-3, "below": "1 kg"}, ValueError, "a mass"),
+        ({"sd": 1e-3, "below": b"1 mm"}, TypeError, "bytes"),
     ],
 )
 def test_wrong_calls_are_refused_in_words(given: Any, kind: type[Exception], words: str) -> None:

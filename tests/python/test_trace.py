@@ -130,7 +130,7 @@ def test_the_platform_of_sarrus_goes_straight() -> None:
 
 def test_bennett() -> None:
     """tan(t1/2) tan(t2/2) = sin((b + a)/2)/sin((b - a)/2), a and b the twists (Bennett 1903)."""
-    path = traced("linkages/bennett", length=20.0, steps=80)
+    path = traced("linkages/bennett", length=20.0, steps=80, beyond=True)
     assert path.along.stop.ending is path.against.stop.ending is Ending.CLOSED
     # One turn of a joint by 2 pi rad, which count as the size.
     given = path.result.given
@@ -159,7 +159,7 @@ def test_bennett() -> None:
 
 def test_dead_points_of_a_four_bar() -> None:
     """The rocker turns back where crank and coupler are in line: twice a turn of the crank."""
-    path = traced("linkages/four_bar_planar", length=40.0)
+    path = traced("linkages/four_bar_planar", length=40.0, beyond=True)
     assert path.along.stop.ending is Ending.CLOSED
     # The crank turns by 2 pi, a radian counting as the size, which is AC.
     assert path.along.length == pytest.approx(2.0 * math.pi * math.hypot(3.0, 3.0), rel=1e-5)
@@ -179,7 +179,7 @@ def test_dead_points_of_a_four_bar() -> None:
 
 def test_dead_points_of_a_slider_crank() -> None:
     """Crank 0.5 and rod sqrt(1.53) in line, the slide at their sum; the crank drives on."""
-    path = traced("linkages/slider_crank_planar", freedom=1, length=12.0, steps=100)
+    path = traced("linkages/slider_crank_planar", freedom=1, length=12.0, steps=100, beyond=True)
     index = path.result.given.node_index
     slide = [step for step in path.dead_points if step.dead and step.dead.turning]
     rod, offset = math.hypot(1.2, 0.3), 0.1
@@ -193,9 +193,8 @@ def test_dead_points_of_a_slider_crank() -> None:
 def test_a_driven_rocker_turns_back() -> None:
     """As the drive of a rocker: where crank and coupler are in line it can be driven no farther."""
     text = (DECKS / "linkages" / "four_bar_planar.dat").read_text(encoding="utf-8")
-    path = trace(
-        flexact.read_text(text.replace("FIX 41\n", "FIX 41\nDYNX 42\n")), freedom=1, length=30.0
-    )
+    model = flexact.read_text(text.replace("FIX 41\n", "FIX 41\nDYNX 42\n"))
+    path = trace(model, freedom=1, length=30.0, beyond=True)
     drives = [step for step in path.dead_points if step.dead and step.dead.is_drive]
     assert len(drives) >= 2
     index = path.result.given.node_index
@@ -330,7 +329,9 @@ def test_wrong_choices_are_told() -> None:
         with pytest.raises(ValueError, match="length"):
             trace(deck, length=wrong)
     with pytest.raises(TypeError, match="length"):
-        trace(deck, length="1")  # type: ignore[arg-type]
+        trace(deck, length=b"1")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="says its unit"):
+        trace(deck, length="1")
     with pytest.raises(ValueError, match="step"):
         trace(deck, steps=0)
     with pytest.raises(TypeError, match="steps"):
@@ -345,3 +346,10 @@ def test_too_large_a_model_is_told() -> None:
     text = "\n".join([*bars, *joints, "FIX 1", "END", "HALT", "END", ""])
     with pytest.raises(flexact.FlexactError, match="1000 coordinates"):
         trace(flexact.read_text(text))
+
+
+def test_a_length_beyond_the_model_is_refused() -> None:
+    deck = DECKS / "linkages" / "four_bar_planar.dat"
+    with pytest.raises(flexact.FlexactError, match=r"larger than .*--beyond.*beyond=True"):
+        trace(deck, length=20.0)
+    assert len(trace(deck, length="20m", beyond=True, steps=5).steps) > 1

@@ -183,10 +183,20 @@ def of_models() -> Iterator[Callable[[], object]]:
 
     def flawed() -> Model:
         model = Model()
-        a, b, c = model.node(1, 1, 1), model.node(1, 1, 1), model.node(2, 1, 1)
+        a, b, c = model.node(1, 1, 1), model.node(1, 1, 2), model.node(2, 1, 1)
         model.truss(a, b)
         model.beam(a, c, y=(-3, 0, 0))
-        model.truss(a, a)
+        model.move(b, (1, 1, 1))
+        return model
+
+    def to_itself() -> Model:
+        model = Model()
+        model.wire((1, 1, 1), (1, 1, 1), name="leg")
+        return model
+
+    def at_one_place() -> Model:
+        model = Model()
+        model.truss(model.node(1, 1, 1, name="tip"), model.node(1, 1, 1))
         return model
 
     def unused() -> Model:
@@ -200,6 +210,8 @@ def of_models() -> Iterator[Callable[[], object]]:
         return model
 
     yield lambda: analyse(flawed())
+    yield to_itself
+    yield at_one_place
     yield lambda: analyse(unused())
     yield lambda: unused().to_deck()
     yield lambda: analyse(turned())

@@ -2,6 +2,8 @@
 """`flexact watch` in a process of its own, and a listener to its events."""
 
 import contextlib
+import hashlib
+import hmac
 import http.client
 import json
 import os
@@ -11,25 +13,29 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
 #: For a machine on which much else is going on [s].
 PATIENCE = 60.0
+ADDRESS = "127.0.0.1"
+#: Of the environment: what has a browser open.
+LEFT_OUT = ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")
 
 
 class Watched:
     """A running `flexact watch`, with what it says."""
 
-    def __init__(self, file: Path, state: Path, *more: str) -> None:
+    def __init__(self, file: Path, state: Path, *more: str, before: Sequence[str] = ()) -> None:
         self.file = file
         env = {**os.environ, "XDG_STATE_HOME": str(state), "PYTHONUNBUFFERED": "1"}
-        for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"):
+        for name in LEFT_OUT:
             env.pop(name, None)
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "flexact", "watch", str(file), *more],
+            [*before, sys.executable, "-m", "flexact", "watch", str(file), *more],
             env=env,
             cwd=file.parent,
             stdin=subprocess.DEVNULL,
@@ -103,15 +109,55 @@ def until(found: Callable[[], Any], patience: float = PATIENCE) -> Any:
     return value
 
 
-class Events:
-    """What a page hears."""
+@dataclass
+class Page:
+    """What a page has of its server: the start that it came from, and the key of that."""
 
-    def __init__(self, address: str) -> None:
-        where = urlsplit(address)
-        self._line = http.client.HTTPConnection(where.hostname or "", where.port, timeout=PATIENCE)
-        self._line.request("GET", f"{where.path}events")
+    start: str
+    key: str
+
+    @classmethod
+    def of(cls, address: str) -> "Page":
+        """As it is loaded."""
+        text = ask(address)[1]
+        start, key = re.findall(r'data-(?:start|key)="([0-9a-f]+)"', text)
+        return cls(start, key)
+
+    def proof(self, *words: object) -> str:
+        said = " ".join(map(str, words)).encode()
+        return hmac.new(self.key.encode(), said, hashlib.sha256).hexdigest()
+
+    def greet(self, port: int | None) -> str:
+        """The start of the server at a port, if it is one of this page."""
+        number = os.urandom(16).hex()
+        path = f"/alive?start={self.start}&number={number}"
+        told = json.loads(ask(f"http://{ADDRESS}:{port}/", path)[1])
+        if told["proof"] != self.proof("server", number, told["start"], port):
+            raise RefusedError("without proof")
+        return str(told["start"])
+
+
+class RefusedError(Exception):
+    """Whoever answers at the port is not the server of this page."""
+
+
+class Events:
+    """What a page hears, which goes about it as page/live.js does."""
+
+    def __init__(self, address: str, page: "Page | None" = None, seen: str = "") -> None:
+        self._where = urlsplit(address)
+        self.page = Page.of(address) if page is None else page
+        number = os.urandom(16).hex()
+        start = self.page.greet(self._where.port)
+        ours = self.page.proof("page", number, start, self._where.port)
+        theirs = self.page.proof("events", number, start, self._where.port)
+        asked = f"start={self.page.start}&number={number}&proof={ours}&seen={seen}"
+        self._line = http.client.HTTPConnection(ADDRESS, self._where.port, timeout=PATIENCE)
+        self._line.request("GET", f"/events?{asked}")
         self._answer = self._line.getresponse()
         assert self._answer.status == 200
+        if self.next("proof")["proof"] != theirs:
+            raise RefusedError("without proof")
 
     def next(self, kind: str = "scene") -> dict[str, Any]:
         """The next event of a kind."""
@@ -131,8 +177,8 @@ class Events:
 
 
 @contextlib.contextmanager
-def watching(file: Path, state: Path, *more: str) -> Iterator[Watched]:
-    watched = Watched(file, state, *more)
+def watching(file: Path, state: Path, *more: str, before: Sequence[str] = ()) -> Iterator[Watched]:
+    watched = Watched(file, state, *more, before=before)
     try:
         yield watched
     finally:

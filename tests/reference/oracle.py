@@ -67,7 +67,7 @@ def sparse(labels: list[Label], projector: Real) -> list[list[Any]]:
 
 
 def record(name: str, deck: Deck, outcome: Outcome, source: str) -> dict[str, Any]:
-    """What is stored for a deck."""
+    """What is stored for a deck; counts by class are those of the deck as it is typed."""
     coordinates = class_counts(deck.coordinates.values())
     deformations = class_counts(deck.deformations.values())
     motions, stresses = outcome.under_constrained, outcome.over_constrained
@@ -95,11 +95,12 @@ def compute(name: str, known: dict[str, Any]) -> dict[str, Any]:
     Raises:
         ValueError: the rank is in doubt, or the known answer is another.
     """
-    deck = with_rows_as_beams(read_deck((DECKS / name).read_text(encoding="utf-8")))
+    typed = read_deck((DECKS / name).read_text(encoding="utf-8"))
+    deck = with_rows_as_beams(typed)
     outcome = analyse(deck)
     if found := disagreements(deck, outcome, known):
         raise ValueError("; ".join(found))
-    return record(name, deck, outcome, known["source"])
+    return record(name, typed, outcome, known["source"])
 
 
 def layout(data: dict[str, Any]) -> str:

@@ -131,16 +131,22 @@ def is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
 
 
 def is_releasable(result: Result) -> NDArray[np.bool_]:
-    """(m,) whether a row is of a part that can be made soft: not of a link inside a body.
+    """(m,) whether a row is of a part that can be made soft: not of a rigid body.
 
-    Where there is nothing else, all are.
+    Where there is nothing else all are, of bodies of several members those with a name first.
     """
     element = result.condensed.elements[result.raw.row_label[0] - 1]
-    inside = np.zeros(result.given.arrays.element_number.size, bool)
-    inside[list(result.parts.links)] = True
-    made: NDArray[np.bool_] = ~inside[element]
     stressed = row_norms(result.stress_space) > _NOTHING
-    return made if made[stressed].any() else np.ones_like(made)
+    for rigid in (
+        [index for body in result.parts.bodies for index in body.elements],
+        list(result.parts.links),
+    ):
+        inside = np.zeros(result.given.arrays.element_number.size, bool)
+        inside[rigid] = True
+        made: NDArray[np.bool_] = ~inside[element]
+        if made[stressed].any():
+            return made
+    return np.ones(element.size, bool)
 
 
 def _leverage_of_class(result: Result, wanted: Class) -> FloatArray:

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any, overload
+from functools import partial
+from typing import Any, TypeVar, overload
 
-from ..advice.causes.cause import Causes
+import numpy as np
+
+from ..advice.causes.cause import Cause, CauseKind, Causes
 from ..advice.causes.causes import causes_of
 from ..advice.change import Change
 from ..advice.proposal import Proposal, Purpose, tried
@@ -16,17 +18,27 @@ from ..advice.releases.declarations import Declarations, declarations_of
 from ..advice.releases.releases import Releases, releases_of
 from ..advice.spaces.spaces import Spaces, spaces_of
 from ..advice.undeclaring import undeclarations_of
+from ..base.cached import cached_property
+from ..base.errors import FlexactError
 from ..base.frozen import Frozen
+from ..base.partial import attempted
 from ..core.progress import Progress
 from ..result.extents.decide import extents_of
-from ..result.extents.extent import Extents
+from ..result.extents.extent import EvidenceKind, Extent, Extents, Kind, Reason
 from ..result.result import Result
 from ..result.verdict import Verdict
+from ..text.describe import MOST_MODES
 from .describe import describe, html_of
 from .json_advice import dictionary_of
 from .motions import AdvisedMotion, AdvisedStress
 from .steps import Step, together
 
+#: What has a statement.
+_Made = TypeVar("_Made")
+_Given = TypeVar("_Given")
+_Told = TypeVar("_Told", AdvisedMotion, AdvisedStress, Step)
+#: Of self-stresses of more resultants in all those that stand on a screen are told.
+_MOST_ENTRIES = 20_000
 #: Kinds of steps in the order in which they are shown.
 _ORDER = (
     *(Purpose.MEND, Purpose.UNDECLARE, Purpose.RELEASE, Purpose.DECLARE, Purpose.HOLD),
@@ -51,62 +63,116 @@ class Advice(Frozen, Sequence[Step]):
         body: The body whose freedom and constraint are looked at; None: the one that the
             freedoms of the mechanism are about.
         wanted: Motions that are meant to be free, such as "stage: translation z".
+        bodies: Whether insides of rigid bodies may be released where anything else does it, too.
     """
 
     analysis: Result
     body: str | None = None
     wanted: tuple[str, ...] = ()
+    bodies: bool = False
+
+    @cached_property
+    def failed(self) -> list[str]:
+        """What could not be made of the advice, behind "Left out: "; the rest of it is there."""
+        return []
+
+    def made(self, what: str, make: Callable[[], _Made], instead: _Given) -> _Made | _Given:
+        """One piece of the advice, or what stands in its place where it cannot be made."""
+        return attempted(what, make, instead, self.failed, "{what}, which failed ({why})")
+
+    def _each(
+        self, what: str, items: Iterable[_Given], make: Callable[[_Given], _Made]
+    ) -> Iterator[_Made]:
+        """What `make` gives of each item, without those of which it fails."""
+        for item in items:
+            nothing: tuple[_Made, ...] = ()
+            yield from self.made(what, partial(_alone, make, item), nothing)
 
     @cached_property
     def causes(self) -> Causes:
         """Why motions and self-stresses are there: any geometry has them, or this one."""
-        return causes_of(self.analysis)
+        unknown, result = Cause(CauseKind.UNKNOWN), self.analysis
+        none = Causes((unknown,) * len(result.motions), (unknown,) * len(result.self_stresses))
+        return self.made("causes", lambda: causes_of(result), none)
 
     @cached_property
     def extents(self) -> Extents:
         """Whether motions go on, or only begin."""
-        return extents_of(self.analysis)
+        unknown = Extent(Kind.UNDECIDED, EvidenceKind.NONE, Reason.NOT_GIVEN)
+        none = Extents((unknown,) * len(self.analysis.motions), None)
+        return self.made("how far motions go", lambda: extents_of(self.analysis), none)
 
     @cached_property
     def releases(self) -> Releases:
         """Sets of deformations whose release leaves no self-stress."""
-        return releases_of(self.analysis)
+        result, none = self.analysis, Releases(self.analysis.over_constrained, None)
+        return self.made("releases", lambda: releases_of(result, self.bodies), none)
 
     @cached_property
     def declarations(self) -> Declarations:
         """Sets of coordinates whose declaration, or holding, leaves no motion."""
-        return declarations_of(self.analysis)
+        none = Declarations(self.analysis.under_constrained, None)
+        return self.made("declarations", lambda: declarations_of(self.analysis), none)
 
     @cached_property
     def spaces(self) -> Spaces | None:
-        """Freedom and constraint of the body; None where there is no body."""
-        return spaces_of(self.analysis, self.body, self.wanted)
+        """Freedom and constraint of the body; None where there is no body.
+
+        Raises:
+            ModelError: no body has the name that was asked for, or a text is not understood.
+        """
+        asked = self.analysis, self.body, self.wanted
+        if self.body is not None or self.wanted:
+            # What was asked for wrongly is told, not left out.
+            spaces_of(*asked, wires=False)
+        made: tuple[Spaces | None, ...] = ()
+        made = self.made("wires and sheets to add", partial(_alone, spaces_of, *asked), made)
+        without = partial(_alone, spaces_of, *asked, wires=False)
+        made = made or self.made("freedom and constraint", without, made)
+        return made[0] if made else None
 
     @cached_property
     def motions(self) -> tuple[AdvisedMotion, ...]:
-        """Each motion with its cause and extent."""
+        """Each motion with its cause and extent; not of which nothing could be said."""
         told = zip(self.analysis.motions, self.extents.motions, strict=True)
-        return tuple(AdvisedMotion(motion, self.causes, extent) for motion, extent in told)
+        every = (AdvisedMotion(motion, self.causes, extent) for motion, extent in told)
+        return tuple(self._told("a motion", every))
 
     @cached_property
     def self_stresses(self) -> tuple[AdvisedStress, ...]:
-        """Each self-stress with its cause."""
-        return tuple(AdvisedStress(stress, self.causes) for stress in self.analysis.self_stresses)
+        """Each self-stress with its cause; of very many that carry much the first ones.
+
+        Not of which nothing could be said.
+        """
+        result = self.analysis
+        sizes = np.cumsum(
+            [result.stress_basis.entries(k)[0].size for k in range(len(result.self_stresses))]
+        )
+        count = max(MOST_MODES, int(np.count_nonzero(sizes <= _MOST_ENTRIES)))
+        every = (AdvisedStress(stress, self.causes) for stress in result.self_stresses[:count])
+        return tuple(self._told("a self-stress", every))
+
+    def _told(self, what: str, every: Iterable[_Told]) -> Iterator[_Told]:
+        """Those of which the words can be said."""
+        return self._each(what, every, lambda one: (one, one.statement)[0])
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """Ways to mend the mechanism, numbered as they are shown; each was tried."""
         every = (one for one in self._proposals() if one.change != Change())
         ordered = sorted(every, key=lambda one: _ORDER.index(one.purpose))
-        return tuple(Step(self.analysis, k, one) for k, one in enumerate(ordered, start=1))
+        told = list(self._told("a step", (Step(self.analysis, 0, one) for one in ordered)))
+        return tuple(replace(step, number=k) for k, step in enumerate(told, start=1))
 
     def _proposals(self) -> Iterator[Proposal]:
-        yield from map(self._as_it_stands, self.causes.mends)
-        yield from undeclarations_of(self.analysis)
+        yield from self._each("a step", self.causes.mends, self._as_it_stands)
+        yield from self.made(
+            "declarations to take back", lambda: undeclarations_of(self.analysis), ()
+        )
         yield from (*self.releases.sets, *self.releases.supports)
         yield from (*self.declarations.sets, *self.declarations.holds)
         if self.spaces is not None:
-            yield from map(self._as_it_stands, self.spaces.proposals)
+            yield from self._each("a step", self.spaces.proposals, self._as_it_stands)
 
     def _as_it_stands(self, one: Proposal) -> Proposal:
         """A proposal that was tried with divided sheets as one beam each, tried without."""
@@ -128,7 +194,10 @@ class Advice(Frozen, Sequence[Step]):
         if self.analysis.verdict is not Verdict.BOTH or len(able) < 2 or any(exact):
             return ()
         change = together(self.steps[number - 1].change for number in able)
-        is_exact = tried(self.analysis, change).verdict is Verdict.EXACT
+        try:
+            is_exact = tried(self.analysis, change).verdict is Verdict.EXACT
+        except FlexactError:
+            return ()
         return tuple(able) if is_exact else ()
 
     def found(self, progress: Progress | None = None) -> Advice:
@@ -168,18 +237,26 @@ class Advice(Frozen, Sequence[Step]):
         return html_of(self)
 
 
-def advice_of(result: Result, body: str | None = None, wanted: Sequence[str] = ()) -> Advice:
+def _alone(make: Callable[..., _Made], *given: object, **more: object) -> tuple[_Made, ...]:
+    return (make(*given, **more),)
+
+
+def advice_of(
+    result: Result, body: str | None = None, wanted: Sequence[str] = (), bodies: bool = False
+) -> Advice:
     """The advice on a mechanism.
 
     Args:
         result: Its analysis.
         body: The body whose freedom and constraint are looked at, by name.
         wanted: Motions that are meant to be free, such as "stage: translation z".
+        bodies: Whether insides of rigid bodies may be released where anything else does it, too.
 
     Raises:
         ModelError: no body has this name, or a text is not understood.
     """
-    made = Advice(result, body, (wanted,) if isinstance(wanted, str) else tuple(wanted))
+    meant = (wanted,) if isinstance(wanted, str) else tuple(wanted)
+    made = Advice(result, body, meant, bodies)
     if body is not None or made.wanted:
         # What was asked for wrongly is told at once.
         _ = made.spaces

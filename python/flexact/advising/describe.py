@@ -82,13 +82,18 @@ def html_of(advice: Advice) -> str:
 def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section, ...]:
     """The advice without the verdict: what is wrong, what mends it, and what a body can do."""
     known = _Known()
+    spaces = advice.made(
+        "words of freedom and constraint",
+        lambda: tuple(map(Told, spaces_lines(advice.analysis, advice.spaces, added=False))),
+        (),
+    )
     made = (
         tuple(_motions(advice, known)),
         tuple(_stresses(advice, known)),
-        tuple(_both(advice)),
+        advice.made("a pair", lambda: tuple(_both(advice)), ()),
         *_steps(advice, most),
         tuple(_left_out(advice)),
-        tuple(map(Told, spaces_lines(advice.analysis, advice.spaces, added=False))),
+        spaces,
     )
     return tuple(section for section in made if section)
 

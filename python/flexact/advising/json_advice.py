@@ -48,6 +48,7 @@ def dictionary_of(advice: Advice) -> Entries:
         "releases": {
             "size": releases.size,
             "count": releases.count,
+            "doubtful": releases.doubtful,
             "sets": [
                 {
                     "deformations": [[e, number] for e, number, _ in one.change.deformations],
@@ -59,6 +60,7 @@ def dictionary_of(advice: Advice) -> Entries:
         "declarations": {
             "size": declarations.size,
             "count": declarations.count,
+            "doubtful": declarations.doubtful,
             "sets": [
                 {
                     "coordinates": [[node, name] for node, name, _ in one.change.coordinates],

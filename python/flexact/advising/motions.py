@@ -6,10 +6,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 from ..advice.causes.cause import Cause, Causes
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..result.extents.extent import Extent
 from ..result.modes import Motion, SelfStress

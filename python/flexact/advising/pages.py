@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from ..advice.change import Change
 from ..advice.spaces.spaces import Spaces, spaces_of
+from ..base.partial import attempted
 from ..diagnostics.errors import ModelError, model_error
 from ..page import before_and_after, page
 from ..picture import has_packages, picture_bytes
@@ -70,4 +71,6 @@ def _spaces_after(advice: Advice, after: Result) -> Spaces | None:
 
 
 def _still(result: Result) -> bytes | None:
-    return picture_bytes(result, ".png") if has_packages() else None
+    if not has_packages():
+        return None
+    return attempted("", lambda: picture_bytes(result, ".png"), None, None)

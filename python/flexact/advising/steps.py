@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
-from functools import cached_property
 from itertools import chain
 
 from ..advice.change import Change
 from ..advice.proposal import After, Proposal, Purpose
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..diagnostics.errors import model_error
 from ..model.model import Model

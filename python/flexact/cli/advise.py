@@ -41,6 +41,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
         metavar="MOTION",
         help='what is meant to move, such as "stage: translation z"; may be repeated',
     )
+    parser.add_argument(
+        "--bodies",
+        action="store_true",
+        help="release insides of rigid bodies, too, where anything else does it as well",
+    )
     parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
     parser.add_argument(
         "--apply",
@@ -100,7 +105,8 @@ class _Work:
         with Bar(deck.name, deck.path) as bar:
             result = read_and_analysed(deck, self.chosen, bar)
             try:
-                advice = advice_of(result, self.chosen.body, self.chosen.wanted)
+                asked = self.chosen
+                advice = advice_of(result, asked.body, asked.wanted, asked.bodies)
                 advice.found(bar.show_work)
                 with unwinding():
                     written = self.file.write(advice)

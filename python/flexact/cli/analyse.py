@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
+from flexact.base.partial import attempted
 from flexact.base.plain_text import harmless
 from flexact.cli import colour, failures
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
@@ -32,12 +33,7 @@ from flexact.text.margin import verdict_word
 if TYPE_CHECKING:
     from flexact.cli.result_files import ResultFiles
 
-VERDICTS = {
-    "exact": Verdict.EXACT,
-    "under": Verdict.UNDER,
-    "over": Verdict.OVER,
-    "both": Verdict.BOTH,
-}
+VERDICTS = {verdict.word: verdict for verdict in Verdict}
 #: Forms of logs beside that of Flexact.
 LOGS = ("spacar",)
 
@@ -174,7 +170,15 @@ class _Work:
         words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
         if analysis.over_constrained and analysis.given.properties is not None:
             # It takes a while to load.
-            words = load("flexact.costing.glance").with_glance(words, analysis, width)
+            glance, told = load("flexact.costing.glance"), words
+            missing: list[str] = []
+            words = attempted(
+                "What over-constraint costs",
+                lambda: str(glance.with_glance(told, analysis, width)),
+                words,
+                missing,
+            )
+            complain("\n".join(f"{harmless(analysis.name)}: note: {each}" for each in missing))
         return f"{_coloured(words, analysis)}\n", False
 
 

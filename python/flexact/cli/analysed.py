@@ -10,6 +10,7 @@ import time
 
 from flexact.base import memory
 from flexact.base.plain_text import harmless
+from flexact.base.quantities import quantity
 from flexact.cli.bar import Bar
 from flexact.cli.terminal import columns_of, complain, is_verbose
 from flexact.core.calls import METHODS
@@ -47,25 +48,37 @@ def add_decision(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_accuracy(parser: argparse.ArgumentParser) -> None:
-    """Add to a verb's parser to what the workshop makes the parts and puts them together."""
+def add_accuracy(parser: argparse.ArgumentParser, *, is_held_against: bool = True) -> None:
+    """Add to a verb's parser to what the workshop makes the parts and puts them together.
+
+    Args:
+        parser: The parser.
+        is_held_against: Whether it is held against the size of each model.
+    """
     parser.add_argument(
         "--accuracy",
         type=accuracy,
         metavar="LENGTH[,ANGLE]",
-        help="of the workshop, in m and rad, such as 20e-6 or 20e-6,1e-4: a verdict that a "
-        "smaller misalignment changes is said to be so, in another colour",
+        help="of the workshop, such as 20um or 20um,0.1mrad: a verdict that a smaller "
+        "misalignment changes is said to be so, in another colour",
     )
+    if is_held_against:
+        parser.add_argument(
+            "--beyond", action="store_true", help="take an accuracy larger than the model"
+        )
 
 
 def accuracy(text: str) -> Accuracy:
     """A length, or a length and an angle behind a comma, as an option's type."""
     try:
-        return Accuracy.of([float(part) for part in text.split(",")])
-    except (TypeError, ValueError):
+        length, *angle = text.split(",")
+        return Accuracy.of(
+            [quantity(length, "m"), *(quantity(part, "rad") for part in angle)],
+        )
+    except (TypeError, ValueError) as error:
         raise argparse.ArgumentTypeError(
-            f"a length [m], or a length and an angle [rad], is wanted, such as 20e-6 or "
-            f"20e-6,1e-4, not {text!r}"
+            f"a length, or a length and an angle, is wanted, such as 20um or 20um,0.1mrad, not "
+            f"{text!r}: {error}"
         ) from None
 
 
@@ -102,6 +115,8 @@ def report_problems(model: ModelData) -> None:
 def analysed(deck: DeckFile, model: ModelData, chosen: argparse.Namespace, bar: Bar) -> Result:
     """Analyse a deck as was chosen, while a bar says how far it is."""
     announce_wait(deck, model, chosen.method)
+    if chosen.accuracy is not None and not chosen.beyond:
+        chosen.accuracy.require_within(model.size)
     return result_of(
         model,
         asked_for(chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy),

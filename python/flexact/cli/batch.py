@@ -85,7 +85,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="write a page of each deck and index.html there",
     )
     add_decision(parser)
-    add_accuracy(parser)
+    add_accuracy(parser, is_held_against=False)
     add_examples(
         parser,
         (
@@ -201,6 +201,9 @@ def _differences(then: dict[str, Any], now: dict[str, Any]) -> list[str]:
     """What is asked for in another way than it was, in words."""
     if then.get("journal") != now["journal"] or then.get("flexact") != now["flexact"]:
         return [f"it was written by flexact {then.get('flexact')}, and this is {VERSION}"]
+    options, decks = then.get("options"), then.get("decks")
+    if not isinstance(options, dict) or not isinstance(decks, list) or {*map(type, decks)} - {str}:
+        return ["its first line is not as flexact writes it"]
     made = [
         f"{name} was {_shown(then['options'].get(name))}, now {_shown(value)}"
         for name, value in now["options"].items()

@@ -89,10 +89,14 @@ class Outputs:
     def are_there(self, deck: DeckFile, record: dict[str, Any]) -> bool:
         """Whether what was written of a deck is as it was remembered."""
         files, page = record.get("files", []), record.get("page", [])
-        targets = self._targets(deck, bool(files), bool(page))
+        if not isinstance(files, list) or not isinstance(page, list):
+            return False
+        if "entry" in record and not _is_entry(record["entry"]):
+            return False
         try:
+            targets = self._targets(deck, bool(files), bool(page))
             return [os.stat(path).st_size for path in targets] == [*files, *page]
-        except (OSError, ValueError):
+        except (OSError, ValueError, KeyError):
             return False
 
     def keep(self) -> None:
@@ -142,6 +146,16 @@ class _Entries:
 def _packed(entry: Entry) -> dict[str, Any]:
     picture = None if entry.picture is None else base64.b64encode(entry.picture).decode("ascii")
     return {**asdict(entry), "picture": picture}
+
+
+def _is_entry(packed: object) -> bool:
+    """Whether `_unpacked` makes an entry of it that an index can show."""
+    try:
+        entry = _unpacked(packed)  # type: ignore[arg-type]
+        # Whatever else is wrong with it is found where it is shown.
+        return bool("".join(load("flexact.page").index_pieces([entry])))
+    except Exception:
+        return False
 
 
 def _unpacked(packed: dict[str, Any]) -> Entry:

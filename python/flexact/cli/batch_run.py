@@ -47,8 +47,10 @@ class BatchRun:
         self._decks, self._work, self._outputs, self._journal = decks, work, outputs, journal
         self._place = array("q", [_NOT_DONE]) * len(decks)
         for entry in journal.entries():
-            if entry.place:
-                self._place[entry.record["deck"]] = entry.place
+            index = entry.record.get("deck")
+            # Whatever else stands there was written by others.
+            if entry.place and type(index) is int and 0 <= index < len(decks):
+                self._place[index] = entry.place
         self._left = array("q", (k for k in range(len(decks)) if not self._is_done(k)))
         for k in self._left:
             self._place[k] = _NOT_DONE
@@ -62,7 +64,22 @@ class BatchRun:
         if self._place[index] == _NOT_DONE:
             return False
         deck, record = self._decks[index], self._journal.read(self._place[index])
-        return bool(record["of"] == _content(deck).digest) and self._outputs.are_there(deck, record)
+        return (
+            record.get("of") == _content(deck).digest
+            and self._is_row(record.get("row"))
+            and type(record.get("wanted")) is bool
+            and self._outputs.are_there(deck, record)
+        )
+
+    def _is_row(self, row: object) -> bool:
+        """Whether it is a row as those are that this run writes."""
+        kinds = [column.kind for column in self._work.columns[1:]]
+        if not isinstance(row, list) or len(row) != len(kinds):
+            return False
+        return all(
+            cell is None or type(cell) is kind or (kind is float and type(cell) is int)
+            for cell, kind in zip(row, kinds, strict=True)
+        )
 
     @property
     def done(self) -> int:

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from flexact.base.errors import BatchError
+from flexact.base.cached import cached_property
 from flexact.base.loading import load
+from flexact.base.partial import why
 from flexact.result.outcome import Asked
 from flexact.variants.batches.deck_rows import DeckRow, deck_columns, deck_row, failed_row
 from flexact.variants.batches.filter import Test, Values, filter_of
@@ -92,9 +92,8 @@ class Work:
         if is_wanted:
             try:
                 files, page = self._files(row), self._page(row, item)
-            except (BatchError, MemoryError) as error:
-                why = str(error) or "not enough memory"
-                row.values["error"] = f"{item.name}: its files could not be made: {why}"
+            except Exception as error:
+                row.values["error"] = f"{item.name}: its files could not be made: {why(error)}"
         values = tuple(row.values[column.name] for column in self.columns[1:])
         if page is None:
             return Answer(values, is_wanted, files)

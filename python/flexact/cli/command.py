@@ -7,7 +7,7 @@ import argparse
 import re
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from flexact.base.errors import BatchError
 from flexact.base.loading import load
@@ -15,6 +15,7 @@ from flexact.base.plain_text import harmless
 from flexact.base.version import VERSION
 from flexact.cli import colour
 from flexact.cli.help_texts import Formatter, set_usage
+from flexact.cli.once import OnOff, Store
 from flexact.cli.outcome import ExitCode
 from flexact.cli.terminal import (
     ResultsError,
@@ -46,7 +47,14 @@ if any gave 1, else 3 if any gave 3.
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that says what was meant."""
+    """A parser that says what was meant, and takes no option in two ways."""
+
+    def __init__(self, *words: Any, **named: Any) -> None:
+        """As of `argparse`."""
+        super().__init__(*words, **named)
+        for kind in (None, "store"):
+            self.register("action", kind, Store)
+        self.register("action", argparse.BooleanOptionalAction, OnOff)
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the usage, what may have been meant, and how to get help."""

@@ -12,18 +12,17 @@ from pathlib import Path
 
 from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
+from flexact.base.partial import attempted
 from flexact.base.plain_text import harmless
 from flexact.cli import failures
 from flexact.cli.analysed import analysed, opened
 from flexact.cli.bar import Bar
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.terminal import complain, end_progress, say, show_progress
-from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import plan_file, require_replaceable, write_together
 from flexact.page import Pair, before_and_after, changes_part, compare_page
 from flexact.picture import has_packages, picture_bytes
-from flexact.result.failing import AnalysisError
 from flexact.result.result import Result
 from flexact.saving import PAGES, as_bytes, small_picture
 from flexact.text.comparing import (
@@ -159,7 +158,7 @@ class _Work:
         pair = self._pair(self.runs[1], *found)
         before, after = (each.result for each in found)
         if pair.change is not None and before is not None and after is not None:
-            stills = [picture_bytes(r, ".png") if has_packages() else None for r in (before, after)]
+            stills = [_still(each) for each in (before, after)]
             page = before_and_after(
                 *(before, after, ()),
                 stills=(stills[0], stills[1]),
@@ -216,9 +215,11 @@ class _Work:
             with Bar(deck.name, deck.path) as bar:
                 result = analysed(deck, opened(deck, bar), self.chosen, bar)
                 return _Found(side_of(result), result)
-        except SideError as error:
-            raise BatchError(str(error)) from error
-        except (DeckError, AnalysisError, MemoryError) as error:
+        except Exception as unforeseen:
+            error = failures.foreseen(unforeseen)
+            is_pair = not os.path.isdir(self.chosen.decks[0])
+            if is_pair and isinstance(error, (SideError, BatchError)):
+                raise BatchError(str(error)) from error
             failures.report_failure(deck, error)
             return _Found(broken_side(error), code=failures.outcome_of(deck, error).code)
 
@@ -235,6 +236,12 @@ class _Work:
         if code is ExitCode.DIFFERENT:
             complain("flexact: not the same, which was expected")
         return code
+
+
+def _still(result: Result) -> bytes | None:
+    if not has_packages():
+        return None
+    return attempted("", lambda: picture_bytes(result, ".png"), None, None)
 
 
 def _stored(deck: DeckFile) -> Side:

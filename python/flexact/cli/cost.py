@@ -56,9 +56,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
         help="all of it along a stroke, such as 1:z=25mm..35mm, or from the place in the deck "
         "1:z+=-5mm..5mm",
     )
-    parser.add_argument(
-        "--points", type=number, default=POINTS, metavar="N", help=f"places along it ({POINTS})"
-    )
+    parser.add_argument("--points", type=number, metavar="N", help=f"places along it ({POINTS})")
     _add_many(
         *(parser, "--misalign", "CLAMP:C=VALUE[@POINT]"),
         "what this misalignment does, with all of the nonlinearity, such as 11:x=50um, or turned "
@@ -77,6 +75,16 @@ def fill(parser: argparse.ArgumentParser) -> None:
         default="auto",
         metavar="auto|N",
         help="beams a sheet; auto: 8 and 16, extrapolated, with the uncertainty",
+    )
+    parser.add_argument(
+        "--bodies",
+        action="store_true",
+        help="releases inside of rigid bodies too (default: only where nothing else does it)",
+    )
+    parser.add_argument(
+        "--beyond",
+        action="store_true",
+        help="take strokes and misalignments that are larger than the model",
     )
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
     parser.add_argument(
@@ -116,6 +124,8 @@ def _add_many(parser: argparse.ArgumentParser, name: str, form: str, words: str)
 def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     """Find the cost of the deck, say and write it."""
     deck = one_deck(chosen)
+    if chosen.points is not None and chosen.stroke is None:
+        raise BatchError("--points is for the places along a stroke: give --stroke, too")
     try:
         asked = Asked.of(
             at=_point(chosen.at),
@@ -126,7 +136,9 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             held=chosen.held,
             drive=chosen.drive,
             beams=chosen.beams,
-            points=chosen.points,
+            points=POINTS if chosen.points is None else chosen.points,
+            bodies=chosen.bodies,
+            beyond=chosen.beyond,
         )
     except AskedError as error:
         *others, last = error.messages

@@ -7,14 +7,11 @@ import argparse
 from collections import Counter
 from collections.abc import Callable, Sequence
 
-from flexact.base.errors import BatchError
 from flexact.base.plain_text import harmless
 from flexact.cli import failures
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.terminal import complain, end_progress, say, show_progress
-from flexact.diagnostics.errors import DeckError
-from flexact.files.decks import SUFFIX, DeckFile, FolderError
-from flexact.result.failing import AnalysisError
+from flexact.files.decks import SUFFIX, DeckFile
 
 REMARKS = {
     ExitCode.OTHER: "failed",
@@ -41,7 +38,7 @@ def take(
 
     Args:
         decks: The decks.
-        step: What is done with a deck; it may raise DeckError, AnalysisError, BatchError.
+        step: What is done with a deck; whatever it raises is told, and the next one is taken.
         as_json: Whether stdout is for JSON alone.
         on_failure: Says on stdout why a deck failed, in a form for programs, which stdout is for
             then.
@@ -69,7 +66,8 @@ def _attempt(
         if deck.error is not None:
             raise deck.error
         return step(deck)
-    except (DeckError, FolderError, AnalysisError, BatchError, MemoryError) as error:
+    except Exception as unforeseen:
+        error = failures.foreseen(unforeseen)
         outcome = failures.report(deck, error, as_json=as_json)
         if on_failure is not None:
             on_failure(deck, error)

@@ -25,7 +25,8 @@ def fill(parser: argparse.ArgumentParser) -> None:
     """Give the verb its description and arguments."""
     parser.description = (
         "Write a deck in which what is inside divided sheets and wires is independent (DYNE), "
-        "so that each of them counts as one beam."
+        "so that each of them counts as one beam. Where nothing is to be declared no file is "
+        "written; on standard output the deck comes as it is."
     )
     add_deck(parser, "the deck to be written; - for stdout", Path)
     add_examples(
@@ -49,6 +50,10 @@ def declare_deck(chosen: argparse.Namespace) -> ExitCode:
         model = Model.from_data(read_deck(deck))
         report_problems(model.data)
         count = len(surplus_of(model.data))
+        if not count and target != STDOUT:
+            text = "nothing to declare: every sheet and wire counts as one beam already"
+            say(f"{harmless(deck.name)}: {text}; no deck is written")
+            return Outcome(deck.name, ExitCode.ANALYSED, "nothing to declare")
         model.declare_internal_motions()
         write_text(target, model.to_deck().encode())
         what = f"{count} element{'s' * (count != 1)} declared" if count else "nothing to declare"

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from flexact.base.interruption import unwinding
+from flexact.base.partial import attempted
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
@@ -61,11 +62,18 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
         with Bar(deck.name, deck.path) as bar:
             analysis = read_and_analysed(deck, chosen, bar)
             bar.show("writing")
-            shown = select_motion(analysis, chosen.motion, chosen.freedom)
+            missing: list[str] = []
+            wanted = chosen.motion, chosen.freedom
+            if wanted == (None, None):
+                shown = attempted("Its motion", lambda: select_motion(analysis), None, missing)
+            else:
+                shown = select_motion(analysis, *wanted)
             with unwinding():
                 write(analysis, None if shown is None else shown.motion, target)
         name = harmless(deck.name)
-        if shown is None:
+        if missing:
+            complain(f"{name}: note: {missing[0]}")
+        elif shown is None:
             complain(f"{name}: note: the mechanism does not move; displacements are zero")
         what = ""
         if shown is not None:

@@ -5,21 +5,25 @@ from __future__ import annotations
 
 import sys
 
+from flexact.base.errors import BatchError, FlexactError
 from flexact.base.loading import load
+from flexact.base.partial import why
 from flexact.base.plain_text import harmless
 from flexact.cli.outcome import ExitCode, Outcome
-from flexact.cli.terminal import columns_of, complain, give
+from flexact.cli.terminal import ResultsError, columns_of, complain, give
 from flexact.diagnostics.diagnostic import Diagnostic, Problems, Severity
 from flexact.diagnostics.errors import DeckError
 from flexact.diagnostics.rendering import render_problems
 from flexact.files.decks import DeckFile, FolderError
 
+_MEMORY = "out-of-memory"
 #: Failures that are none of the deck's.
 CODES = {
     "AnalysisError": "not-analysed",
     "OutputError": "not-written",
     "MeshFormatError": "not-written",
-    "MemoryError": "out-of-memory",
+    "MemoryError": _MEMORY,
+    "UnforeseenError": "unforeseen",
 }
 #: Codes of problems with a file that are not about what is stated in it.
 NOT_READ = {
@@ -29,7 +33,27 @@ NOT_READ = {
     "not-a-file",
     "not-text",
     "too-large",
+    _MEMORY,
 }
+
+
+class UnforeseenError(BatchError):
+    """One deck over which this program stumbles, which shall not cost the others."""
+
+
+def foreseen(error: Exception) -> Exception:
+    """An error that is raised on purpose: itself, or what stands for a mistake of Flexact's own.
+
+    Raises:
+        BrokenPipeError: Nobody reads on, so that going on has no use.
+        ResultsError: Likewise.
+        Exception: A mistake of Flexact's own, in tests (`flexact.base.partial`).
+    """
+    if isinstance(error, (BrokenPipeError, ResultsError)):
+        raise error
+    if isinstance(error, (FlexactError, MemoryError)):
+        return error
+    return UnforeseenError(why(error))
 
 
 def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
@@ -47,7 +71,8 @@ def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
 
 def outcome_of(deck: DeckFile, error: Exception) -> Outcome:
     """What the command makes of a deck's failure."""
-    code = ExitCode.OTHER if type(error).__name__ in CODES else ExitCode.DECK_ERROR
+    is_other = type(error).__name__ in CODES or _MEMORY in _codes(error)
+    code = ExitCode.OTHER if is_other else ExitCode.DECK_ERROR
     return Outcome(deck.name, code, "failed", _remark(error))
 
 
@@ -67,8 +92,11 @@ def _remark(error: Exception) -> str:
         return error.remark
     if not isinstance(error, DeckError):
         return "failed"
-    codes = {each.code for each in error.diagnostics}
-    return "cannot be read" if codes & NOT_READ else ""
+    return "cannot be read" if _codes(error) & NOT_READ else ""
+
+
+def _codes(error: Exception) -> set[str]:
+    return {each.code for each in error.diagnostics} if isinstance(error, DeckError) else set()
 
 
 def _reason(error: Exception) -> str:

@@ -36,10 +36,7 @@ def talk(_: argparse.Namespace) -> ExitCode:
     except ImportError as error:
         if (error.name or "").partition(".")[0] not in ("pygls", "lsprotocol"):
             raise
-        raise BatchError(
-            "flexact lsp needs pygls 2 or newer: pip install 'flexact[editor]', or pip install "
-            "'pygls>=2'"
-        ) from None
+        raise BatchError("flexact lsp needs pygls 2 or newer: pip install 'pygls>=2'") from None
     if sys.stdin.isatty():
         raise BatchError("flexact lsp talks with an editor, which starts it: see docs/editors.md")
     # Nothing but the protocol may go where the editor listens.

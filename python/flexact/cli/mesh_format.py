@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from flexact.cli.once import require_once
 from flexact.cli.terminal import complain
 
 #: Those of `mesh.file`, which takes a while to load.
@@ -51,8 +52,8 @@ class FormatOrMesh(argparse.Action):
         option_string: str | None = None,
     ) -> None:
         """Store it where it belongs."""
-        if _is_mesh(values):
+        dest = "mesh" if _is_mesh(values) else self.dest
+        if dest == "mesh":
             complain(f"warning: {option_string} {values} is now called --mesh {values}")
-            namespace.mesh = values
-        else:
-            setattr(namespace, self.dest, values)
+        require_once(parser, namespace, dest, values, option_string)
+        setattr(namespace, dest, values)

@@ -25,7 +25,7 @@ from flexact.saving import as_bytes, page_bytes, small_picture
 INDEX = DeckFile("the index", Path("index"))
 WITHOUT_PICTURES = (
     "without the packages matplotlib and pillow there are no still pictures, for browsers without "
-    "WebGL and in the index: pip install 'flexact[pictures]'"
+    "WebGL and in the index: pip install matplotlib pillow"
 )
 
 

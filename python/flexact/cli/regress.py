@@ -38,10 +38,17 @@ def fill(parser: argparse.ArgumentParser) -> None:
     parser.description = "Compare what does not depend on sign, order or basis with stored answers."
     add_decks(parser)
     parser.add_argument(
-        "--against", type=folder, metavar="DIR", required=True, help="folder of the stored answers"
+        "--against",
+        type=folder,
+        metavar="DIR",
+        required=True,
+        help="folder of the stored answers: the decks are compared with them, or with --store "
+        "theirs are stored there",
     )
     parser.add_argument(
-        "--store", action="store_true", help="store the answers that are new or differ instead"
+        "--store",
+        action="store_true",
+        help="store the answers that are new or differ in that folder, instead of comparing",
     )
     parser.add_argument(
         "--within",

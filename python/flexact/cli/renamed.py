@@ -7,6 +7,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from flexact.cli.once import require_once
 from flexact.cli.terminal import complain
 
 
@@ -44,4 +45,5 @@ class _Renamed(argparse.Action):
         option_string: str | None = None,
     ) -> None:
         complain(f"warning: {option_string} is now called {self.const}")
+        require_once(parser, namespace, self.dest, values, option_string)
         setattr(namespace, self.dest, values)

@@ -19,12 +19,10 @@ from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
 from flexact.cli.targets import folder_or
 from flexact.cli.terminal import complain, say
-from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile, find_decks
 from flexact.files.outputs import OutputError, plan_file, plan_files, write_together
 from flexact.page import Entry, index_page
 from flexact.picture import has_packages
-from flexact.result.failing import AnalysisError
 from flexact.result.result import Result
 from flexact.saving import PAGES, as_bytes
 from flexact.text.margin import verdict_word
@@ -107,9 +105,12 @@ class _Work:
                 analysis = read_and_analysed(deck, self.chosen, bar)
                 bar.show("writing")
                 self._write(deck, analysis)
-        except (DeckError, AnalysisError) as error:
-            self._write_broken(deck, error)
+        except BatchError:
             raise
+        except Exception as unforeseen:
+            error = failures.foreseen(unforeseen)
+            self._write_broken(deck, error)
+            raise error from None
         target = self.plan[deck.path][0]
         say(f"{harmless(deck.name)}: {verdict_word(analysis)}; page in {harmless(str(target))}")
         return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from flexact.base.interruption import unwinding
+from flexact.cli.failures import foreseen
 from flexact.files.decks import DeckFile
-from flexact.files.outputs import OutputError, plan_files, write_together
+from flexact.files.outputs import plan_files, write_together
 from flexact.mesh import Meshes
 from flexact.mesh.file import find_format, mesh_bytes
 from flexact.result.result import Result
@@ -40,8 +41,8 @@ class ResultFiles:
             contents = contents_of(result, self.format, self._log)
             with unwinding():
                 write_together(dict(zip(self.plan[deck.path], contents, strict=True)))
-        except (OutputError, MemoryError) as error:
-            return error
+        except Exception as error:
+            return foreseen(error)
         return None
 
 

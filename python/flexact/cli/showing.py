@@ -33,7 +33,10 @@ def add_shown(parser: argparse.ArgumentParser, title: str = "what is shown") -> 
         "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
     )
     which.add_argument(
-        "--freedom", type=number, metavar="K", help="show declared degree of freedom K"
+        "--freedom",
+        type=number_or_name,
+        metavar="K",
+        help="show declared degree of freedom K, or that of a name, such as 'stage y'",
     )
     return group
 
@@ -52,6 +55,11 @@ def number(text: str) -> int:
     if value < 1:
         raise argparse.ArgumentTypeError(f"a whole number from 1 is wanted, not {text!r}")
     return value
+
+
+def number_or_name(text: str) -> int | str:
+    """A whole number from 1, or a name, as an option's type."""
+    return number(text) if text.strip().lstrip("+-").isdecimal() or not text.strip() else text
 
 
 def one_deck(chosen: argparse.Namespace) -> DeckFile:

@@ -9,18 +9,15 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from flexact.base.errors import BatchError
 from flexact.base.loading import load
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import analysed, opened
 from flexact.cli.bar import Bar
-from flexact.cli.failures import outcome_of
+from flexact.cli.failures import foreseen, outcome_of
 from flexact.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.cli.summary_table import Cells, SummaryTable
 from flexact.cli.terminal import end_progress, say, show_progress
-from flexact.diagnostics.errors import DeckError
-from flexact.files.decks import DeckFile, FolderError
-from flexact.result.failing import AnalysisError
+from flexact.files.decks import DeckFile
 from flexact.result.result import Result
 from flexact.result.verdict import Certainty, Verdict
 from flexact.text.decision import certainty_word
@@ -31,9 +28,7 @@ if TYPE_CHECKING:
 
 #: Suffixes of -o that mean the table itself.
 TABLES = (".csv", ".jsonl", ".parquet")
-_WORDS = {Verdict.EXACT: "exact", Verdict.UNDER: "under", Verdict.OVER: "over"}
 _COLUMNS = ("verdict", "under", "over", "freedoms", "margin", "certainty")
-_FAILURES = (DeckError, FolderError, AnalysisError, BatchError, MemoryError)
 
 
 def add_summary(parser: argparse.ArgumentParser, about: str) -> None:
@@ -84,8 +79,8 @@ def _attempt(deck: DeckFile, step: Callable[[DeckFile], Told]) -> Told:
         if deck.error is not None:
             raise deck.error
         return step(deck)
-    except _FAILURES as error:
-        return failed(deck, error)
+    except Exception as error:
+        return failed(deck, foreseen(error))
 
 
 def failed(deck: DeckFile, error: Exception) -> Told:
@@ -144,8 +139,8 @@ class Analysed:
             with Bar(deck.name, deck.path) as bar:
                 result = analysed(deck, opened(deck, bar), self.chosen, bar)
                 told = Told(_cells(result), self._finish(deck, result))
-        except _FAILURES as error:
-            told = failed(deck, error)
+        except Exception as error:
+            told = failed(deck, foreseen(error))
             self._rows[deck.name] = {"error": told.cells.error}
         else:
             if is_table(self.chosen.output):
@@ -180,7 +175,7 @@ def _values(result: Result) -> dict[str, Cell]:
 
 
 def _cells(result: Result) -> Cells:
-    word = _WORDS.get(result.verdict, "both")
+    word = result.verdict.word
     if result.verdict is Verdict.EXACT and result.is_marginal:
         word = "marginal"
     sure = certainty_word(result)

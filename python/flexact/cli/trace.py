@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 from flexact.base.errors import BatchError, FlexactError
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
+from flexact.base.quantities import QuantityError, quantity
 from flexact.cli.analysed import add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
@@ -42,8 +42,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
         "--length",
         type=_length,
         metavar="L",
-        help="how far each way, in m, of the node that moves farthest; a rotation of 1 rad "
+        help="how far each way, such as 20mm, of the node that moves farthest; a rotation of 1 rad "
         "counts as the model's size (default: that size)",
+    )
+    group.add_argument(
+        "--beyond", action="store_true", help="take a length that is larger than the model"
     )
     group.add_argument(
         "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
@@ -80,11 +83,11 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def _length(text: str) -> float:
     try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not (math.isfinite(value) and value > 0.0):
-        raise argparse.ArgumentTypeError(f"a length above 0 is wanted, in m, not {text!r}")
+        value = quantity(text, "m")
+    except QuantityError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    if not value > 0.0:
+        raise argparse.ArgumentTypeError(f"a length above 0 is wanted, such as 20mm, not {text!r}")
     return value
 
 
@@ -113,6 +116,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                         length=chosen.length,
                         steps=chosen.steps,
                         through=chosen.through,
+                        beyond=chosen.beyond,
                         progress=show,
                     )
             except BatchError:

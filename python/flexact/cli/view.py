@@ -5,22 +5,22 @@ from __future__ import annotations
 
 import argparse
 
+from flexact.base.errors import BatchError
 from flexact.base.interruption import unwinding
 from flexact.base.plain_text import harmless
 from flexact.cli.analysed import add_accuracy, add_decision, read_and_analysed
 from flexact.cli.bar import Bar
 from flexact.cli.decks import take
+from flexact.cli.failures import foreseen
 from flexact.cli.help_texts import add_examples
 from flexact.cli.outcome import ExitCode, Outcome
 from flexact.cli.pages import broken_page_of
 from flexact.cli.showing import add_no_browser, one_deck
 from flexact.cli.targets import file
 from flexact.cli.terminal import say
-from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import DeckFile
 from flexact.files.outputs import plan_file
 from flexact.page import page
-from flexact.result.failing import AnalysisError
 from flexact.saving import as_bytes, page_bytes
 from flexact.text.margin import verdict_word
 from flexact.watching.browser import opens
@@ -69,11 +69,14 @@ def _step(deck: DeckFile, chosen: argparse.Namespace) -> Outcome:
                 # A still picture takes a while; it is for browsers elsewhere.
                 kept = chosen.output is not None
                 content = page_bytes(analysis) if kept else as_bytes(page(analysis))
-    except (DeckError, AnalysisError) as error:
+    except BatchError:
+        raise
+    except Exception as unforeseen:
+        error = foreseen(unforeseen)
         broken = broken_page_of(error, deck.name, place)
         if broken is not None:
             _show(deck, broken.content, "cannot be analysed", chosen)
-        raise
+        raise error from None
     _show(deck, content, verdict_word(analysis), chosen)
     return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))
 

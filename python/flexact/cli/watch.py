@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 from flexact.base.errors import BatchError
@@ -20,7 +21,6 @@ from flexact.cli.terminal import complain, say
 from flexact.deck.reading import file_bytes
 from flexact.diagnostics.errors import DeckError
 from flexact.files.decks import STDIN, DeckFile, FolderError
-from flexact.watching.browser import opens
 from flexact.watching.messages import Answer, Broken
 from flexact.watching.watch import SCRIPT, Heard, Watch
 
@@ -43,7 +43,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
     )
     add_no_browser(parser)
     add_decision(parser)
-    add_accuracy(parser)
+    add_accuracy(parser, is_held_against=False)
     add_examples(
         parser,
         ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
@@ -80,10 +80,11 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
     decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
     with unwinding():
         watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
-        say(f"{harmless(path)} is shown at {watched.server.address}")
-        if not chosen.no_browser and not opens(watched.server.address):
-            complain("no browser opens here; open this address in one of this machine")
-        watched.run()
+        with closing(watched):
+            say(f"{harmless(path)} is shown at {watched.server.address}")
+            if not chosen.no_browser and not watched.opens():
+                complain("no browser opens here; open this address in one of this machine")
+            watched.run()
     return ExitCode.ANALYSED
 
 

@@ -33,14 +33,14 @@ class Field(NamedTuple):
 
 
 PRESCRIBED = "values of prescribed motions"
-_WARPING, _SIMULATION = "warping", "what is for a simulation"
+_SIMULATION = "what is for a simulation"
 
 #: Of each node.
 NODE_FIELDS: dict[str, Field] = {
     **{name: Field(values.flag) for name in ("fix", "fix_pos", "fix_orien")},
     **{f"fix_{axis}": Field(values.flag) for axis in AXES},
     **{f"fix_r{axis}": Field(values.flag, is_own=True) for axis in AXES},
-    "fix_warp": Field(values.flag, _WARPING),
+    "fix_warp": Field(values.flag),
     **{f"displ{start}_{axis}": Field(values.number) for start in ("", "_initial") for axis in AXES},
     **{f"rot{start}_{axis}": Field(values.number) for start in ("", "_initial") for axis in AXES},
     **{f"rot{start}": Field(values.vector(4)) for start in ("", "_initial")},
@@ -71,8 +71,8 @@ ELEMENT_FIELDS: dict[str, Field] = {
     "color": Field(values.colour),
     "opacity": Field(values.part),
     "hide": Field(values.flag),
-    "warping": Field(values.flag, _WARPING),
-    "cw": Field(values.flag, _WARPING),
+    "warping": Field(values.flag),
+    "cw": Field(values.flag),
     "type": Field(values.kind, is_own=True),
     "name": Field(values.text, is_own=True),
 }

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Iterable
 from enum import Enum
 from pathlib import Path
@@ -20,6 +21,8 @@ from .text import JSON, YAML, read_tables, text_of
 DECK = (".dat",)
 #: Larger files are no tables that somebody has written.
 _MOST_BYTES = 2**30
+#: So much a file may have grown since its size was asked for.
+_PIECE = 2**20
 
 
 class Format(Enum):
@@ -76,9 +79,14 @@ def read_any(
     if form is Format.MESH:
         return model_of_mesh(read_mesh(path), kind=kind, fixed=fixed, name=path.stem)
     try:
-        if path.stat().st_size > _MOST_BYTES:
+        # A pipe or a device may keep whoever reads it for ever.
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode) and not stat.S_ISDIR(found.st_mode):
+            raise FormatError(f"{path}: this is not a regular file; write the tables to one first")
+        if found.st_size > _MOST_BYTES:
             raise FormatError(f"{path}: tables larger than a gigabyte are not read")
-        raw = path.read_bytes()
+        with open(path, "rb") as file:
+            raw = file.read(found.st_size + _PIECE)
     except OSError as error:
         raise FormatError(f"{path}: the file cannot be read: {reason_of(error)}") from error
     return _of_tables(raw, path, flexible)

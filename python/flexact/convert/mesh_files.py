@@ -15,10 +15,15 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import BatchError
+from ..base.plain_text import harmless
 
 
 class MeshError(BatchError):
     """A mesh that cannot be read, written or taken for a mechanism."""
+
+    def __init__(self, words: str) -> None:
+        """Why not; names of the file in it move no cursor."""
+        super().__init__(harmless(words))
 
 
 def suffixes() -> tuple[str, ...]:

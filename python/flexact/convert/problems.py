@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cached_property
 
+from ..base.cached import cached_property
 from ..diagnostics.diagnostic import Diagnostic, Place, Problems, Severity
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.source import Source

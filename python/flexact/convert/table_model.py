@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
@@ -21,7 +22,7 @@ from .remarks import Remarks
 from .table_classes import NodeGiver
 from .table_input import Entry, Tables
 from .table_numbers import orientations_of, positions_of
-from .table_sections import mass_of, shape_of, stiffness_of
+from .table_sections import mass_of, shape_of, stiffness_of, warped
 
 #: What the local y axis of a beam points to where nothing is said.
 _ORIEN = (0.0, 1.0, 0.0)
@@ -40,6 +41,7 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     for element in range(1, len(tables.ends) + 1):
         making.add_element(element)
     making.give_nodes()
+    making.note_warping()
     found.require_none()
     data = making.draft.freeze(tables.name)
     return making.with_remarks(data)
@@ -58,6 +60,12 @@ class _Making:
         self.remarks = Remarks()
         self.remarks.left_out.update(tables.left_out)
         self.used: set[int] = set()
+        #: Elements with warping by the points at which they end.
+        self.warping_at: dict[int, list[int]] = {}
+        for element, ends in enumerate(tables.ends, start=1):
+            if tables.entry_of(element).get("warping"):
+                for point in ends:
+                    self.warping_at.setdefault(point, []).append(element)
         self.next_node = NODES_A_POINT * len(tables.places) + 1
 
     def add_nodes(self) -> None:
@@ -165,11 +173,64 @@ class _Making:
             [index], {key: value for key, value in said.items() if value is not None}
         )
         if shape is not None and kind.member in (Member.BAR, Member.BEAM):
-            self.draft.give_properties(
-                index, stiffness_of(kind, shape, entry), mass_of(kind, shape, entry)
-            )
+            stiffness = stiffness_of(kind, shape, entry)
+            if stiffness is not None and kind.member == Member.BEAM and not self.tables.planar:
+                stiffness = warped(stiffness, self._length(element), self._warp_held(element))
+            self.draft.give_properties(index, stiffness, mass_of(kind, shape, entry))
         elif shape is not None and "dens" in entry:
             self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
+
+    def _length(self, element: int) -> float:
+        p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
+        return math.dist(p, q)
+
+    def _warp_held(self, element: int) -> int:
+        """At how many ends of an element its warping is held: of what is known alone.
+
+        cw, of older versions, means that of both; else an end that is fixed holds it, and what
+        another element with warping does there is not known.
+        """
+        entry = self.tables.entry_of(element)
+        if entry.get("cshape") != "rect":
+            return 0
+        if entry.get("cw"):
+            return 2
+        if not entry.get("warping"):
+            return 0
+        ends = self.tables.ends[element - 1]
+        fixed = [self._holds_warping(point) for point in ends]
+        return sum(fixed) if self._meets(element) is None else 0
+
+    def _holds_warping(self, point: int) -> bool:
+        entry = self.tables.nodes.get(point, {})
+        return bool(entry.get("fix") or entry.get("fix_warp"))
+
+    def _meets(self, element: int) -> tuple[int, int] | None:
+        """Another element with warping at a free end of this one, and where; None without."""
+        for point in self.tables.ends[element - 1]:
+            others = [other for other in self.warping_at.get(point, ()) if other != element]
+            if others and not self._holds_warping(point):
+                return others[0], point
+        return None
+
+    def note_warping(self) -> None:
+        """Say, with its place, what of the warping is left out."""
+        warps = False
+        for element in range(1, len(self.tables.ends) + 1):
+            entry, number = self.tables.entry_of(element), self.tables.set_of.get(element, 0)
+            said = next((name for name in ("cw", "warping") if entry.get(name)), "")
+            warps = warps or bool(said)
+            why = ""
+            if said and (self.tables.planar or "emod" not in entry):
+                why = "it has no stiffness in torsion"
+            elif said == "warping" and (met := self._meets(element)) is not None:
+                why = f"at node {met[1]} it depends on element {met[0]}"
+            if why and entry.get("cshape") != "circ":
+                place = f"eprops[{number}].{said} of element {element}"
+                self.remarks.leave_out(f"warping: {place}: {why}")
+        for point, entry in self.tables.nodes.items():
+            if entry.get("fix_warp") and not warps:
+                self.remarks.leave_out(f"warping: nprops[{point}].fix_warp: no element warps")
 
     def give_nodes(self) -> None:
         """Classes, masses and loads of the nodes that elements use."""

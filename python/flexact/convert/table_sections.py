@@ -12,7 +12,7 @@ from ..core.raw import ElementKind
 from ..model.appearance import CrossSection
 from ..model.appearance_draft import Shape
 from ..model.material import Material
-from ..model.sections import constants_of, mass, stiffness
+from ..model.sections import Make, constants_of, mass, stiffness
 from .values import LARGEST
 
 #: Between what was given and what follows from moduli and density that were found from it.
@@ -41,6 +41,17 @@ def stiffness_of(
     if "emod" not in entry or "smod" not in entry:
         return None
     return stiffness(kind, shape, Material("given", entry["emod"], entry["smod"]))
+
+
+def warped(given: tuple[float, ...], length: float, held: int) -> tuple[float, ...]:
+    """ESTIFF of a beam with G It as it is where warping is held at two ends, at one or at none.
+
+    With v = 0 at one end and v' = 0 at the other, of `warping_factor`'s equation, a beam is half
+    of one of twice its length that is held at both.
+    """
+    if not held:
+        return given
+    return Make(None, given).with_warping(True, length * (3 - held)).stiffness or given
 
 
 def mass_of(kind: ElementKind, shape: Shape, entry: dict[str, Any]) -> tuple[float, ...] | None:

@@ -117,5 +117,5 @@ def _yaml() -> ModuleType:
         return import_module("yaml")
     except ImportError as error:
         raise PackageError(
-            f"YAML needs the package PyYAML: pip install 'flexact[yaml]' ({error}); JSON does not"
+            f"YAML needs the package PyYAML: pip install PyYAML ({error}); JSON does not"
         ) from error

@@ -16,8 +16,7 @@ def read_deck(
     places: _Floats,
     elements: _Ints,
     vectors: _Floats,
-    name: _Ints,
-    choice: _Ints,
+    words: _Ints,
     value: _Floats,
     /,
 ) -> tuple[_Ints, _Ints, _Ints, _Bytes]: ...

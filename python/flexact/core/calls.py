@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..base.memory import address_space
 from . import _core
@@ -36,15 +37,21 @@ from .raw import (
 _MOST_ENTRIES = 40_000_000
 #: The part of the memory that the bases may take.
 _PART_OF_VECTORS = 0.25
-#: Bytes of the shortest statement of an element, with its line's end.
-_SHORTEST_ELEMENT = len("BEAM 1 1 2")
 #: Stored entries of the whole Jacobian that one element has at most.
 _ENTRIES_OF_ELEMENT = 6 * 12
 
 
 #: Bytes that the core takes, at most, for a model's copy and for each call: for each node and
-#: element, and more for each element where the Jacobian is made; for each byte of a deck.
-_OF_MODEL, _OF_JACOBIAN, _OF_TEXT = 1_000, 4_000, 100
+#: element, and more for each element where the Jacobian is made.
+_OF_MODEL, _OF_JACOBIAN = 1_000, 4_000
+#: While a deck is read: for each byte and line; for each element and end of an element, which may
+#: be a node, without and with stiffness, mass, loads and pictures.
+_OF_BYTE, _OF_LINE = 3, 110
+_OF_ELEMENT, _OF_END = (110, 210), (120, 200)
+#: How statements of these begin: EM, ESTIFF, XM, MASS, XF, FORCE, DELXF, GRAVITY, VISUALIZATION.
+_VALUES = [256 * a + b for a, b in (b"EM", b"ES", b"XM", b"MA", b"XF", b"FO", b"DE", b"GR", b"VI")]
+#: Lines that begin with more blanks count as elements.
+_INDENT = 4
 
 _NO_VECTORS = np.zeros(1, np.int32)
 _NO_VECTORS.setflags(write=False)
@@ -133,29 +140,79 @@ def read_deck(text: bytes) -> RawDeck:
     Args:
         text: bytes of the deck, fewer than 2**31.
     """
-    _require_room(_OF_TEXT * len(text))
     data = np.frombuffer(text, np.int8)
-    ne = min(text.count(b"\n") + 1, len(text) // _SHORTEST_ELEMENT + 1)
-    room = room_for(min(4 * ne, len(text) // 2 + 4), ne)
-    nn = room.nodes.shape[1]
-    name = np.empty((2, ne + nn), np.int32, order="F")
-    choice = np.empty((2, ne), np.int32, order="F")
-    value = np.empty((12, 2 * ne + nn + 1), np.float64, order="F")
-    sizes, counts, number, words = _core.read_deck(data, *room, name, choice, value)
+    room, reading = _most_in(data)
+    _require_room(reading)
+    if reading + room.bytes > address_space():
+        # Then it is read to know the room that it takes, and once more into that.
+        room = _Room(1, 1, 1)
+    made = room.made()
+    sizes, counts, number, words = _core.read_deck(data, *made)
     nodes, elements, planar, _, drawn, long, given, loaded = sizes.tolist()
+    needed = _Room(nodes, elements, (drawn or given or loaded) * (2 * elements + nodes + 1))
+    if any(np.greater(needed, room)):
+        _require_room(reading + needed.bytes)
+        made = needed.made()
+        sizes, counts, number, words = _core.read_deck(data, *made)
+    model, names, value = PackedModel(*made[:4]), made[4], made[5]
     both, behind = np.s_[elements : 2 * elements], np.s_[2 * elements : 2 * elements + nodes]
     last = 2 * elements + nodes
     return RawDeck(
-        unpacked(room, nodes, elements),
-        name[:, :elements],
-        name[:, elements : elements + nodes],
+        unpacked(model, nodes, elements),
+        names[:, :elements],
+        names[:, elements : elements + nodes],
         planar == 1,
         RawDiagnostics(counts, number, words),
-        RawAppearance(choice[:, :elements], value[:9, :elements]) if drawn else None,
+        RawAppearance(names[:, elements + nodes : both.stop + nodes], value[:9, :elements])
+        if drawn
+        else None,
         RawProperties(value[:6, both], value[6:11, both], value[:6, behind]) if given else None,
         RawLoads(value[6:9, behind], value[9:, behind], value[6:9, last]) if loaded else None,
         long == 1,
     )
+
+
+class _Room(NamedTuple):
+    """Columns of what the core puts a deck into."""
+
+    nodes: int
+    elements: int
+    values: int
+    """Of stiffness, mass, loads and pictures."""
+
+    @property
+    def bytes(self) -> int:
+        """What it takes."""
+        return 60 * self.nodes + 88 * self.elements + 96 * self.values
+
+    def made(self) -> tuple[NDArray[Any], ...]:
+        """The arrays; the core wants none of them without a column."""
+        nodes, elements, values = (max(1, each) for each in self)
+        words = np.empty((2, 2 * elements + nodes), np.int32, order="F")
+        return *room_for(nodes, elements), words, np.empty((12, values), order="F")
+
+
+def _most_in(text: NDArray[np.int8]) -> tuple[_Room, int]:
+    """The room that a deck may take, and bytes that reading it takes besides.
+
+    Elements are told by the first letters of their lines: those with two nodes, TRUSS, HINGE,
+    and PLTRUSS, PLHINGE, PLTOR; and others, which have up to four.
+    """
+    first = np.concatenate(([0], np.flatnonzero(text == ord("\n")) + 1))
+    for _ in range(_INDENT):
+        first += text.take(first, mode="clip") <= ord(" ")
+    one, two, three = (text.take(first + k, mode="clip") & 0x5F for k in range(3))
+    is_planar = (one == ord("P")) & (two == ord("L"))
+    of_two = np.isin(np.where(is_planar, three, one), (ord("T"), ord("H")))
+    of_four = np.isin(one, (ord("B"), ord("P"))) | (one == ord("R")) & (two == ord("B"))
+    of_four |= text.take(first, mode="clip") <= ord(" ")
+    of_four &= ~of_two
+    valued = bool(np.isin(256 * one.astype(np.int32) + two, _VALUES).any())
+    elements = int(np.count_nonzero(of_two | of_four))
+    ends = int(2 * np.count_nonzero(of_two) + 4 * np.count_nonzero(of_four))
+    reading = _OF_BYTE * text.size + _OF_LINE * first.size
+    reading += _OF_ELEMENT[valued] * elements + _OF_END[valued] * ends
+    return _Room(ends, elements, valued * (2 * elements + ends + 1)), reading
 
 
 def check_model(model: PackedModel, text: bytes, name: IntArray) -> RawDiagnostics:
@@ -311,6 +368,7 @@ def analyse_model(
         failure=named["failure"],
         undecided=int(named["undecided"]),
         unjudged=named["unjudged"] == 1,
+        fading=int(named["fading"]),
         unseen=int(named["unseen"]),
         left=named["left"],
         explained=named["explained"],

@@ -273,6 +273,7 @@ def errors(
     gravity: FloatArray,
     stresses: FloatArray,
     square: float = 0.0,
+    lengths: FloatArray | None = None,
 ) -> RawErrors:
     """The values d nearest to zero with det(K - square M + d H(stress)) = 0, for each stress.
 
@@ -286,6 +287,9 @@ def errors(
         gravity: (3,) that acts in it.
         stresses: (6, ne, k) of a unit error each.
         square: below that of the lowest frequency.
+        lengths: (k,) of a unit error each, positive: only errors that are about as short as the
+            shortest are looked for, those of others are infinite. The shortest is found the
+            faster, the earlier it stands.
 
     Raises:
         ValueError: a shape does not fit, or a number is not finite.
@@ -300,6 +304,7 @@ def errors(
     given = np.zeros((6 * (nodes + elements), k))
     given[3 * nodes : 3 * nodes + 6 * elements] = _columns(stresses)
     given[0, 0] = square
+    given[1] = 0.0 if lengths is None else lengths
     answer, facts = _studied(model, arrays, state, gravity, "errors", 0, given, k)
     limit = np.finfo(float).max
     below, above = (

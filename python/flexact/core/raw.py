@@ -181,6 +181,8 @@ class RawAnalysis(NamedTuple):
     """The probability that it is too low is at most this."""
     undecided: int
     """So many values that count as zero may not be, by exact arithmetic or more digits."""
+    fading: int
+    """So many of those undecided are only because their vectors fade; theory.md (23)."""
     unseen: int
     """So many values do not count as zero by exact arithmetic alone: they are below 1e-31."""
     left: float

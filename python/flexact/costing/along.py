@@ -71,7 +71,8 @@ def _one_way(
     reached, why, rest = way[-1] if way else asked.rest, "", asked.rest
     while way:
         try:
-            return elastic.along(asked.node, asked.coordinate, way), reached, why
+            drive = elastic.points.coordinate(asked.node, asked.coordinate)
+            return elastic.driven(drive, way), reached, why
         except StrokeError as error:
             why = why or str(error)
             reached = error.reached

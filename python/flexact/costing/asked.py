@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from ..base.plain_text import in_short
+from ..base.quantities import NOTCH, measured
 from .asking import (
+    NONE,
     AskedError,
     MisalignmentAsked,
     ReleaseAsked,
@@ -42,6 +44,8 @@ class Asked:
         drive: "free" or "locked".
         beams: "auto", or how many.
         points: How many places along the stroke.
+        bodies: Whether what is inside of bodies is among the proven releases.
+        beyond: Whether strokes and misalignments may be larger than the model.
     """
 
     at: object = None
@@ -53,6 +57,8 @@ class Asked:
     drive: str = DRIVE[0]
     beams: int | str = AUTO
     points: int = POINTS
+    bodies: bool = False
+    beyond: bool = False
 
     @classmethod
     def of(
@@ -67,6 +73,8 @@ class Asked:
         drive: object,
         beams: object,
         points: object,
+        bodies: object = False,
+        beyond: object = False,
     ) -> Asked:
         """From arguments as users give them.
 
@@ -92,6 +100,8 @@ class Asked:
             tried(lambda: _one_of("drive", drive, DRIVE), ""),
             tried(lambda: _beams(beams), _AUTO),
             tried(lambda: _whole("the number of places along a stroke", points, _MOST_POINTS), 2),
+            tried(lambda: _flag("bodies", bodies), False),
+            tried(lambda: _flag("beyond", beyond), False),
         )
         if made.points < 2 and not wrong:
             wrong.append("a stroke has 2 places at least")
@@ -107,6 +117,12 @@ _AUTO: int | str = AUTO
 def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:
     if not isinstance(given, str) or given not in allowed:
         raise AskedError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
+    return given
+
+
+def _flag(what: str, given: object) -> bool:
+    if not isinstance(given, bool):
+        raise AskedError(f"{what} is True or False, not {in_short(given)}")
     return given
 
 
@@ -132,7 +148,13 @@ def _releases(given: object) -> tuple[ReleaseAsked, ...]:
         given = [given]
     if not isinstance(given, Iterable):
         raise TypeError(f"releases are a list of designs, not {in_short(given)}")
-    made = (_release(each) for each in given)
+    given = list(given)
+    made = [_release(each) for each in given]
+    if any(made) and any(isinstance(each, str) and each.strip() == NONE for each in given):
+        raise AskedError(
+            f"{NONE!r} asks for the design as built alone, and the others ask for releases: "
+            "choose; the design as built is shown in any case"
+        )
     return tuple(each for each in made if each)
 
 
@@ -141,7 +163,7 @@ def _release(given: object) -> ReleaseAsked:
         return release_of(given)
     if isinstance(given, Mapping):
         return {_pair(key): _stiffness(value) for key, value in given.items()}
-    if isinstance(given, Sequence) and len(given) == 2 and all(isinstance(n, int) for n in given):
+    if isinstance(given, Sequence) and len(given) in (2, 3) and isinstance(given[1], (int, str)):
         return {_pair(given): 0.0}
     if isinstance(given, Iterable):
         return {_pair(each): 0.0 for each in given}
@@ -150,21 +172,25 @@ def _release(given: object) -> ReleaseAsked:
 
 _RELEASE = (
     "a release is (element, deformation), a list of them, a dict with the stiffness of each "
-    'notch, or a text such as "1:5", not {}'
+    'notch, or a text such as "1:5" or "sheet 1:in-plane bending", not {}'
 )
 
 
-def _pair(given: object) -> tuple[int, int]:
-    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
-        raise TypeError(_RELEASE.format(in_short(given)))
-    element, number = (getattr(each, "number", each) for each in given)
-    if not isinstance(element, int) or not isinstance(number, int):
-        raise TypeError(_RELEASE.format(in_short(given)))
-    return element, number
+def _pair(given: object) -> tuple[Any, ...]:
+    """An element and a deformation, by numbers or names; and maybe the end at which it is."""
+    wrong = TypeError(_RELEASE.format(in_short(given)))
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
+        raise wrong
+    element, which, *_ = given
+    if isinstance(element, (bool, float)) or element is None or isinstance(which, bool):
+        raise wrong
+    if not isinstance(which, (int, str)):
+        raise wrong
+    return tuple(given)
 
 
 def _stiffness(given: Any) -> float:
-    value = 0.0 if given is None else float(given)
+    value = 0.0 if given is None else measured(given, NOTCH)
     if not 0.0 <= value < float("inf"):
         raise AskedError(
             f"the stiffness of a notch is a finite number from 0, not {in_short(given)}"
@@ -179,15 +205,20 @@ def _stroke(given: object) -> StrokeAsked:
         return stroke_of(given)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
-        return StrokeAsked(point, *_named(name), float(start), float(stop))
+        name = _named(name)
+        return StrokeAsked(point, name, _measured(start, name), _measured(stop, name))
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
     )
 
 
-def _named(name: object) -> tuple[str]:
-    return (_one_of("a coordinate", name, ("x", "y", "z", "rx", "ry", "rz")),)
+def _named(name: object) -> str:
+    return _one_of("a coordinate", name, ("x", "y", "z", "rx", "ry", "rz"))
+
+
+def _measured(given: object, coordinate: str) -> float:
+    return measured(given, "rad" if coordinate.startswith("r") else "m")
 
 
 def _misalignments(given: object) -> tuple[MisalignmentAsked, ...]:
@@ -205,7 +236,8 @@ def _misalignment(given: object) -> MisalignmentAsked:
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
         clamp, name, value, *about = given
-        return MisalignmentAsked(clamp, *_named(name), float(value), *about)
+        name = _named(name)
+        return MisalignmentAsked(clamp, name, _measured(value, name), *about)
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

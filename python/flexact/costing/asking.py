@@ -3,28 +3,22 @@
 
 from __future__ import annotations
 
-import math
 import re
-from decimal import Decimal
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..base.errors import FlexactError
 from ..base.plain_text import in_short
+from ..base.quantities import NOTCH, QuantityError, quantity
+from ..model.words import is_word
 
-#: Powers of ten, so that 5um is the number that 5e-6 is.
-_PREFIXES = {
-    "": 0,
-    "m": -3,
-    **dict.fromkeys(("u", "\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}"), -6),
-    "n": -9,
-}
-_DEGREES = ("deg", "\N{DEGREE SIGN}")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 _COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
-_RELEASE = re.compile(r"\s*(\d{1,9})\s*:\s*(\d{1,9})\s*(?:=(.*))?")
+_RELEASE = re.compile(
+    r"\s*(?P<part>[^=]+?)\s*:\s*(?P<which>\d{1,9}|[A-Za-z][A-Za-z -]*?)\s*"
+    r"(?:@\s*(?P<at>[^=]+?)\s*)?(?:=(?P<notch>.*))?",
+    re.DOTALL,
+)
 _NAMES = ("x", "y", "z", "rx", "ry", "rz")
-#: Units of the stiffness of a notch, without blanks; all are SI, so that nothing is converted.
-_NOTCH_UNITS = ("", "Nm/rad", "N*m/rad", "N/m")
 #: That only the design as built is looked at.
 NONE = "none"
 
@@ -78,30 +72,9 @@ class MisalignmentAsked(NamedTuple):
     about: object = None
 
 
-#: Deformations that are released, with the stiffness of each one's notch; 0: ideal.
-ReleaseAsked = dict[tuple[int, int], float]
-
-
-def quantity(text: str, unit: str) -> float:
-    """A length or an angle in m or rad, such as "50um", "0.1 mm", "1mrad" or "5e-5".
-
-    Raises:
-        AskedError: it is none, or of another unit.
-    """
-    found = _NUMBER.fullmatch(text)
-    value = math.nan
-    if found is not None and found[2] in _DEGREES and unit == "rad":
-        value = math.radians(float(found[1]))
-    elif found is not None and (found[2] or unit).endswith(unit):
-        power = _PREFIXES.get((found[2] or unit)[: -len(unit)])
-        value = math.nan if power is None else float(Decimal(found[1]).scaleb(power))
-    if math.isnan(value):
-        example = "50um, 0.1mm or 5e-5" if unit == "m" else "50urad, 1mrad, 2deg or 1e-3"
-        kind = "a length [m]" if unit == "m" else "an angle [rad]"
-        raise AskedError(f"{kind} is wanted, such as {example}, not {in_short(text.strip())}")
-    if not math.isfinite(value):
-        raise AskedError(f"{in_short(text.strip())} is too large")
-    return value
+#: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
+#: (element, deformation) by numbers or names, or with the end as the third.
+ReleaseAsked = dict[tuple[Any, ...], float]
 
 
 def shift_of(text: str | float) -> float:
@@ -126,6 +99,8 @@ def shift_of(text: str | float) -> float:
 def release_of(text: str) -> ReleaseAsked:
     """What is released together: "1:5", "1:5=3.5" with a notch, "1:5+2:5"; "none": nothing.
 
+    Names and words do as well as numbers, "sheet 1:in-plane bending", at one end "...@stage".
+
     Raises:
         AskedError: it is not written so.
     """
@@ -134,12 +109,17 @@ def release_of(text: str) -> ReleaseAsked:
     made: ReleaseAsked = {}
     for part in _parts(text):
         found = _RELEASE.fullmatch(part)
-        if found is None:
+        which = "" if found is None else found["which"]
+        if found is None or not (which.isdigit() or is_word(which)):
             raise AskedError(
-                "a release is written ELEMENT:DEFORMATION, such as 1:5; with the stiffness of its "
-                f"notch 1:5=3.5 [N m/rad]; several together 1:5+2:5; not {in_short(text)}"
+                "a release is written ELEMENT:DEFORMATION, such as 1:5 or 'sheet 1:in-plane "
+                "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
+                f"1:5+2:5; not {in_short(text)}"
             )
-        made[int(found[1]), int(found[2])] = _notch(found[3])
+        part_of = PointText(found["part"]).target
+        one = part_of, int(which) if which.isdigit() else which
+        at = () if found["at"] is None else (PointText(found["at"]).target,)
+        made[(*one, *at)] = _notch(found["notch"])
     return made
 
 
@@ -151,9 +131,11 @@ def _parts(text: str) -> list[str]:
 def _notch(text: str | None) -> float:
     if text is None:
         return 0.0
-    found = _NUMBER.fullmatch(re.sub(r"\s", "", text))
-    value = float(found[1]) if found and found[2] in _NOTCH_UNITS else -1.0
-    if not (math.isfinite(value) and value >= 0.0):
+    try:
+        value = quantity(text, NOTCH)
+    except QuantityError:
+        value = -1.0
+    if not value >= 0.0:
         raise AskedError(
             "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
             f"not {in_short(text.strip())}"
@@ -162,24 +144,28 @@ def _notch(text: str | None) -> float:
 
 
 def stroke_of(text: str) -> StrokeAsked:
-    """A stroke: "1:z=25mm..35mm", or counted from the deck's place "1:z+=-5mm..5mm".
+    """A stroke: "1:z=25mm..35mm", or from the deck's place "1:z+=-5mm..5mm", "1:z=+-5mm".
 
     Raises:
         AskedError: it is not written so.
     """
     found = _COORDINATE.fullmatch(text)
     start, dots, stop = found["value"].partition("..") if found else ("", "", "")
+    if not dots and start.strip().startswith("+-"):
+        # As far both ways from where it rests.
+        dots, stop = "+-", start.strip()[2:]
+        start = f"-{stop.strip()}"
     if found is None or not dots:
         raise AskedError(
             "a stroke is written POINT:COORDINATE=FROM..TO, such as 1:z=25mm..35mm, or counted "
-            f"from the place in the deck 1:z+=-5mm..5mm; not {in_short(text)}"
+            f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
-    first, last = quantity(start, unit), quantity(stop, unit)
+    first, last = _quantity(start, unit), _quantity(stop, unit)
     if first == last:
         raise AskedError(f"the stroke {in_short(text)} ends where it begins")
     point = PointText(found["point"]).target
-    return StrokeAsked(point, name, first, last, bool(found["by"]))
+    return StrokeAsked(point, name, first, last, bool(found["by"]) or dots == "+-")
 
 
 def misalignment_of(text: str) -> MisalignmentAsked:
@@ -201,9 +187,16 @@ def misalignment_of(text: str) -> MisalignmentAsked:
     return MisalignmentAsked(
         PointText(found["point"]).target,
         name,
-        quantity(value, unit),
+        _quantity(value, unit),
         PointText(about).target if about else None,
     )
+
+
+def _quantity(text: str, unit: str) -> float:
+    try:
+        return quantity(text, unit)
+    except QuantityError as error:
+        raise AskedError(str(error)) from None
 
 
 def _coordinate(name: str) -> tuple[str, str]:

@@ -6,11 +6,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core import elastic as core
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
@@ -168,7 +168,9 @@ class Level:
         solver, points = self.solution.solver, self.bench.elastic.points
         shift = np.zeros((3, solver.nodes, len(misalignments)), order="F")
         for k, each in enumerate(misalignments):
-            off = misalignment(points, each.clamp.node, each.direction, 1.0, each.about)
+            off = misalignment(
+                *(points, each.clamp.node, each.direction, 1.0, each.about), beyond=True
+            )
             shift[:, : solver.mesh.nodes, k] = off.shift(solver.mesh.own)
         return shift, self.solution.respond(np.zeros_like(shift), None, shift)
 
@@ -181,11 +183,19 @@ class Level:
         _, answer = self.response(misalignments)
         return np.where(answer.mismatch > MISMATCH, np.nan, answer.stress)
 
-    def errors(self, stresses: FloatArray, square: float) -> FloatArray:
-        """(k, 2) errors below and above zero that bring a frequency to a square; 0: it buckles."""
+    def errors(
+        self, stresses: FloatArray, square: float, lengths: FloatArray | None = None
+    ) -> FloatArray:
+        """(k, 2) errors below and above zero that bring a frequency to a square; 0: it buckles.
+
+        With lengths (k,) of unit errors only those about as short as the shortest; others are
+        infinite.
+        """
         at = self.solution
         model = at.solver.model(at.held)
-        raw = core.errors(model, at.solver.arrays, at.raw, at.way.gravity, stresses, square)
+        raw = core.errors(
+            model, at.solver.arrays, at.raw, at.way.gravity, stresses, square, lengths
+        )
         if raw.negative or raw.loose:
             raise ElasticError("the undeformed state is unstable, or a motion has no stiffness")
         return np.stack([raw.below, raw.above], axis=1)
@@ -201,14 +211,15 @@ class Level:
 
     def buckled(self, each: Misalignment, sense: float) -> FloatArray | None:
         """(nodes, 3) the shape in which it buckles, below or above zero; None where it does not."""
-        found = self._stressed(self.stresses((each,))[:, :, 0]).buckling
+        found = self.stressed(self.stresses((each,))[:, :, 0]).buckling
         right = np.flatnonzero(sense * found.values > 0.0)
         if not right.size:
             return None
         first = right[int(np.argmin(np.abs(found.values[right])))]
         return np.ascontiguousarray(found.modes[:, :, first].T)
 
-    def _stressed(self, stress: FloatArray) -> Solution:
+    def stressed(self, stress: FloatArray) -> Solution:
+        """The state at rest under a stress (6, pieces)."""
         at = self.solution
         raw = at.raw._replace(stress=np.asfortranarray(stress))
         return Solution(at.solver, raw, at.way, at.held)

@@ -97,6 +97,8 @@ def cost(
     drive: str = "free",
     beams: int | str = "auto",
     points: int = 21,
+    bodies: bool = False,
+    beyond: bool = False,
     name: str | None = None,
     progress: Progress | None = None,
 ) -> Cost:
@@ -123,6 +125,9 @@ def cost(
         drive: "free", or "locked": declared coordinates are held.
         beams: Beams a sheet, or "auto": 8 and 16, extrapolated, with the uncertainty.
         points: How many places along the stroke.
+        bodies: Whether releases inside of rigid bodies, which nobody can machine, are among the
+            proven ones; they are where nothing else removes the self-stress.
+        beyond: Whether a stroke or a misalignment may be larger than the model.
         name: What the result is called; by default the model's name or the path.
         progress: Called with what is being done, and how much of it is done, from 0 to 1.
 
@@ -147,5 +152,7 @@ def cost(
         drive=drive,
         beams=beams,
         points=points,
+        bodies=bodies,
+        beyond=beyond,
     )
     return cost_of(made.data, asked, name, progress, Cost)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ..base.frozen import Frozen
@@ -163,21 +163,28 @@ class Design(Frozen):
     @property
     def tightest(self) -> Tolerance | None:
         """The smallest tolerance, an angle times the size against lengths; None without any."""
-        return self._smallest(lambda each: each.tightest)
+        return smallest(self.tolerances, self.size, lambda each: each.tightest)
 
     @property
     def buckles_at(self) -> Tolerance | None:
         """The tolerance whose critical error is smallest, likewise."""
-        return self._smallest(lambda each: each.critical)
+        return smallest(self.tolerances, self.size, lambda each: each.critical)
 
-    def _smallest(self, of: Callable[[Tolerance], Number]) -> Tolerance | None:
-        def size(each: Tolerance) -> float:
-            value = of(each).value * (self.size if each.misalignment.unit == "rad" else 1.0)
-            # Of those that symmetry makes equal it is the first.
-            return float(f"{value:.5g}")
 
-        found = min(self.tolerances, key=size, default=None)
-        return None if found is None or not of(found).is_finite else found
+def smallest(
+    tolerances: Iterable[Tolerance], size: float, of: Callable[[Tolerance], Number]
+) -> Tolerance | None:
+    """The tolerance of which a number is smallest, an angle times the size against lengths.
+
+    Of those that symmetry makes equal it is the first; None where all are infinite.
+    """
+
+    def length(each: Tolerance) -> float:
+        value = of(each).value * (size if each.misalignment.unit == "rad" else 1.0)
+        return float(f"{value:.5g}")
+
+    found = min(tolerances, key=length, default=None)
+    return None if found is None or not of(found).is_finite else found
 
 
 @dataclass(frozen=True, eq=False)

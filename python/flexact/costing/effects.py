@@ -56,7 +56,7 @@ def _behind(bench: Bench, given: Given) -> tuple[State, float]:
 
     def with_part(part: float) -> State:
         off = [(each.clamp.node, each.direction, part * value, each.about) for each, value in given]
-        return bench.elastic.imperfect(misaligned=off).assembled()
+        return bench.elastic.imperfect(misaligned=off, beyond=True).assembled()
 
     part, why = 1.0, None
     for _ in range(_HALVINGS):

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import TypeVar
 
+from ..base.cached import cached_property
 from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..result.decompose import asked_for
@@ -119,4 +119,4 @@ class _Making:
                 raise model_error("repeated-release", "one release is asked for twice")
             return built, (first, *others)
         self.report("looking for releases", 0.0)
-        return built, (first, *best(self.measures, built, proven.proven(self.result)))
+        return built, (first, *best(self.measures, built, proven.proven(self.result, asked.bodies)))

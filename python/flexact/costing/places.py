@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
-from ..diagnostics.errors import ModelError, model_error
+from ..diagnostics.errors import model_error
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from ..result.handles import part_of, position_of
+from ..result.handles import node_of
 from ..text.places import node_words, part_words
 from .values import Clamp, Misalignment, Point
 
@@ -25,12 +25,8 @@ class Places:
 
     @property
     def size(self) -> float:
-        """Of the model [m]: the diagonal of the box about its positions; 1 without extent."""
-        places = self.data.arrays.node_kind <= NodeKind.POSITION
-        values = self.data.arrays.node_value[:3, places]
-        if not values.size:
-            return 1.0
-        return float(np.linalg.norm(values.max(axis=1) - values.min(axis=1))) or 1.0
+        """Of the model [m]."""
+        return self.data.size
 
     def clamps(self) -> tuple[Clamp, ...]:
         """Supports with something held, by the numbers of their nodes; driven ones are none."""
@@ -97,38 +93,13 @@ class Places:
         return None
 
     def node(self, target: object) -> int:
-        """Index of the node that is meant: its number, the name of its point, or a handle.
+        """Index of the node that is meant: its number, a name, a place, or a handle.
 
         Raises:
             ModelError: there is none, or there are several.
+            TypeError: it is nothing of that.
         """
-        if isinstance(target, int) and not isinstance(target, bool):
-            index = self.data.node_index.get(target)
-            if index is None:
-                raise model_error("no-such-node", f"there is no node {target}", self._there())
-            return index
-        try:
-            return position_of(self.parts, target)
-        except ModelError:
-            part = next((p for p in self.parts.all if p.name == target), None)
-            body = None if part is None else self._point_of_part(part.elements)
-            if body is None:
-                raise
-            return body
-        except TypeError:
-            return self._point_of_part(part_of(self.parts, target).elements)
-
-    def _there(self) -> str:
-        shown = ", ".join(map(str, sorted(self.numbers)[:12]))
-        return f"there are {shown}{', ...' if len(self.numbers) > 12 else ''}"
-
-    def _point_of_part(self, elements: tuple[int, ...]) -> int:
-        """Of a part, mostly a body, the driven point, else that where most parts meet."""
-        slots = self.data.arrays.element_node[[0, 2]] - 1
-        mine = dict.fromkeys(n for e in elements for n in slots[:, e].tolist() if n >= 0)
-        driven = [n for n in mine if Class.INDEPENDENT in self.classes[:, n]]
-        best: int = max(driven or mine, key=lambda n: len(self.parts.elements_at(n)))
-        return best
+        return node_of(self.parts, target)
 
     def drives(self) -> tuple[tuple[int, str], ...]:
         """Declared coordinates, (number of the node, name), in the order of the nodes."""

@@ -11,6 +11,7 @@ from ..advice.releases.releases import releases_of
 from ..base.errors import FlexactError
 from ..core.elements import Class, Member, member_table
 from ..diagnostics.errors import model_error
+from ..result.handles import deformations_of
 from ..result.result import Result
 from ..text.deformation import deformation_word
 from ..text.naming import deformation_in_words
@@ -41,16 +42,18 @@ def as_built(result: Result) -> Candidate:
     return Candidate((), (), result.under_constrained, result.over_constrained)
 
 
-def proven(result: Result) -> tuple[Candidate, ...]:
+def proven(result: Result, bodies: bool) -> tuple[Candidate, ...]:
     """Minimal sets of releases that were each tried, the likeliest first; none without need.
 
-    Beams inside of bodies may be released as well, as by a hinge between two halves of a body;
-    rigid links only where nothing else does it.
+    Args:
+        result: The result.
+        bodies: Whether beams inside of bodies may be released as well, as by a hinge between two
+            halves of a body; else only where nothing else does it. Rigid links are in any case.
     """
     if not result.over_constrained:
         return ()
     made = []
-    sets = releases_of(result, with_links=True).sets
+    sets = releases_of(result, with_bodies=bodies).sets
     of_members = [each for each in sets if not _releases_a_link(result, each.change)]
     for proposal in (of_members or sets)[:LOOKED_AT]:
         alike = tuple(_label(_released(result, change)) for change in proposal.alternatives)
@@ -72,9 +75,15 @@ def given(result: Result, asked: ReleaseAsked) -> Candidate:
     Raises:
         ModelError: there is no such element or deformation.
     """
-    released = tuple(_one(result, *pair, notch) for pair, notch in asked.items())
+    numbers = result.given.arrays.element_number
+    pairs = {
+        (int(numbers[element]), k + 1): notch
+        for key, notch in asked.items()
+        for element, k in deformations_of(result.parts, *key)
+    }
+    released = tuple(_one(result, *pair, notch) for pair, notch in pairs.items())
     index, classes = result.given.element_index, result.given.arrays.deformation_class
-    held = [pair for pair in asked if classes[pair[1] - 1, index[pair[0]]] == Class.FIXED]
+    held = [pair for pair in pairs if classes[pair[1] - 1, index[pair[0]]] == Class.FIXED]
     change = Change(deformations=tuple((*pair, Class.DEPENDENT) for pair in held))
     try:
         after = tried(result, change)
@@ -90,15 +99,7 @@ def _released(result: Result, change: Change) -> tuple[Released, ...]:
 
 def _one(result: Result, element: int, number: int, notch: float) -> Released:
     data = result.given
-    index = data.element_index.get(element)
-    if index is None:
-        raise model_error("no-such-element", f"there is no element {element} to be released")
-    there = [k + 1 for k in range(6) if data.arrays.deformation_class[k, index] != Class.NONE]
-    if number not in there:
-        raise model_error(
-            "no-such-deformation",
-            f"element {element} has no deformation {number}: it has {', '.join(map(str, there))}",
-        )
+    index = data.element_index[element]
     if element in result.data.element_index:
         words = plain(deformation_in_words(result, element, number))
     else:

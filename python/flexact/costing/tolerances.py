@@ -19,8 +19,9 @@ from .bench import Bench, Level
 from .designs import MisalignmentCurve
 from .values import Misalignment, Number, Numbers, Tolerance
 
-#: Errors of so many sizes of the model, or radians, are none that anybody makes.
-_FAR = 10.0
+#: Errors of so many sizes of the model, or radians, are none that anybody makes, and far beyond
+#: where the stress is in proportion to them.
+FAR = 0.1
 #: A design that buckles within so many times the reach is followed until it does.
 _NEAR = 1.5
 #: Places of a curve on each side of zero, closer where it falls steeply; few where it does not
@@ -86,7 +87,7 @@ def extrapolated(found: Sequence[FloatArray]) -> Estimate:
 
 def _number(whole: Estimate, row: int, column: int, size: float, unit: str) -> Number:
     value, off = (float(each[row, column]) for each in (whole.value, whole.uncertainty))
-    if abs(value) > _FAR * (size if unit == "m" else 1.0):
+    if abs(value) > FAR * (size if unit == "m" else 1.0):
         return Number(math.copysign(math.inf, value))
     return Number(value, off if math.isfinite(off) else 0.0)
 

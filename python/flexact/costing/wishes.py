@@ -8,10 +8,12 @@ from collections.abc import Sequence
 from ..core.elements import Class, NodeKind, coordinate_name
 from ..diagnostics.errors import ModelError, model_error
 from ..model.data import ModelData
+from ..stiffness import ElasticError
+from ..stiffness.errors import require_within
 from . import along
 from .asked import Asked
 from .places import Places
-from .values import DIRECTIONS, PLANAR, Misalignment, Point
+from .values import DIRECTIONS, PLANAR, Misalignment, Point, words_of_direction
 
 
 def directions_of(data: ModelData, point: Point) -> tuple[str, ...]:
@@ -29,10 +31,11 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
     """The misalignments that are given together.
 
     Raises:
-        ModelError: there is no such clamp, or it does not hold this coordinate; all that are
-            wrong are told.
+        ModelError: there is no such clamp, it does not hold this coordinate, or the value is
+            larger than the model, and not `beyond`; all that are wrong are told.
     """
-    made, wrong = [], []
+    made: list[tuple[Misalignment, float]] = []
+    wrong: list[ModelError] = []
     for each in asked.misalign:
         try:
             clamp = places.clamp_of(places.node(each.clamp))
@@ -41,8 +44,15 @@ def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], 
                 what = f"it holds {', '.join(held)}" if held else "it is free: no clamp"
                 words = f"node {clamp.node} does not hold {each.coordinate}"
                 raise model_error("not-held", words, what)
+            if not asked.beyond:
+                words = f"the misalignment of {clamp.words} {words_of_direction(each.coordinate)}"
+                _require_within(each.value, places.size, each.coordinate, words)
             about = None if each.about is None else _pivot(places, each.about)
-            made.append((Misalignment(clamp, each.coordinate, about), each.value))
+            misalignment = Misalignment(clamp, each.coordinate, about)
+            if any(misalignment == before for before, _ in made):
+                words = f"{each.coordinate} of node {clamp.node} is misaligned twice"
+                raise model_error("given-twice", words, "give it once, with their sum")
+            made.append((misalignment, each.value))
         except ModelError as error:
             wrong.append(error)
     if wrong:
@@ -62,7 +72,8 @@ def stroke_of(places: Places, asked: Asked) -> along.Asked | None:
     """The stroke that is asked for, with its places.
 
     Raises:
-        ModelError: there is no such point, or the coordinate is not there or is fixed.
+        ModelError: there is no such point, the coordinate is not there or is fixed, or the stroke
+            leads farther than the model is large, and not `beyond`.
     """
     wish = asked.stroke
     if wish is None:
@@ -78,8 +89,20 @@ def stroke_of(places: Places, asked: Asked) -> along.Asked | None:
         )
     rest = _rest(data, node, axis)
     offset = rest if wish.is_offset else 0.0
+    # An angle may be of any number of turns.
+    is_any = asked.beyond or wish.coordinate.startswith("r")
+    for value in () if is_any else (wish.start, wish.stop):
+        words = f"the stroke of {places.words(places.numbers[node])} along {wish.coordinate}"
+        _require_within(value + offset - rest, places.size, wish.coordinate, words)
     values = along.values_of(wish.start + offset, wish.stop + offset, asked.points, rest)
     return along.Asked(places.numbers[node], wish.coordinate, rest, values)
+
+
+def _require_within(value: float, size: float, coordinate: str, what: str) -> None:
+    try:
+        require_within(value, size, coordinate.startswith("r"), what)
+    except ElasticError as error:
+        raise model_error("beyond-size", str(error)) from None
 
 
 def _owner(places: Places, node: int, name: str) -> int:

@@ -10,14 +10,15 @@ from ..base.plain_text import harmless
 from .designs import CostValues, Design
 from .quantities import in_words, percent
 from .told import WIDTH, Row, Table, Told, shown
-from .values import FREQUENCY, Number, Tolerance, words_of_direction
+from .tolerances import FAR
+from .values import FREQUENCY, Misalignment, Number, Tolerance, words_of_direction
 from .words_of_paths import effects, stroke
 
 _HEADINGS = ("design", "worst stiffness", "first parasitic", "tightest", "buckles at")
 _SECOND = ("", "kept", "frequency", "tolerance", "")
 #: A part of a stiffness from which all of it is kept.
 _ALL = 0.9999
-#: The longest label of a design, and behind which column "none" is an answer.
+#: The longest label of a design, and behind which column "not limited" is an answer.
 _LONGEST, _KNOWN = 16, 2
 #: Between columns.
 _GAP = 2
@@ -41,25 +42,40 @@ def describe(cost: CostValues, width: int = WIDTH) -> str:
 
 def first_line(cost: CostValues) -> str:
     """What the tightest clamp costs, such as "It costs: clamp 11 off by 50 um along x ..."."""
-    tightest = cost.tightest
-    fall = f"{'lowers' if cost.shift < 0 else 'raises'} the {cost.measure}"
-    part = percent(abs(cost.shift))
-    if tightest is not None:
-        lead = "It costs" if cost.as_built.over_constrained else "It costs little"
-        return f"{lead}: {_off(tightest)} {fall} by {part}."
-    if cost.as_built.tolerances:
-        return f"It costs nothing: no clamp that is off {fall} by {part}, to first order."
+    built = cost.as_built
+    if built.tightest is not None:
+        return f"{costs(built.tightest, cost.measure, cost.shift, built.over_constrained > 0)}."
+    if built.tolerances:
+        return f"{costs_nothing(cost.measure, cost.shift, built.size)}."
     if not cost.clamps:
         return "It costs nothing: no clamp is there that could be off."
     return "What a clamp that is off costs has no answer here; the reasons stand below."
 
 
-def _off(each: Tolerance) -> str:
+def costs(tightest: Tolerance, measure: str, shift: float, is_over: bool) -> str:
+    """What the tightest clamp costs, without a full stop."""
+    lead = "It costs" if is_over else "It costs little"
+    return f"{lead}: {off(tightest.misalignment, tightest.tightest)} {_changes(measure, shift)}"
+
+
+def costs_nothing(measure: str, shift: float, size: float) -> str:
+    """The same where no tolerance is within a tenth of the size."""
+    most = in_words(Number(FAR * size), "m")
+    return (
+        f"It costs nothing: no clamp that is off by up to {most} (a tenth of the size) or turned "
+        f"by up to {FAR} rad {_changes(measure, shift)}, to first order"
+    )
+
+
+def _changes(measure: str, shift: float) -> str:
+    return f"{'lowers' if shift < 0 else 'raises'} the {measure} by {percent(abs(shift))}"
+
+
+def off(where: Misalignment, by: Number) -> str:
     """Such as "clamp 11 off by 50 um along x"."""
-    where = each.misalignment
     turn = "turned" if where.unit == "rad" else "off"
     pivot = "" if where.about is None else f" through node {where.about}"
-    size = in_words(each.tightest, where.unit)
+    size = in_words(by, where.unit)
     direction = words_of_direction(where.direction)
     return f"{harmless(where.clamp.words)} {turn} by {size} {direction}{pivot}"
 
@@ -115,7 +131,7 @@ def _row(design: Design, first: int) -> tuple[str, ...]:
     cells = [label]
     for k, (number, unit) in enumerate(columns, start=1):
         if number is None:
-            cells.append("none" if k > _KNOWN and design.tolerances else "")
+            cells.append("not limited" if k > _KNOWN and design.tolerances else "")
         else:
             cells.append(in_words(number if k >= first else Number(number.value), unit))
     return tuple(cells)
@@ -153,8 +169,15 @@ def _legend(cost: CostValues) -> Iterator[Told]:
         f"{kept if len(cost.designs) > 1 else ''}tightest tolerance: the smallest error of one "
         f"clamp that makes the {what} {way} by {shift}; buckles at: the smallest error at which "
         "a stiffness is lost. Stress is taken in proportion to the error, about the undeformed "
-        "state."
+        f"state.{_not_limited(cost)}"
     )
+
+
+def _not_limited(cost: CostValues) -> str:
+    if all(each.tightest and each.buckles_at for each in cost.designs if each.tolerances):
+        return ""
+    most = in_words(Number(FAR * cost.as_built.size), "m")
+    return f" Not limited: more than {most} (a tenth of the size), or {FAR} rad."
 
 
 def _left_out(cost: CostValues) -> Iterator[Told]:

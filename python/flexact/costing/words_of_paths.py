@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ..base.plain_text import harmless
+from ..stiffness.drives import is_far
 from .designs import CostValues, Design, Effect, StrokeCurve
 from .quantities import in_words, scale_of
 from .told import Row, Table, Told
@@ -24,6 +25,8 @@ def stroke(cost: CostValues) -> Iterator[Told]:
     words = f"Stroke of {harmless(asked.words)} from {reached[0]:.6g} to {reached[1]:.6g} {unit}"
     rest = f"{asked.rest / factor:.6g} {unit}"
     yield Row(f"{words}; it rests at {rest}.")
+    if is_far(asked.asked, asked.rest):
+        yield Row("It is far from there: += in place of = counts from where it rests.")
     if asked.why:
         yield Row(f"{asked.beyond[:1].upper()}{asked.beyond[1:]}.")
     rows: list[Sequence[str]] = [

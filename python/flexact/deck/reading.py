@@ -7,6 +7,7 @@ import os
 import re
 import stat
 import sys
+from dataclasses import replace
 from typing import BinaryIO
 
 from ..base.loading import load
@@ -19,6 +20,7 @@ from ..model.appearance import Appearance
 from ..model.data import DeckNames, ModelData
 from ..model.loads import Loads
 from ..model.properties import Properties
+from ..model.slips import slips_in
 
 LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
@@ -80,7 +82,7 @@ def file_bytes(path: str) -> bytes:
         hint = "check that you may read it"
         raise _file_error(path, "cannot-read", message, hint) from None
     except MemoryError:
-        raise _file_error(path, "too-large", "the file does not fit into memory") from None
+        raise _file_error(path, "out-of-memory", "the file does not fit into memory") from None
 
 
 def _content(file: BinaryIO, size: int) -> bytes:
@@ -112,11 +114,11 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
     try:
         deck = calls.read_deck(raw)
     except MemoryError:
-        raise _file_error(name, "too-large", "the deck does not fit into memory") from None
+        raise _file_error(name, "out-of-memory", "the deck does not fit into memory") from None
     problems = problems_of(deck.problems, source)
     if problems.errors:
         raise DeckError(problems, name, source)
-    return ModelData(
+    made = ModelData(
         deck.arrays,
         deck.planar,
         name,
@@ -129,6 +131,8 @@ def read_bytes(raw: bytes, name: str) -> ModelData:
         loads=Loads.of(deck.loads) if deck.loads is not None else None,
         has_long_numbers=deck.has_long_numbers,
     )
+    slips = tuple(slips_in(made))
+    return replace(made, found=problems.and_also(slips)) if slips else made
 
 
 def _require_text(raw: bytes, name: str) -> None:

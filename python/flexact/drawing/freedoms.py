@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..base.partial import attempted
 from ..result.freedoms import Freedom
 from ..result.order import coordinate_key, ranked
 from ..result.velocities import Velocities
@@ -17,17 +18,17 @@ from .pose import Moving
 def way_of(freedom: Freedom) -> Moving | None:
     """The motion of a declared degree of freedom as it is drawn; None where it cannot move.
 
-    It has its natural shape (`natural_shape`). A coordinate grows. The sign of a deformation
-    depends on which end is p; its motion is
-    drawn with the sense in which its largest part is positive, of equal ones the first
-    by name and place.
+    It has its natural shape (`natural_shape`), where that can be found. A coordinate grows. The
+    sign of a deformation depends on which end is p; its motion is drawn with the sense in which
+    its largest part is positive, of equal ones the first by name and place.
 
     Raises:
         AnalysisError: The motion cannot be found.
     """
     if freedom.motion is None:
         return None
-    motion = natural_shape(freedom.analysis, freedom.motion)
+    plain = freedom.motion
+    motion = attempted("Its shape", lambda: natural_shape(freedom.analysis, plain), plain, None)
     if freedom.is_coordinate:
         return motion
     outcome, length = freedom.analysis, freedom.analysis.characteristic_length

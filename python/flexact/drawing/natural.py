@@ -67,6 +67,9 @@ def natural_shape(outcome: Outcome, motion: FreeMotion) -> FreeMotion:
     rates = np.array([_rates(outcome, each) for each in (*basis, start)])
     stiff = np.array([_stress(outcome, each) for each in rates])
     energy = stiff.reshape(len(stiff), -1) @ rates.reshape(len(rates), -1).T
+    # Stiffness of any size may be given.
+    if not np.isfinite(energy).all():
+        return motion
     inner, outer = energy[:-1, :-1], energy[:-1, -1]
     shares = np.linalg.lstsq((inner + inner.T) / 2, -outer, rcond=_NOTHING)[0]
     if np.linalg.norm(shares) <= _NOTHING * np.linalg.norm(start * weight):
@@ -96,11 +99,14 @@ def _rates(outcome: Outcome, velocity: FloatArray) -> FloatArray:
 
 
 def _stiffness(outcome: Outcome) -> FloatArray | None:
-    """(elements, 6) of ESTIFF, where every element with released deformations has it."""
+    """(elements, 6) of ESTIFF, where every element with released deformations has it.
+
+    What is not given is 0: rigid bodies have no stiffness, and no rates that it would multiply.
+    """
     condensed, arrays = outcome.condensed, outcome.data.arrays
     if condensed.given.properties is None:
         return None
-    made: FloatArray = condensed.given.properties.stiffness[condensed.elements]
+    made = np.nan_to_num(condensed.given.properties.stiffness[condensed.elements])
     released = np.any(arrays.deformation_class == Class.DEPENDENT, axis=0)
     return made if np.all(made[released].any(axis=1)) else None
 

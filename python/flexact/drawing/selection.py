@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ..base.errors import BatchError, FlexactError
 from ..base.frozen import Frozen
+from ..diagnostics.errors import ModelError
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from .freedoms import way_of
@@ -38,14 +39,15 @@ class Selection(Frozen):
 
 
 def select_motion(
-    analysis: Result, motion: int | None = None, freedom: int | None = None
+    analysis: Result, motion: int | None = None, freedom: int | str | None = None
 ) -> Selection | None:
     """The motion that is shown.
 
     Args:
         analysis: The result.
         motion: The number, from 1, of one of its kinematically indeterminate motions.
-        freedom: The number, from 1, of one of its declared degrees of freedom.
+        freedom: The number, from 1, of one of its declared degrees of freedom, or its name, such
+            as "stage y"; see `Result.freedom`.
 
     Returns:
         The one asked for; else the first motion; else that of the first degree of freedom that
@@ -86,9 +88,16 @@ def _of_motion(analysis: Result, number: int) -> Selection:
     return Selection(analysis.motions[number - 1], number)
 
 
-def _of_freedom(analysis: Result, number: int) -> Selection:
-    count = len(analysis.freedoms)
-    require_there(number, count, "degree of freedom", "degrees of freedom")
+def _of_freedom(analysis: Result, given: int | str) -> Selection:
+    if isinstance(given, str):
+        try:
+            number = analysis.freedoms.index(analysis.freedom(given)) + 1
+        except ModelError as error:
+            first = error.diagnostics[0]
+            raise NotThereError(f"{first.message}: {first.help}") from None
+    else:
+        number, count = given, len(analysis.freedoms)
+        require_there(number, count, "degree of freedom", "degrees of freedom")
     chosen = analysis.freedoms[number - 1]
     if (found := way_of(chosen)) is None:
         raise NotThereError(f"degree of freedom {number}, {chosen.label}, cannot move")

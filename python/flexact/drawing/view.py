@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.errors import BatchError, require_kind
 from ..base.frozen import Frozen
+from ..base.quantities import quantity
 from ..core.arrays import FloatArray
 from ..model.parts.forms import Form
 from .drawing import Drawing
@@ -95,7 +96,7 @@ def check_view(text: str) -> View | None:
     if text in NAMED:
         return View(*NAMED[text])
     try:
-        azimuth, elevation = (float(part) for part in text.split(","))
+        azimuth, elevation = (quantity(part, "deg") for part in text.split(","))
     except ValueError:
         azimuth = elevation = np.nan
     if not (abs(azimuth) <= 360.0 and abs(elevation) <= 90.0):

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
+from ..base.cached import cached_property
 from ..deck.reading import read_bytes
 from ..diagnostics.diagnostic import Problems
 from ..diagnostics.errors import DeckError

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, NamedTuple
+
+from ..base.cached import cached_property
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)")
 _BYTE_MARK = "\ufeff"

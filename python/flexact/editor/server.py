@@ -9,6 +9,7 @@ from collections.abc import Callable, Generator
 from typing import Any, BinaryIO, TypeVar
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
@@ -28,6 +29,16 @@ Made = TypeVar("Made")
 
 class _Protocol(LanguageServerProtocol):
     """Leaves texts to us: lines end where editors end them, and a change costs little."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """As below; a request of a wrong form is answered, too: an editor may wait for it."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as error:
+            number = data.get("id")
+            if "method" in data and isinstance(number, (int, str)):
+                self._send_response(number, error=error.to_response_error())
+            raise
 
     @lsp_method(lsp.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(

@@ -12,9 +12,8 @@ from ..model.data import ModelData
 from ..result.outcome import Asked
 from ..result.result import Result, result_of
 from ..result.verdict import Verdict
-from ..text.margin import margin_in_short
+from ..text.margin import margin_in_short, verdict_in_short
 from ..text.motions import internal_in_words, motion_in_parts
-from ..text.naming import counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
 from ..text.sentences import Named, Pieces, plain
 from ..text.warnings import warnings_of
@@ -55,9 +54,8 @@ def opinion_on(deck: Deck) -> Opinion | None:
         return None
     try:
         result = _analysed(data)
-        words = counts_in_words(result.under_constrained, result.over_constrained)
         return Opinion(
-            f"{words}; {margin_in_short(result)}",
+            f"{verdict_in_short(result)}; {margin_in_short(result)}",
             result.verdict,
             tuple(_remarks(deck, result)),
             result,

@@ -139,7 +139,7 @@ def dask_or_error() -> Any:
         import distributed
     except ImportError as error:
         raise EngineError(
-            f"Dask needs the package distributed: pip install 'flexact[dask]' ({error})"
+            f"Dask needs the package distributed: pip install distributed ({error})"
         ) from error
     return distributed
 

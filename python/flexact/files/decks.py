@@ -15,6 +15,8 @@ from ..base.errors import FlexactError, reason_of
 SUFFIX = ".dat"
 #: What stands for a deck on standard input, and what that deck is called.
 STDIN, STDIN_NAME = "-", "<stdin>"
+#: What cells of spreadsheets begin with that are run.
+_FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 #: A deck is smaller; whether it is is said where it is read.
 _MOST_BYTES = 2**31
 
@@ -54,7 +56,12 @@ class DeckFile:
     @property
     def name(self) -> str:
         """The path as text that can be encoded: the deck's name in results."""
-        return self.path.encode("utf-8", "backslashreplace").decode("utf-8")
+        return no_formula(self.path.encode("utf-8", "backslashreplace").decode("utf-8"))
+
+
+def no_formula(path: str) -> str:
+    """A path, or words that begin with one, which no spreadsheet takes for a formula."""
+    return f"./{path}" if path.startswith(_FORMULAS) else path
 
 
 def find_decks(arguments: Iterable[str]) -> tuple[DeckFile, ...]:

@@ -17,7 +17,7 @@ from ..base.errors import BatchError, reason_of
 from ..base.interruption import undisturbed
 from ..base.loading import load
 from .decks import DeckFile
-from .temporary import remove_left, temporary_name
+from .temporary import new_file, remove_left, temporary_name
 
 #: What stands for standard output.
 STDOUT = Path("-")
@@ -29,6 +29,10 @@ _PAUSES = (0.01, 0.03, 0.1, 0.3)
 
 class OutputError(BatchError):
     """A file of results cannot be written."""
+
+
+class TakenError(OutputError):
+    """A file came to be where none was to be."""
 
 
 def plan_files(
@@ -130,7 +134,8 @@ def write_together(files: Mapping[Path, bytes]) -> None:
     """Write a set of files so that they appear together or not at all.
 
     Everything is written beside its place first, and moved there when all of it is written.
-    Folders are made where they are missing; a link stays one, and what it leads to is written.
+    Folders are made where they are missing; a link stays one, and what it leads to is written; a
+    file that is written over keeps its mode.
     What a killed process has left beside the places is removed.
 
     Raises:
@@ -148,7 +153,8 @@ def write_together(files: Mapping[Path, bytes]) -> None:
             remove_left(place.parent)
             temporary = place.with_name(temporary_name())
             waiting[temporary] = target
-            temporary.write_bytes(content)
+            with new_file(temporary, place) as file:
+                file.write(content)
         with undisturbed():
             for temporary, target in waiting.items():
                 _move(temporary, places[target])
@@ -161,14 +167,19 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 
 
 @contextlib.contextmanager
-def written_whole(target: Path) -> Iterator[BinaryIO]:
+def written_whole(target: Path, *, anew: bool = False) -> Iterator[BinaryIO]:
     """A file to write piece by piece, which is at its place when the block ends, or not at all.
 
     It is on the disk by then, so that a power cut cannot take it away. As `write_together`
     otherwise.
 
+    Args:
+        target: Its place.
+        anew: Whether no file may be there.
+
     Raises:
         OutputError: The file cannot be written; the one that was there has not changed then.
+        TakenError: Another one came to be there before this one was whole.
     """
     temporary: Path | None = None
     try:
@@ -176,12 +187,15 @@ def written_whole(target: Path) -> Iterator[BinaryIO]:
         place.parent.mkdir(parents=True, exist_ok=True)
         remove_left(place.parent)
         temporary = place.with_name(temporary_name())
-        with open(temporary, "wb") as file:
+        with new_file(temporary, place) as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
         with undisturbed():
-            _move(temporary, place)
+            if anew:
+                _claim(temporary, place)
+            else:
+                _move(temporary, place)
             keep_names(place.parent)
     except OSError as error:
         raise OutputError(f"cannot write {target}: {reason_of(error)}") from error
@@ -200,6 +214,25 @@ def _move(temporary: Path, place: Path) -> None:
         except PermissionError:
             time.sleep(pause)
     os.replace(temporary, place)
+
+
+def _claim(temporary: Path, place: Path) -> None:
+    """Move a file to a place where there is none.
+
+    Raises:
+        TakenError: There is one.
+    """
+    try:
+        try:
+            os.link(temporary, place)
+        except FileExistsError:
+            raise
+        except OSError:
+            # A file system without further names: an empty file takes the place first.
+            new_file(place).close()
+            _move(temporary, place)
+    except FileExistsError as error:
+        raise TakenError(f"{place} was written by another process meanwhile") from error
 
 
 def keep_names(folder: Path) -> None:

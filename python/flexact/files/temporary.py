@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of files while they are written, and those that a killed process has left."""
+"""Files while they are written, and those that a killed process has left."""
 
 from __future__ import annotations
 
@@ -9,22 +9,47 @@ import re
 import sys
 import time
 from functools import cache
-from itertools import count
 from pathlib import Path
+from typing import BinaryIO
 
 from ..base.loading import load
 
-_NAME = re.compile(r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9]+\.tmp")
+_NAME = re.compile(r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9a-f]+\.tmp")
 #: Between two looks into a folder [s]: a batch may write thousands of files into one.
 _PAUSE = 60.0
 
-_number = count()
 _looked: dict[Path, float] = {}
 
 
 def temporary_name() -> str:
-    """A name that no other file has, with what tells whether its process is alive."""
-    return f".flexact-{_system()}-{os.getpid()}-{next(_number)}.tmp"
+    """A name that nobody can know before, with what tells whether its process is alive."""
+    return f".flexact-{_system()}-{os.getpid()}-{os.urandom(8).hex()}.tmp"
+
+
+def new_file(path: Path, like: Path | None = None, mode: int = 0o666) -> BinaryIO:
+    """A new file to write; whatever stands there, also a link, is neither followed nor changed.
+
+    Args:
+        path: Where it is made.
+        like: A file whose mode it gets, where there is one: what others may not read stays so.
+        mode: What others may do else, as far as they may do it with every new file.
+
+    Raises:
+        OSError: It cannot be made, or something is there already.
+    """
+    how = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+    for name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY"):
+        how |= getattr(os, name, 0)
+    kept: int | None = None
+    if like is not None:
+        with contextlib.suppress(FileNotFoundError):
+            kept = mode = like.stat().st_mode & 0o777
+    handle = os.open(path, how, mode)
+    if kept is not None and hasattr(os, "fchmod"):
+        # A file system of another kind may have no such modes.
+        with contextlib.suppress(OSError):
+            os.fchmod(handle, kept)
+    return open(handle, "wb")
 
 
 def remove_left(folder: Path) -> None:

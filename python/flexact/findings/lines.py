@@ -6,8 +6,7 @@ Lines are those of the core, which end at LF.
 
 from __future__ import annotations
 
-from functools import cached_property
-
+from ..base.cached import cached_property
 from ..diagnostics.diagnostic import Place
 from ..diagnostics.source import Source, decode
 from ..editor.document import Document, Range, units

@@ -73,6 +73,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "Lengths of elements differ by many powers of ten.",
         "Look whether all coordinates are in m.",
     ),
+    "long-sheet": (
+        "A sheet or wire is longer than 5 m.",
+        "Look whether its coordinates are in m, and not in mm.",
+    ),
     "missing-end": (
         "END is missing before a statement of the next block.",
         "Write END in the line before.",
@@ -80,6 +84,10 @@ _RULES: dict[str, tuple[str, str]] = {
     "missing-operand": (
         "A statement needs more operands.",
         "Give all operands that the keyword takes.",
+    ),
+    "nearly-equal-components": (
+        "A difference of rounding chooses the local y axis of an element.",
+        "Give the vector that the axis is towards.",
     ),
     "negative-number": (
         "A quantity that is not negative as a rule is less than zero.",
@@ -149,6 +157,10 @@ _RULES: dict[str, tuple[str, str]] = {
         "A statement has more operands than its keyword takes.",
         "Remove what is too much, or begin a comment with %.",
     ),
+    "thick-section": (
+        "An element is thicker than it is long.",
+        "Look whether its section is in m.",
+    ),
     "two-kinds-of-node": (
         "One node is used as a position and as an orientation.",
         "Give positions and orientations nodes of their own.",
@@ -160,6 +172,14 @@ _RULES: dict[str, tuple[str, str]] = {
     "unknown-keyword": (
         "A word is no keyword of its block.",
         "Correct it, or make the line a comment with %.",
+    ),
+    "unlikely-density": (
+        "A density is that of no solid.",
+        "Give densities in kg/m3, and EM of a beam in kg/m.",
+    ),
+    "unlikely-modulus": (
+        "A modulus of elasticity is that of no solid.",
+        "Give E in Pa, and EA in N.",
     ),
     "unused-node": (
         "A fixed point that no element uses is left out.",
@@ -185,6 +205,7 @@ _RULES: dict[str, tuple[str, str]] = {
     "more-problems": ("There are more problems.", "Mend those that are shown first."),
     "not-analysed": ("The deck could not be analysed.", "The message says what to do."),
     "out-of-memory": ("There is not enough memory.", "Analyse with --method sparse."),
+    "unforeseen": ("Flexact stumbles over the deck.", "Report it, with the deck."),
     "not-written": ("Results could not be written.", "Look at the folder that was named."),
     "failed": ("The deck could not be taken.", "The message says what to do."),
 }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import PurePath
@@ -74,16 +75,21 @@ def _result(finding: Finding, index: int, seen: Counter[str]) -> dict[str, Any]:
         "ruleId": finding.code,
         "ruleIndex": index,
         "level": finding.severity.value,
-        "message": {"text": words},
+        "message": _text(words),
         "locations": [_location(finding, finding.region)],
         "partialFingerprints": {"primaryLocationLineHash": _fingerprint(finding, seen)},
     }
     if finding.related:
         made["relatedLocations"] = [
-            {"id": number, **_location(finding, one.region), "message": {"text": one.message}}
+            {"id": number, **_location(finding, one.region), "message": _text(one.message)}
             for number, one in enumerate(finding.related, start=1)
         ]
     return made
+
+
+def _text(words: str) -> dict[str, str]:
+    """Words as they are: what stands in brackets would be a link (SARIF 2.1.0, 3.11.6)."""
+    return {"text": re.sub(r"([\\\[\]])", r"\\\1", words)}
 
 
 def _location(finding: Finding, region: Region | None) -> dict[str, Any]:

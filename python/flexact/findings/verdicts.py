@@ -12,7 +12,7 @@ from ..result.result import Result
 from ..result.verdict import Verdict
 from ..text.advice import lines_on_motions, lines_on_self_stresses
 from ..text.describe import verdict_in_words
-from ..text.margin import margin_line
+from ..text.margin import but_only, margin_line
 from ..text.motions import internal_in_words, motion_in_parts
 from ..text.naming import counted, counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
@@ -114,7 +114,10 @@ class _Verdict:
         result = self.result
         under = result.under_constrained if code == UNDER else 0
         over = result.over_constrained if code == OVER else 0
-        return f"{counts_in_words(under, over).capitalize()}: {words}"
+        stated = counts_in_words(under, over).capitalize() + but_only(
+            result.margin, result.accuracy
+        )
+        return f"{stated}: {words}"
 
     def _related(self, parts: tuple[Pieces, ...]) -> Iterator[Related]:
         """Of each part its statement, the first of those that have one the place of all."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
+from ..base.partial import attempted
 from ..core.arrays import FloatArray
 from ..drawing import Drawing, Pose, drawing_of
 from ..drawing.movement import scale_of
@@ -140,7 +141,8 @@ class Meshes:
     def still(self, shown: Moving | None = None) -> Mesh:
         """The mesh in the reference configuration."""
         if shown is None and (self.small or self.analysis.under_constrained):
-            chosen = select_motion(self.analysis)
+            # With zeros for what cannot be found the rest is as good.
+            chosen = attempted("", lambda: select_motion(self.analysis), None, None)
             shown = None if chosen is None else chosen.motion
         moved, turned = np.zeros((2, len(self.reference.points) + len(self.symbols.points), 3))
         if shown is not None:

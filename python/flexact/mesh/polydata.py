@@ -46,7 +46,7 @@ def _module(name: str) -> ModuleType:
         return import_module(f"vtkmodules.{name}")
     except ImportError as error:
         raise MeshFormatError(
-            f"mesh format vtp needs the package vtk: pip install 'flexact[vtk]' ({error})"
+            f"mesh format vtp needs the package vtk: pip install vtk ({error})"
         ) from error
 
 

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity, QuantityError
 from ..core.elements import kind_of
 from ..diagnostics.errors import model_error
 from .appearance import CrossSection
@@ -21,7 +22,7 @@ from .part_arguments import part
 from .point_arguments import require_own
 
 #: A diameter, or two sizes [m].
-Section = float | Sequence[float]
+Section = Quantity | Sequence[Quantity]
 
 
 def indices_of(draft: Draft, target: object) -> tuple[int, ...]:
@@ -92,10 +93,10 @@ def shape_of(section: Section | None) -> Shape | None:
     if section is None:
         return None
     what = "a section is a diameter, or two sizes along the local y and z axes"
-    if isinstance(section, Iterable):
-        sizes = _numbers(section, 2, what)
+    if isinstance(section, Iterable) and not isinstance(section, str):
+        sizes = _numbers(section, 2, what, "m")
     else:
-        sizes = _numbers([section], 1, what)
+        sizes = _numbers([section], 1, what, "m")
     if not all(size > 0.0 for size in sizes):
         raise model_error(
             "bad-size", "a size of a cross-section is not positive", "give sizes in metres"
@@ -108,20 +109,27 @@ def sheet_shape(section: Section | None) -> Shape | None:
     """A cross-section from the width and the thickness of a sheet, whose width is local z."""
     if section is None:
         return None
-    width, thickness = _numbers(section, 2, "the section of a sheet is its width and its thickness")
+    what = "the section of a sheet is its width and its thickness"
+    width, thickness = _numbers(section, 2, what, "m")
     return shape_of((thickness, width))
 
 
-def numbers_of_size(given: object, sizes: tuple[int, ...], what: str) -> tuple[float, ...]:
+def numbers_of_size(
+    given: object, sizes: tuple[int, ...], what: str, unit: str = ""
+) -> tuple[float, ...]:
     """Finite numbers, as many as one of `sizes` says; a single one may stand alone.
+
+    With a unit also texts that say theirs, such as "3 mm".
 
     Raises:
         ModelError: they are not.
     """
     single = not isinstance(given, Iterable) or getattr(given, "ndim", 1) == 0
+    single = single or (isinstance(given, str) and bool(unit))
     parts = (given,) if single else several(given, what)
     wanted = len(parts) if len(parts) in sizes else sizes[0]
-    return _numbers(given if isinstance(given, UNORDERED) else parts, wanted, what)
+    given = parts if single or not isinstance(given, UNORDERED) else given
+    return _numbers(given, wanted, what, unit)
 
 
 def size_of(given: object, what: str) -> float:
@@ -130,7 +138,7 @@ def size_of(given: object, what: str) -> float:
     Raises:
         ModelError: it is no finite number.
     """
-    return _numbers([given], 1, f"the {what} is a number")[0]
+    return _numbers([given], 1, f"the {what} is a number", "m")[0]
 
 
 def _colour(given: Sequence[float], what: str) -> Colour:
@@ -161,13 +169,15 @@ def _opacity(given: float) -> float:
     return opacity
 
 
-def _numbers(given: object, wanted: int, what: str) -> tuple[float, ...]:
+def _numbers(given: object, wanted: int, what: str, unit: str = "") -> tuple[float, ...]:
     try:
         if isinstance(given, UNORDERED) or not isinstance(given, Iterable):
             raise TypeError
-        parts = tuple(real(part) for part in given if not isinstance(part, bool))
+        parts = tuple(real(part, unit) for part in given if not isinstance(part, bool))
         if len(parts) != wanted:
             raise ValueError
+    except QuantityError as error:
+        raise model_error("bad-number", f"{what}: {error}") from None
     except (TypeError, ValueError, OverflowError):
         raise model_error("bad-number", f"{what}, not {in_short(given)}") from None
     if not all(map(math.isfinite, parts)):

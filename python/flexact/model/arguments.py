@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from operator import index as whole_number
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity, QuantityError, measured
 from ..diagnostics.errors import model_error
 from .draft import NO_VECTOR, Draft, Vector
 
@@ -18,8 +19,8 @@ Direction = str | Sequence[float]
 _AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
-def vector(given: Sequence[float], what: str) -> Vector:
-    """Three finite numbers.
+def vector(given: Sequence[Quantity], what: str, unit: str = "") -> Vector:
+    """Three finite numbers; with a unit also texts that say theirs, such as "3 mm".
 
     Raises:
         ModelError: they are not.
@@ -27,7 +28,9 @@ def vector(given: Sequence[float], what: str) -> Vector:
     try:
         if isinstance(given, UNORDERED):
             raise TypeError
-        x, y, z = (real(part) for part in given)
+        x, y, z = (real(part, unit) for part in given)
+    except QuantityError as error:
+        raise model_error("bad-number", f"the {what}: {error}") from None
     except (TypeError, ValueError, OverflowError):
         raise model_error("bad-number", f"the {what} must be three numbers") from None
     if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
@@ -35,8 +38,15 @@ def vector(given: Sequence[float], what: str) -> Vector:
     return x, y, z
 
 
-def real(part: object) -> float:
-    """A number, but no text that reads as one."""
+def real(part: object, unit: str = "") -> float:
+    """A number, but no text that reads as one; with a unit also a text that says its own.
+
+    Raises:
+        QuantityError: the text says no unit, or another kind of one.
+        TypeError, ValueError, OverflowError: it is no number.
+    """
+    if isinstance(part, str) and unit:
+        return measured(part, unit)
     if isinstance(part, (str, bytes, bytearray, complex)):
         raise TypeError
     return float(part)  # type: ignore[arg-type]
@@ -71,13 +81,15 @@ def count(given: object, least: int, most: int, what: str) -> int:
 
 
 def angle(given: object) -> float:
-    """An angle in degrees.
+    """An angle in degrees; a text says its unit, such as "0.5 rad".
 
     Raises:
         ModelError: it is no finite number.
     """
     try:
-        made = real(given)
+        made = real(given, "deg")
+    except QuantityError as error:
+        raise model_error("bad-number", str(error)) from None
     except (TypeError, ValueError, OverflowError):
         made = math.nan
     if not math.isfinite(made):
@@ -86,10 +98,10 @@ def angle(given: object) -> float:
 
 
 def text(given: object, what: str) -> str:
-    """A text, such as a name."""
+    """A text, such as a name, as a plain str: a member of an Enum is known to its script alone."""
     if not isinstance(given, str):
         raise model_error("bad-name", f"{what} must be text, not {type(given).__name__}")
-    return given
+    return str.__str__(given)
 
 
 def direction(given: Direction, what: str) -> Vector:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity
 from ..diagnostics.errors import model_error
 from . import arguments
 from . import point_arguments as points
@@ -29,8 +30,8 @@ class BodyMethods(FlexureMethods):
         points: Iterable[Point],
         name: str = "",
         *,
-        mass: float | None = None,
-        inertia: float | Sequence[float] | None = None,
+        mass: Quantity | None = None,
+        inertia: Quantity | Sequence[Quantity] | None = None,
         section: Section | None = None,
     ) -> Body:
         """One rigid body through any points.
@@ -108,11 +109,16 @@ def _members(draft: Draft, given: Iterable[Point]) -> tuple[tuple[Node, ...], li
 
 
 def _name_links(draft: Draft, links: list[Element], name: str, first: Node) -> None:
-    """Name the links of a body, that from its first point first; a single one like the body."""
+    """Name the links of a body, that from its first point first; a single one like the body.
+
+    Those of this name that belong to the same body are counted, too.
+    """
     if not name:
         return
     indices = _from_first(draft, [draft.index_of(link.number) for link in links], first)
-    taken = [i for i in draft.part_indices(name) if i not in indices]
+    components = RigidComponents.of(draft)
+    others = [i for i in draft.part_indices(name) if i not in indices]
+    taken = [i for i in others if components.joined(first, Node(*draft.slots[i][:2], draft.owner))]
     start = len(taken) + 1
     alone = len(indices) == 1 and not taken
     for k, index in enumerate(indices, start):
@@ -137,23 +143,25 @@ def _ends_at(draft: Draft, index: int, node: Node) -> bool:
     return is_plain and draft.slots[index][2:] == (node.position, node.orientation)
 
 
-def _mass(given: float | None) -> tuple[float, ...]:
+def _mass(given: Quantity | None) -> tuple[float, ...]:
     if given is None:
         return ()
-    (value,) = numbers_of_size(given, (1,), "a mass is one number")
+    (value,) = numbers_of_size(given, (1,), "a mass is one number", "kg")
     if value < 0.0:
         raise model_error("bad-size", "a mass is not negative", "give it in kg")
     return (value,)
 
 
-def _inertia(given: float | Sequence[float] | None, planar: bool) -> tuple[float, ...]:
+def _inertia(given: Quantity | Sequence[Quantity] | None, planar: bool) -> tuple[float, ...]:
     """Jxx, Jxy, Jxz, Jyy, Jyz, Jzz, or one J in the plane."""
     if given is None:
         return ()
     if planar:
-        return numbers_of_size(given, (1,), "the moment of inertia in a plane is one number")
+        return numbers_of_size(
+            given, (1,), "the moment of inertia in a plane is one number", "kg m2"
+        )
     what = "moments of inertia are Jxx, Jyy, Jzz, or Jxx, Jxy, Jxz, Jyy, Jyz, Jzz"
-    values = numbers_of_size(given, (3, 6), what)
+    values = numbers_of_size(given, (3, 6), what, "kg m2")
     if len(values) == 3:
         return values[0], 0.0, 0.0, values[1], 0.0, values[2]
     return values

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity
 from ..core.elements import AXES, Class, is_position
 from ..diagnostics.errors import model_error
 from . import arguments
@@ -14,13 +15,13 @@ from .arguments import Direction
 from .copied_names import Names, Naming, is_of_one_body, split
 from .copying import Copy, Copying, turn
 from .draft import Draft, Vector
-from .handles import Assembly, Element, FoldedSheet, Named, Part
+from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .hexapods import HexapodMethods
 from .making import Making, all_or_nothing
 from .names import part_name
 from .part_arguments import PartLike, of_indices
 from .places import ROUNDING, size_of
-from .point_arguments import place, whole_point
+from .point_arguments import Point, existing, place, whole_point
 from .transform import Transform, reflection, rotation, translation
 
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -34,12 +35,12 @@ class CopyMethods(HexapodMethods):
     def insert(
         self,
         model: Making,
-        at: Sequence[float] = _ORIGIN,
+        at: Point = _ORIGIN,
         *,
         axis: Direction = "z",
-        degrees: float = 0.0,
+        degrees: Quantity = 0.0,
         names: Names | None = None,
-        join: bool | float = True,
+        join: bool | Quantity = True,
     ) -> Assembly:
         """Put a copy of another model into this one, turned and then moved.
 
@@ -70,7 +71,7 @@ class CopyMethods(HexapodMethods):
                 "two-kinds-of-model", "one of the models is planar and the other is not"
             )
         turn = rotation(_axis(target, axis), arguments.angle(degrees), _ORIGIN)
-        move = Transform(turn.matrix, _vector(target, at, "place"))
+        move = Transform(turn.matrix, _place(target, at))
         naming = Naming(source, target, names)
         every = list(range(len(source.kinds))), list(source.node_kind)
         copying = Copying(source, *every, target, _tolerance(join, source, target))
@@ -84,12 +85,12 @@ class CopyMethods(HexapodMethods):
         n: int,
         axis: Direction = "z",
         *,
-        at: Sequence[float] = _ORIGIN,
-        degrees: float | None = None,
-        step: Sequence[float] | None = None,
+        at: Point = _ORIGIN,
+        degrees: Quantity | None = None,
+        step: Sequence[Quantity] | None = None,
         parts: Parts | None = None,
         names: Names | None = None,
-        join: bool | float = True,
+        join: bool | Quantity = True,
     ) -> tuple[Assembly, ...]:
         """Repeat parts n times in all, about an axis or, with `step`, in a row.
 
@@ -113,13 +114,13 @@ class CopyMethods(HexapodMethods):
         draft = self._change()
         count = arguments.count(n, 1, _MOST_COPIES, "members of a pattern")
         angle = 360.0 / count if degrees is None else arguments.angle(degrees)
-        centre = _vector(draft, at, "point of the axis")
+        centre = _place(draft, at)
         indices, further = self._chosen(parts)
         naming = Naming(draft, draft, names)
         moves = [
             rotation(_axis(draft, axis), k * angle, centre)
             if step is None
-            else translation(_times(k, _vector(draft, step, "step")))
+            else translation(_times(k, _place(draft, step)))
             for k in range(1, count)
         ]
         made = [Copy({n: n for n in draft.node_kind}, {i: i for i in indices})]
@@ -137,10 +138,10 @@ class CopyMethods(HexapodMethods):
         self,
         plane: Direction,
         *,
-        at: Sequence[float] = _ORIGIN,
+        at: Point = _ORIGIN,
         parts: Parts | None = None,
         names: Names | None = None,
-        join: bool | float = True,
+        join: bool | Quantity = True,
     ) -> Assembly:
         """Add the mirror image of parts in a plane.
 
@@ -157,7 +158,7 @@ class CopyMethods(HexapodMethods):
             The image, with parts and points by the names of the originals.
         """
         draft = self._change()
-        move = reflection(plane, _vector(draft, at, "point of the plane"))
+        move = reflection(plane, _place(draft, at))
         if draft.planar and move.matrix[2] != (0.0, 0.0, 1.0):
             raise model_error("no-coordinate", "a planar model is mirrored in a plane along z")
         indices, further = self._chosen(parts)
@@ -168,7 +169,7 @@ class CopyMethods(HexapodMethods):
             naming.name(made, 2)
         return _assembly(draft, draft, made)
 
-    def rotate(self, axis: Direction, degrees: float, *, at: Sequence[float] = _ORIGIN) -> None:
+    def rotate(self, axis: Direction, degrees: Quantity, *, at: Point = _ORIGIN) -> None:
         """Turn the whole model about an axis through a point.
 
         Args:
@@ -180,9 +181,7 @@ class CopyMethods(HexapodMethods):
             ModelError: a class of single coordinates is not along x, y or z any more.
         """
         draft = self._change()
-        move = rotation(
-            _axis(draft, axis), arguments.angle(degrees), _vector(draft, at, "point of the axis")
-        )
+        move = rotation(_axis(draft, axis), arguments.angle(degrees), _place(draft, at))
         turn(draft, move)
 
     def _chosen(self, parts: Parts | None) -> tuple[list[int], list[int]]:
@@ -201,8 +200,10 @@ def _axis(draft: Draft, axis: Direction) -> Vector:
     return made
 
 
-def _vector(draft: Draft, given: Sequence[float], what: str) -> Vector:
-    """Three numbers [m], or two in a plane."""
+def _place(draft: Draft, given: Point) -> Vector:
+    """Three numbers [m], or two in a plane; or where a point is."""
+    if isinstance(given, (Node, Body, str)):
+        given = draft.node_value[existing(draft, given).position][:3]
     x, y, z = place(draft, given)[:3]
     return x, y, z
 
@@ -211,13 +212,13 @@ def _times(k: int, step: Vector) -> Vector:
     return k * step[0], k * step[1], k * step[2]
 
 
-def _tolerance(join: bool | float, source: Draft, target: Draft) -> float | None:
+def _tolerance(join: bool | Quantity, source: Draft, target: Draft) -> float | None:
     """Within which points are joined [m]; None where none are."""
     if join is False:
         return None
     if join is True:
         return ROUNDING * max(size_of(source), size_of(target))
-    return numbers_of_size(join, (1,), "join is True, False or a distance")[0]
+    return numbers_of_size(join, (1,), "join is True, False or a distance", "m")[0]
 
 
 def _assembly(source: Draft, target: Draft, made: Copy) -> Assembly:

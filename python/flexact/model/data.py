@@ -5,14 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import overload
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray, IntArray, ModelArrays, PackedModel, packed
+from ..core.elements import NodeKind
 from ..core.raw import RawCount, RawFrames
 from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
 from ..diagnostics.errors import DeckError, ModelError
@@ -22,6 +23,7 @@ from .loads import Loads
 from .parts.chains import Chain, chains_of
 from .parts.directions import directions_across
 from .properties import Properties
+from .slips import slips_in
 
 #: As the core says it of a deck.
 _NOTHING = Diagnostic(
@@ -123,7 +125,8 @@ class ModelData(Frozen):
         if not self.arrays.element_number.size:
             return Problems.of([_NOTHING])
         found = problems_of(calls.check_model(self.packed, *self._names_as_text()))
-        return found.and_also(self.besides)
+        found = found.and_also(self.besides)
+        return found if found.errors else found.and_also(tuple(slips_in(self)))
 
     def _names_as_text(self) -> tuple[bytes, IntArray]:
         """All names in one text, and first and last place of each, from 1; 0 without one."""
@@ -156,9 +159,17 @@ class ModelData(Frozen):
         return {number: i for i, number in enumerate(self.arrays.element_number.tolist())}
 
     @cached_property
+    def size(self) -> float:
+        """The diagonal of the box about its positions [m]; 1 without extent."""
+        places = self.arrays.node_value[:3, self.arrays.node_kind <= NodeKind.POSITION]
+        if not places.size:
+            return 1.0
+        return float(np.linalg.norm(np.ptp(places, axis=1))) or 1.0
+
+    @cached_property
     def chains(self) -> tuple[Chain, ...]:
         """Rows of beams that are one sheet or wire each."""
-        return chains_of(self.arrays, self.element_names)
+        return chains_of(self.arrays, self.element_names, lambda: self.frames.frame)
 
     @cached_property
     def count(self) -> RawCount:

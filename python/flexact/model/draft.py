@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
@@ -143,7 +144,12 @@ class Draft(Lookup):
         released: Iterable[int] = (),
         shape: Shape | None = None,
     ) -> int:
-        """Add an element and return its number; `released` are part of what it is."""
+        """Add an element and return its number; `released` are part of what it is.
+
+        Raises:
+            ModelError: both ends are one point, or at one place.
+        """
+        self.require_two_ends(slots)
         index = len(self.kinds)
         classes = _classes(kind.deformations, tuple(released))
         number = self.append_element(kind.number, slots, vector, classes)
@@ -152,6 +158,30 @@ class Draft(Lookup):
         if shape is not None:
             self.appearance.give([index], {"shape": shape})
         return number
+
+    def require_two_ends(self, slots: tuple[int, int, int, int]) -> None:
+        """Raise unless an element between these nodes has two ends, at two places.
+
+        Raises:
+            ModelError: it has not.
+        """
+        p, op, q, oq = slots
+        if p and p == q:
+            raise model_error(
+                "same-node",
+                f"both ends are {self.node_words(p)}",
+                "give two points; two that turn apart at one place are joined by a hinge",
+            )
+        if op and op == oq:
+            raise model_error(
+                "same-node", f"both ends turn with node {op}", "give two points, or leave out q"
+            )
+        if p and q and self.node_value[p] == self.node_value[q]:
+            raise model_error(
+                "zero-length",
+                f"both ends, {self.node_words(p)} and {self.node_words(q)}, are at one place",
+                "give the two points different places",
+            )
 
     def append_element(
         self, kind: int, slots: tuple[int, int, int, int], vector: Vector, classes: tuple[int, ...]
@@ -269,7 +299,7 @@ class Draft(Lookup):
             names,
             node_names,
             found=self._wrong(in_vain),
-            besides=tuple(self._left_over(in_use)),
+            besides=(*self._left_over(in_use), *self._same_names()),
             given_appearance=self.appearance.freeze(len(self.kinds)),
             properties=self.properties.freeze(len(self.kinds), numbers),
             loads=self.loads.freeze(numbers),
@@ -345,6 +375,34 @@ class Draft(Lookup):
                 f"{self._listed(loads)} is given a load, but no element uses it",
                 "give it to a node that an element uses",
             )
+
+    def _same_names(self) -> Iterator[Diagnostic]:
+        """Warnings about parts of one name that hang together, so that the core sees one part.
+
+        Names in a deck are comments of its lines, which may be alike; twins are told as such.
+        """
+        for name, found in self.parts_by_name.items():
+            twins = len({self.slots[index] for index in found}) < len(found)
+            if found[-1] < self.elements_given or twins or not self.shares(found):
+                continue
+            if self._is_one(found):
+                yield Diagnostic(
+                    Severity.WARNING,
+                    "repeated-name",
+                    f"several parts that hang together are called {in_short(name)}",
+                    help="give each a name of its own: this one finds none of them",
+                )
+
+    def _is_one(self, indices: Sequence[int]) -> bool:
+        """Whether elements hang together by their nodes."""
+        left, nodes = list(indices[1:]), {*self.slots[indices[0]]} - {0}
+        grown = True
+        while left and grown:
+            near = [index for index in left if not nodes.isdisjoint(self.slots[index])]
+            grown = bool(near)
+            nodes.update(node for index in near for node in self.slots[index] if node)
+            left = [index for index in left if index not in near]
+        return not left
 
     def _listed(self, numbers: Sequence[int]) -> str:
         """Nodes by name, or by number where they have none; of many the first."""

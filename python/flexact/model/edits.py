@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ..base.quantities import Quantity
 from ..core.elements import element_kinds
 from ..diagnostics.errors import model_error
 from . import appearance_arguments as appearance
@@ -32,7 +33,7 @@ class EditMethods(Making):
         """
         return part(self._change(), name)
 
-    def move(self, point: Point, to: Sequence[float]) -> None:
+    def move(self, point: Point, to: Sequence[Quantity]) -> None:
         """Move a point to another place [m]; what ends there ends at the new place.
 
         A width or axis that was given stays as it is, and inner points of divided flexures
@@ -56,10 +57,10 @@ class EditMethods(Making):
         draft = self._change()
         with call("rename", target):
             if self._names_part(target):
+                name = arguments.text(name, "the name of a part")
                 leaves = target.leaves if isinstance(target, FoldedSheet) else (target,)
                 for k, leaf in enumerate(leaves, 1):
                     own = name if len(leaves) == 1 else f"{name}, leaf {k}"
-                    arguments.text(name, "the name of a part")
                     for index in indices_of(draft, part(draft, leaf)):
                         draft.name_element(index, renamed(draft.names.get(index, ""), own))
             else:
@@ -87,8 +88,8 @@ class EditMethods(Making):
         material: MaterialLike | None = None,
         *,
         section: Section | None = None,
-        thickness: float | None = None,
-        breadth: float | None = None,
+        thickness: Quantity | None = None,
+        breadth: Quantity | None = None,
         warping: bool | float = False,
     ) -> None:
         """Say what flexures are made of: section and material of parts that are there.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..base.quantities import Quantity
 from ..core.elements import Class
 from ..diagnostics.errors import model_error
 from . import arguments, sections
@@ -31,7 +32,7 @@ class ElementMethods(PointMethods):
         name: str = "",
         *,
         section: Section | None = None,
-        thickness: float | None = None,
+        thickness: Quantity | None = None,
         material: MaterialLike | None = None,
     ) -> Element:
         """A bar: its elongation is held. A number stands for a position node.
@@ -111,7 +112,7 @@ class ElementMethods(PointMethods):
         name: str = "",
         independent: bool = False,
         *,
-        stiffness: float | Sequence[float] | None = None,
+        stiffness: Quantity | Sequence[Quantity] | None = None,
     ) -> Node:
         """A hinge at p: the rotation about the axis is released, the others are held.
 
@@ -139,7 +140,7 @@ class ElementMethods(PointMethods):
         name: str = "",
         *,
         independent: bool = False,
-        stiffness: float | Sequence[float] | None = None,
+        stiffness: Quantity | Sequence[Quantity] | None = None,
     ) -> Notch:
         """A notch at p: all is held but the bending about its axis.
 
@@ -160,7 +161,7 @@ class ElementMethods(PointMethods):
         q: Node | None,
         name: str,
         independent: bool,
-        stiffness: float | Sequence[float] | None,
+        stiffness: Quantity | Sequence[Quantity] | None,
     ) -> Notch:
         draft = self._change()
         name = arguments.text(name, "the name of an element")
@@ -210,12 +211,14 @@ class ElementMethods(PointMethods):
         return Element(number, self._owner)
 
 
-def _of_hinge(stiffness: float | Sequence[float] | None, planar: bool) -> tuple[float, ...] | None:
+def _of_hinge(
+    stiffness: Quantity | Sequence[Quantity] | None, planar: bool
+) -> tuple[float, ...] | None:
     """ESTIFF of a hinge; None where nothing is given."""
     if stiffness is None:
         return None
     what = "the stiffness of a hinge is one number" + ("" if planar else ", or three")
-    made = numbers_of_size(stiffness, (1,) if planar else (1, 3), what)
+    made = numbers_of_size(stiffness, (1,) if planar else (1, 3), what, "N m/rad")
     if min(made) < 0.0:
         raise model_error("bad-size", "a stiffness is not negative", "give it in N m/rad")
     return made

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ..base.quantities import Quantity
 from . import arguments, sections
 from . import point_arguments as points
 from .appearance_arguments import Section
@@ -32,7 +33,7 @@ class FlexureMethods(ElementMethods):
         *,
         beams: int = 1,
         section: Section | None = None,
-        thickness: float | None = None,
+        thickness: Quantity | None = None,
         material: MaterialLike | None = None,
     ) -> Wire:
         """A wire flexure: its elongation is held, torsion and bending are released.
@@ -43,7 +44,7 @@ class FlexureMethods(ElementMethods):
             y: Initial direction of the local y axis.
             name: What the wire is called.
             beams: Into how many equal beams it is divided. The inner deformations are
-                declared independent, so that the counts are those of one beam.
+                declared independent, so that the verdict is that of one beam.
             section: How it is drawn, see `look`: as a rule the diameter [m].
             thickness: The diameter [m], instead of `section`.
             material: "steel", "titanium" or another name of `MATERIALS`, a
@@ -68,9 +69,9 @@ class FlexureMethods(ElementMethods):
         beams: int = 1,
         name: str = "",
         *,
-        section: Sequence[float] | None = None,
-        thickness: float | None = None,
-        breadth: float | None = None,
+        section: Sequence[Quantity] | None = None,
+        thickness: Quantity | None = None,
+        breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
     ) -> Sheet:
@@ -85,7 +86,7 @@ class FlexureMethods(ElementMethods):
             width: Direction of the width, from edge to edge: a vector, or "x", "y", "z". A
                 planar model sees the sheet from its side and takes no width.
             beams: Into how many equal beams the sheet is divided. The inner deformations
-                are declared independent, so that the counts are those of one beam.
+                are declared independent, so that the verdict is that of one beam.
             name: What the sheet is called.
             section: Breadth (along the width) and thickness [m].
             thickness: The thickness [m], instead of `section`.
@@ -103,9 +104,9 @@ class FlexureMethods(ElementMethods):
 
     def _sheet_make(
         self,
-        section: Sequence[float] | None,
-        thickness: float | None,
-        breadth: float | None,
+        section: Sequence[Quantity] | None,
+        thickness: Quantity | None,
+        breadth: Quantity | None,
         material: MaterialLike | None,
     ) -> Make:
         shape = sections.sheet_section(section, thickness, breadth)
@@ -143,6 +144,7 @@ class FlexureMethods(ElementMethods):
         draft = self._change()
         name = arguments.text(name, "the name of an element")
         ends = points.point(draft, p), points.point(draft, q)
+        draft.require_two_ends((ends[0].position, 0, ends[1].position, 0))
         inner = between(draft, *ends, beams)
         nodes = (ends[0], *(self.node(each) for each in inner), ends[1])
         names = [f"{name}, {i + 1}" if name and beams > 1 else name for i in range(beams)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..base.quantities import Quantity
 from ..diagnostics.errors import model_error
 from . import arguments
 from . import point_arguments as points
@@ -31,9 +32,9 @@ class FoldedSheetMethods(BodyMethods, ClassMethods):
         name: str = "",
         *,
         beams: int = 1,
-        section: Sequence[float] | None = None,
-        thickness: float | None = None,
-        breadth: float | None = None,
+        section: Sequence[Quantity] | None = None,
+        thickness: Quantity | None = None,
+        breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
     ) -> FoldedSheet:

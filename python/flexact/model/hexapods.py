@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from ..base.quantities import Quantity
 from ..diagnostics.errors import model_error
 from . import arguments
 from . import point_arguments as points
@@ -24,19 +25,19 @@ class HexapodMethods(SheetAssemblyMethods):
 
     def hexapod(
         self,
-        base: float | Iterable[Point],
-        platform: float | Iterable[Point],
-        height: float | None = None,
+        base: Quantity | Iterable[Point],
+        platform: Quantity | Iterable[Point],
+        height: Quantity | None = None,
         name: str = "",
         *,
-        spread: float | Sequence[float] = 0.0,
-        at: Sequence[float] = (0.0, 0.0, 0.0),
+        spread: Quantity | Sequence[Quantity] = 0.0,
+        at: Sequence[Quantity] = (0.0, 0.0, 0.0),
         carries: Iterable[Point] = (),
-        mass: float | None = None,
-        inertia: float | Sequence[float] | None = None,
+        mass: Quantity | None = None,
+        inertia: Quantity | Sequence[Quantity] | None = None,
         beams: int = 1,
-        section: float | Sequence[float] | None = None,
-        thickness: float | None = None,
+        section: Quantity | Sequence[Quantity] | None = None,
+        thickness: Quantity | None = None,
         material: MaterialLike | None = None,
     ) -> Assembly:
         """A hexapod: six wires that hold a platform once in each of its six motions.
@@ -67,12 +68,14 @@ class HexapodMethods(SheetAssemblyMethods):
         draft = self._change()
         with call("hexapod", name):
             name = arguments.text(name, "the name of a hexapod")
-            if isinstance(base, Iterable) or isinstance(platform, Iterable):
-                if not (isinstance(base, Iterable) and isinstance(platform, Iterable)):
+            sides = (base, platform)
+            of_points = [s for s in sides if isinstance(s, Iterable) and not isinstance(s, str)]
+            if of_points:
+                if len(of_points) < 2:
                     raise model_error(
                         "bad-number", "a hexapod has two radii, or points of both sides"
                     )
-                near, far = _six(draft, base, 0), _six(draft, platform, 1)
+                near, far = _six(draft, of_points[0], 0), _six(draft, of_points[1], 1)
             else:
                 near, far = _zigzag(base, platform, height, spread, at)
             ends = [[points.point(draft, each) for each in side] for side in (near, far)]
@@ -110,18 +113,18 @@ def _six(draft: Draft, given: object, start: int) -> list[Point]:
 
 
 def _zigzag(
-    base: object, platform: object, height: object, spread: object, at: Sequence[float]
+    base: object, platform: object, height: object, spread: object, at: Sequence[Quantity]
 ) -> tuple[list[Point], list[Point]]:
     """Ends of the six wires: at 0, 120, 240 degrees below, at 60, 180, 300 degrees above."""
     if height is None:
         raise model_error("bad-number", "a hexapod of two radii needs its height")
     what = "a radius or the height of a hexapod is a number"
-    r, s, h = (numbers_of_size(each, (1,), what)[0] for each in (base, platform, height))
+    r, s, h = (numbers_of_size(each, (1,), what, "m")[0] for each in (base, platform, height))
     if r <= 0.0 or s <= 0.0:
         raise model_error("bad-size", "a radius of a hexapod is not positive")
-    angles = numbers_of_size(spread, (1, 2), "the spread of a hexapod is one angle or two")
+    angles = numbers_of_size(spread, (1, 2), "the spread of a hexapod is one angle or two", "deg")
     beta, gamma = angles[0] / 2.0, angles[-1] / 2.0
-    centre = arguments.vector(at, "centre of the base")
+    centre = arguments.vector(at, "centre of the base", "m")
     top = centre[0], centre[1], centre[2] + h
     near: list[Point] = [
         on_circle(centre, r, 120.0 * (k // 2) + (beta if k % 2 else -beta))

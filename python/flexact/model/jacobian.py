@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..base.cached import cached_property
 from ..base.errors import require_kind
 from ..base.frozen import Frozen
 from ..core import calls

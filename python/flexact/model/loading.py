@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..base.quantities import Quantity
 from ..core.elements import NodeKind, is_position
 from ..diagnostics.errors import model_error
 from . import arguments
@@ -20,9 +21,9 @@ class LoadMethods(Making):
     def force(
         self,
         point: Point | int,
-        x: float | Sequence[float],
-        y: float | None = None,
-        z: float | None = None,
+        x: Quantity | Sequence[Quantity],
+        y: Quantity | None = None,
+        z: Quantity | None = None,
         *,
         increment: bool = False,
     ) -> None:
@@ -41,15 +42,15 @@ class LoadMethods(Making):
         draft = self._change()
         with call("force", point):
             number = _node(draft, point, wants_position=True)
-            said = _vector(draft, x, y, z, "force")
+            said = _vector(draft, x, y, z, "force", "N")
         (draft.loads.increment if increment else draft.loads.force)[number] = said
 
     def moment(
         self,
         point: Point | int,
-        x: float | Sequence[float],
-        y: float | None = None,
-        z: float | None = None,
+        x: Quantity | Sequence[Quantity],
+        y: Quantity | None = None,
+        z: Quantity | None = None,
         *,
         increment: bool = False,
     ) -> None:
@@ -73,11 +74,11 @@ class LoadMethods(Making):
             if draft.node_kind[number] == NodeKind.ANGLE:
                 said = (0.0, 0.0, _single(x, y, z))
             else:
-                said = _vector(draft, x, y, z, "moment")
+                said = _vector(draft, x, y, z, "moment", "N m")
         (draft.loads.increment if increment else draft.loads.force)[number] = said
 
     def gravity(
-        self, x: float | Sequence[float], y: float | None = None, z: float | None = None
+        self, x: Quantity | Sequence[Quantity], y: Quantity | None = None, z: Quantity | None = None
     ) -> None:
         """Give the acceleration of free fall [m/s2]: GRAVITY in a deck.
 
@@ -93,7 +94,7 @@ class LoadMethods(Making):
         """
         draft = self._change()
         with call("gravity", ""):
-            said = _vector(draft, x, y, z, "acceleration")
+            said = _vector(draft, x, y, z, "acceleration", "m/s2")
         draft.loads.gravity = said
 
 
@@ -110,21 +111,21 @@ def _node(draft: Draft, point: object, wants_position: bool) -> int:
 
 
 def _vector(
-    draft: Draft, x: object, y: float | None, z: float | None, what: str
+    draft: Draft, x: object, y: Quantity | None, z: Quantity | None, what: str, unit: str
 ) -> tuple[float, float, float]:
     """Three numbers; the last may be missing, and in a plane must be nothing."""
     given = arguments.several(x, f"the components of a {what}") if y is None and z is None else ()
     given = given or (x, y, 0.0 if z is None else z)
     if len(given) == 2:
         given = (*given, 0.0)
-    made = arguments.vector(given, what)  # type: ignore[arg-type]
+    made = arguments.vector(given, what, unit)  # type: ignore[arg-type]
     if draft.planar and made[2]:
         raise model_error("bad-number", f"the {what} has a z component in a planar model")
     return made
 
 
-def _single(x: object, y: float | None, z: float | None) -> float:
+def _single(x: object, y: Quantity | None, z: Quantity | None) -> float:
     given = (x, y, z) if y is not None or z is not None else (0.0, 0.0, x)
     if any(given[:2]):
         raise model_error("bad-number", "a planar moment is one number, that about z")
-    return arguments.vector((0.0, 0.0, given[2]), "moment")[2]  # type: ignore[arg-type]
+    return arguments.vector((0.0, 0.0, given[2]), "moment", "N m")[2]  # type: ignore[arg-type]

@@ -87,6 +87,16 @@ class Lookup:
                 self._of_name.setdefault(name, []).append(number)
         return self._of_name
 
+    def shares(self, indices: list[int]) -> bool:
+        """Whether elements of one part's name are those of several parts.
+
+        Those of one part are numbered behind its name, or there is a single one.
+        """
+        if len(indices) < 2:
+            return False
+        own = {self.names[index] for index in indices}
+        return len(own) < len(indices) or any(name == part_name(name) for name in own)
+
     def name_node(self, number: int, name: str) -> None:
         """Name a node, or with an empty name take its name away."""
         if number in self.node_names:

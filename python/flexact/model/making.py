@@ -22,8 +22,18 @@ from .handles import Owner
 class Making:
     """A model in the making."""
 
-    def __init__(self, *, planar: bool = False, name: str = "") -> None:
-        """Start an empty model."""
+    def __init__(self, *unnamed: object, planar: bool = False, name: str = "") -> None:
+        """Start an empty model.
+
+        Raises:
+            TypeError: something is given without its name.
+        """
+        if unnamed:
+            given = in_short(unnamed[0])
+            raise TypeError(
+                f"what a Model begins with is named: Model(name={given}), planar=True; the model "
+                f"of a deck is flexact.read({given})"
+            )
         self._start(bool(planar), arguments.text(name, "the name of a model"))
 
     def _start(self, planar: bool, name: str) -> None:

@@ -8,20 +8,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity, QuantityError
 from ..diagnostics.errors import model_error
 from .arguments import real
 from .names import nearest
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, init=False)
 class Material:
     """An isotropic linear elastic material.
 
     Attributes:
         name: What it is called.
-        E: Young's modulus [Pa].
-        G: Shear modulus [Pa].
-        density: Mass per volume [kg/m3]; 0 leaves masses out.
+        E: Young's modulus [Pa]; given as a number or as a text with its unit, "210 GPa".
+        G: Shear modulus [Pa], likewise.
+        density: Mass per volume [kg/m3], likewise; 0 leaves masses out.
 
     Raises:
         ModelError: a modulus is not positive and finite, or the density is negative.
@@ -32,11 +33,16 @@ class Material:
     G: float
     density: float = 0.0
 
-    def __post_init__(self) -> None:
+    def __init__(self, name: str, E: Quantity, G: Quantity, density: Quantity = 0.0) -> None:  # noqa: N803
         """Check the values."""
-        for what, value in (("E", self.E), ("G", self.G), ("density", self.density)):
+        object.__setattr__(self, "name", name)
+        for what, value in (("E", E), ("G", G), ("density", density)):
             try:
-                number = real(value)
+                number = real(value, "kg/m3" if what == "density" else "Pa")
+            except QuantityError as error:
+                raise model_error(
+                    "bad-material", f"{what} of the material {in_short(self.name)}: {error}"
+                ) from None
             except (TypeError, ValueError, OverflowError):
                 number = math.nan
             if not (math.isfinite(number) and number >= 0.0 and (number or what == "density")):
@@ -67,7 +73,7 @@ MATERIALS: Mapping[str, Material] = {
 _SPELLINGS = {"aluminum": "aluminium", "ti-6al-4v": "titanium"}
 
 #: What stands for a material: itself, the name of a common one, or E, G and density by name.
-MaterialLike = Material | str | Mapping[str, float]
+MaterialLike = Material | str | Mapping[str, Quantity]
 
 
 def material_of(given: MaterialLike) -> Material:

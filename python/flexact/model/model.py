@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -17,7 +19,10 @@ from .builder import Builder
 from .configuration import Configuration
 from .data import ModelData
 from .deck_text import deck_of
+from .handles import Body, Element, Node, Part
+from .part_arguments import PartLike
 from .parts.declaring import surplus_of
+from .point_arguments import Point
 from .variation import held_given, positions_given, with_held, with_positions
 
 
@@ -155,30 +160,39 @@ class Model(Builder):
         """(nodes,) names, empty where a node has none; that of a point is its position's."""
         return tuple(self.data.node_names)
 
-    def node_index(self, number: int) -> int:
+    def node_index(self, number: Point | int) -> int:
         """Where a node stands in what is given by node, such as `Motion.displacement`.
 
         Args:
-            number: Such as `Node.position` or `Node.orientation`.
+            number: Such as `Node.position` or `Node.orientation`; or a point, by its name, place or
+                handle, whose position node is meant.
 
         Raises:
-            ModelError: no element uses a node of this number.
+            ModelError: no element uses a node of this number, or there is no such point.
         """
+        if isinstance(number, (Node, Body, str, Iterable)):
+            number = self.point(number).position
         number = whole(number, "a node is given by its number")
         index = self.data.node_index.get(number)
         if index is None:
             raise model_error("no-such-node", f"no element uses a node {in_short(number)}")
         return index
 
-    def element_index(self, number: int) -> int:
+    def element_index(self, number: PartLike) -> int:
         """Where an element stands in what is given by element, such as `SelfStress.moments`.
 
         Args:
-            number: Such as `Element.number`.
+            number: Such as `Element.number`; or a part of one element, by its name or handle.
 
         Raises:
-            ModelError: there is no such element.
+            ModelError: there is no such element, or the part has several.
         """
+        if isinstance(number, (Element, Part, str)):
+            made = self.part(number)
+            if len(made.elements) != 1:
+                many = f"{in_short(made.name)} has {len(made.elements)} elements"
+                raise model_error("several-elements", many, "give the number of one of them")
+            number = made.elements[0].number
         number = whole(number, "an element is given by its number")
         index = self.data.element_index.get(number)
         if index is None:

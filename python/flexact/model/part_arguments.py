@@ -67,11 +67,8 @@ def named(draft: Draft, name: str) -> Part | Element:
                 "name a part",
             )
         raise unknown("no-such-part", "part", name, draft.parts_by_name)
-    exact = [i for i in indices if draft.names[i] == name]
-    if len(exact) > 1 or (exact and len(indices) > 1):
-        raise ambiguous("part", name)
     made = of_indices(draft, indices)
-    if isinstance(made, Element) and len(indices) > 1:
+    if draft.shares(indices) or (isinstance(made, Element) and len(indices) > 1):
         raise ambiguous("part", name)
     return made
 

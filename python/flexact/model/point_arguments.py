@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity
 from ..core.elements import Class, Member, NodeKind, is_position, member_table
 from ..diagnostics.errors import model_error
 from .arguments import UNORDERED, several, text, vector, whole
@@ -15,7 +16,7 @@ from .lookup import one_line
 from .names import COORDINATES, ambiguous, own_number, unknown
 
 #: A point: its handle, its name, its place [m], or a body, which stands for its first point.
-Point = Node | Body | str | Sequence[float]
+Point = Node | Body | str | Sequence[Quantity]
 
 
 def require_own(draft: Draft, handle: Node | Element | Part, what: str = "node") -> None:
@@ -104,7 +105,7 @@ def in_order(draft: Draft, indices: Iterable[int]) -> list[int]:
     return sorted(indices, key=lambda index: (own_number(draft.names.get(index, "")), index))
 
 
-def at_place(draft: Draft, given: Iterable[float]) -> Node:
+def at_place(draft: Draft, given: Iterable[Quantity]) -> Node:
     """The first point at this place, within 1e-9 of the model's size, or a new one.
 
     Raises:
@@ -115,7 +116,7 @@ def at_place(draft: Draft, given: Iterable[float]) -> Node:
     return whole_point(draft, found[0]) if found else add_point(draft, value)
 
 
-def place(draft: Draft, given: Iterable[float]) -> tuple[float, float, float, float]:
+def place(draft: Draft, given: Iterable[Quantity]) -> tuple[float, float, float, float]:
     """The values of a position node at a place of three numbers, or of two where z is zero.
 
     Raises:
@@ -129,7 +130,7 @@ def place(draft: Draft, given: Iterable[float]) -> tuple[float, float, float, fl
             parts = ()
         if len(parts) == 2:
             parts = (*parts, 0.0)
-    x, y, z = vector(parts, "position")  # type: ignore[arg-type]
+    x, y, z = vector(parts, "position", "m")  # type: ignore[arg-type]
     if draft.planar and z != 0.0:
         raise model_error("no-coordinate", "a planar model has no coordinate z")
     return x, y, z, 0.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..base.quantities import Quantity
 from . import point_arguments as points
 from .handles import Node
 from .making import Making, call
@@ -16,9 +17,9 @@ class PointMethods(Making):
 
     def node(
         self,
-        x: float | Sequence[float],
-        y: float | None = None,
-        z: float | None = None,
+        x: Quantity | Sequence[Quantity],
+        y: Quantity | None = None,
+        z: Quantity | None = None,
         *,
         name: str = "",
     ) -> Node:

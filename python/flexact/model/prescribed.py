@@ -14,9 +14,9 @@ from ..core.elements import Class, NodeKind
 from .data import ModelData
 from .deck_text import FIRST_COMPONENT
 
-#: The end of the kinematics, and its statements of inputs up to their comments.
+#: The end of the kinematics, and a statement of a class up to its comment.
 _END = re.compile(rb"^[ \t\r\f\v]*END(?=[\s%#]|\Z)", re.MULTILINE | re.IGNORECASE)
-_INPUTS = re.compile(rb"^[ \t\r\f\v]*INPUT([XE])[ \t\f\v]([^%#\n]*)", re.MULTILINE | re.IGNORECASE)
+_STATEMENT = rb"^[ \t\r\f\v]*%s([XE])[ \t\f\v]([^%%#\n]*)"
 
 
 class Prescribed(NamedTuple):
@@ -42,7 +42,7 @@ def prescribed_in(data: ModelData) -> Prescribed:
         np.zeros(arrays.coordinate_class.shape, np.bool_),
         np.zeros(arrays.deformation_class.shape, np.bool_),
     )
-    for letter, number, components in _statements(data):
+    for letter, number, components in class_statements(data, b"INPUT"):
         if letter == b"X":
             if (node := data.node_index.get(number)) is None:
                 # Of warping, which a model does not have.
@@ -61,13 +61,22 @@ def _independent(classes: IntArray) -> BoolArray:
     return np.asarray(classes == Class.INDEPENDENT)
 
 
-def _statements(data: ModelData) -> Iterator[tuple[bytes, int, list[int]]]:
-    """X or E, node or element, and components of each statement of inputs."""
+def class_statements(data: ModelData, word: bytes) -> Iterator[tuple[bytes, int, list[int]]]:
+    """The statements of a class in a deck's kinematics, as it has them.
+
+    Args:
+        data: A model; one that was made in Python has none.
+        word: b"DYN" or b"INPUT".
+
+    Yields:
+        X or E, node or element, and components.
+    """
     if data.source is None:
         return
     text = data.source.text
     end = _END.search(text)
-    for found in _INPUTS.finditer(text, 0, len(text) if end is None else end.start()):
+    statement = re.compile(_STATEMENT % word, re.MULTILINE | re.IGNORECASE)
+    for found in statement.finditer(text, 0, len(text) if end is None else end.start()):
         number, *components = map(int, found[2].split())
         yield found[1].upper(), number, components
 

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from ..base.quantities import Quantity
 from ..core.elements import Member, NodeKind
 from ..core.raw import ElementKind
 from ..diagnostics.errors import model_error
@@ -93,7 +94,7 @@ _SIZES = {
 
 
 def sheet_section(
-    section: Sequence[float] | None, thickness: float | None, breadth: float | None
+    section: Sequence[Quantity] | None, thickness: Quantity | None, breadth: Quantity | None
 ) -> Shape | None:
     """The section of a sheet, whose breadth is along local z.
 
@@ -115,7 +116,7 @@ def sheet_section(
     return sheet_shape((size_of(breadth, "breadth"), size_of(thickness, "thickness")))
 
 
-def round_section(section: Section | None, thickness: float | None) -> Shape | None:
+def round_section(section: Section | None, thickness: Quantity | None) -> Shape | None:
     """The section of a wire or bar; its thickness is the diameter.
 
     Raises:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TypedDict
 
+from ..base.quantities import Quantity
 from ..diagnostics.errors import model_error
 from . import arguments
 from . import point_arguments as points
@@ -34,12 +35,12 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         name: str = "",
         *,
         carries: Iterable[Point] = (),
-        mass: float | None = None,
-        inertia: float | Sequence[float] | None = None,
+        mass: Quantity | None = None,
+        inertia: Quantity | Sequence[Quantity] | None = None,
         beams: int = 1,
-        section: Sequence[float] | None = None,
-        thickness: float | None = None,
-        breadth: float | None = None,
+        section: Sequence[Quantity] | None = None,
+        thickness: Quantity | None = None,
+        breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
     ) -> Assembly:
@@ -99,18 +100,18 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         self,
         p: Point,
         q: Point,
-        offset: Sequence[float],
+        offset: Sequence[Quantity],
         width: Direction | None = None,
         name: str = "",
         *,
         sheets: int = 2,
         carries: Iterable[Point] = (),
-        mass: float | None = None,
-        inertia: float | Sequence[float] | None = None,
+        mass: Quantity | None = None,
+        inertia: Quantity | Sequence[Quantity] | None = None,
         beams: int = 1,
-        section: Sequence[float] | None = None,
-        thickness: float | None = None,
-        breadth: float | None = None,
+        section: Sequence[Quantity] | None = None,
+        thickness: Quantity | None = None,
+        breadth: Quantity | None = None,
         material: MaterialLike | None = None,
         warping: bool | float = False,
     ) -> Assembly:
@@ -170,8 +171,8 @@ class SheetAssemblyMethods(FoldedSheetMethods):
         carries: Iterable[Point],
         beams: int,
         sheets: _Sheets,
-        mass: float | None,
-        inertia: float | Sequence[float] | None,
+        mass: Quantity | None,
+        inertia: Quantity | Sequence[Quantity] | None,
     ) -> Assembly:
         """Sheets between two rows of points, and the body that carries the far ones."""
         naming = AssemblyNames(self._change(), arguments.text(name, "the name of an assembly"))
@@ -188,9 +189,9 @@ class SheetAssemblyMethods(FoldedSheetMethods):
 class _Sheets(TypedDict):
     """What the sheets of an assembly are made of."""
 
-    section: Sequence[float] | None
-    thickness: float | None
-    breadth: float | None
+    section: Sequence[Quantity] | None
+    thickness: Quantity | None
+    breadth: Quantity | None
     material: MaterialLike | None
     warping: bool | float
 

@@ -7,7 +7,7 @@ from collections import Counter
 
 import numpy as np
 
-from ..base.errors import FlexactError
+from ..base.partial import why
 from ..core.elements import Class, NodeKind
 from ..diagnostics.errors import ProblemsError
 from ..model.data import ModelData
@@ -67,7 +67,9 @@ def _picture(data: ModelData) -> str:
         return ""
     try:
         content = model_bytes(data, ".png", size=WHOLE)
-    except (FlexactError, MemoryError, ValueError, ArithmeticError):
+    except Exception as error:
         # A model that is not sound may have no drawing.
+        if not data.problems.errors:
+            why(error)
         return ""
     return shown(content, WHOLE, "the model in its reference shape")

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
+from ..base.partial import attempted
 from ..page.markup import text
 from ..result.modes import Modes, Motion, SelfStress
 from ..result.result import Result
@@ -32,11 +34,17 @@ def _table(analysis: Result, moves: bool, modes: Sequence[Motion | SelfStress], 
     what = "motion" if moves else "self-stress"
     if not count:
         return f"<p>No {what}{'s' if moves else 'es'}.</p>"
-    rows = [_row(analysis, mode) for mode in modes]
+    missing: list[str] = []
+    rows = [
+        row
+        for k, mode in enumerate(modes, start=1)
+        if (row := attempted(f"Row {k}", partial(_row, analysis, mode), None, missing))
+    ]
     heads = ("", "", "what moves, and how" if moves else "what is stressed, and with what")
     note = "Relative values: only their ratios matter."
     if count > len(rows):
         note += f" Of {count} the first {len(rows)} are shown."
+    note += "".join(f" {each}" for each in missing)
     if len(modes) > 1:
         note += " They are one basis of many: any combination of them is also one."
     return f"{table(heads, rows)}<p><small>{text(note)}</small></p>"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from html import escape
 
+from ..base.partial import attempted
 from ..page.content import content_of
 from ..page.markup import text
 from ..result.result import Result
@@ -37,7 +38,7 @@ def _light(analysis: Result) -> str:
     head = f"<b>{text(words)}</b>"
     line = f"border-left:5px solid {analysis.colour};padding-left:10px"
     margin = text(margin_in_short(analysis).capitalize())
-    told = escape(describe(analysis, most=MOST_MODES))
+    told = escape(attempted("", lambda: describe(analysis, most=MOST_MODES), words, None))
     return (
         f"<div><p style='{line}'>{name}{head} {margin}.</p>{still(analysis, WHOLE, words)}"
         f"<details><summary>In words</summary><pre>{told}</pre></details>"

@@ -6,7 +6,7 @@ from __future__ import annotations
 import io
 from typing import Any
 
-from ..base.errors import FlexactError
+from ..base.partial import attempted
 from ..page.markup import image
 from ..picture import has_packages, picture_bytes
 from ..result.result import Result
@@ -29,11 +29,10 @@ def still(analysis: Result, size: tuple[int, int], words: str, **chosen: Any) ->
     """
     if not has_packages():
         return ""
-    try:
-        content = picture_bytes(analysis, ".png", size=size, plain=True, **chosen)
-    except (FlexactError, MemoryError):
-        return ""
-    return shown(content, size, words)
+    content = attempted(
+        words, lambda: picture_bytes(analysis, ".png", size=size, plain=True, **chosen), None, None
+    )
+    return "" if content is None else shown(content, size, words)
 
 
 def shown(content: bytes, size: tuple[int, int], words: str) -> str:

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from ..advice.spaces.spaces import Spaces
 from ..base.errors import require_kind
+from ..base.partial import attempted, why
 from ..base.plain_text import file_name
 from ..diagnostics.errors import ProblemsError
 from ..drawing import drawing_of
@@ -22,7 +24,7 @@ from .limits import FEW_SHAPES, MOST_SHAPES
 from .markup import folded, section, text
 from .modes_part import motions_part, stresses_part
 from .origin_part import origin_part
-from .verdict_part import BROKEN, advice_part, advised, decision_part, head, verdict
+from .verdict_part import BROKEN, Advised, advice_part, advised, decision_part, head, verdict
 from .viewer_data import left_out, stuck_in, viewer_data
 
 _SCROLLS = "Until you click on the drawing, the wheel scrolls past it."
@@ -49,8 +51,9 @@ def content_of(
     *,
     has_origin: bool = True,
     is_short: bool = False,
+    missing: Sequence[str] = (),
 ) -> Content:
-    """What the page of a result holds.
+    """What the page of a result holds; what of it cannot be made is left out, and told.
 
     Args:
         analysis: The result.
@@ -58,25 +61,33 @@ def content_of(
         spaces: The freedom space and the constraint space of a body, to be switched on.
         has_origin: Whether it is told of what it was made, and how it is made again.
         is_short: Whether tables and deck are folded away, as among other things.
+        missing: Sentences on what is left out already.
     """
     require_kind(analysis, Result, "a page is that of a result")
-    (frame,) = frames_of(drawing_of(analysis.given))
-    data = viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
+    told = list(missing)
+
+    def made(what: str, make: Callable[[], str]) -> str:
+        return attempted(what, make, "", told)
+
+    def drawn() -> dict[str, Any]:
+        (frame,) = frames_of(drawing_of(analysis.given))
+        return viewer_data(analysis, frame, spaces, FEW_SHAPES if is_short else MOST_SHAPES)
+
+    data = attempted("The drawing", drawn, None, told)
     every = warnings_of(analysis)
     name = file_name(analysis.name)
     raw, is_written = deck_of_model(analysis.given)
-    drawn = sum(movement["kind"] == "motion" for movement in data["movements"])
     warnings = [item for item in every if item.line == 0]
     in_deck = [item for item in every if item.line > 0]
     words = str(verdict_in_words(analysis))
-    advice = advised(analysis)
-    stuck = stuck_in(analysis)
-    below = toolbar(data) + keys(data)
+    advice = attempted("What can be done", lambda: advised(analysis), Advised((), ()), told)
+    movements = [] if data is None else data["movements"]
+    moving = sum(movement["kind"] == "motion" for movement in movements)
     tables: tuple[str, ...] = (
         advice_part(advice),
         section("notes", "Notes", *(f"<p>{_note(item)}</p>" for item in warnings)),
-        motions_part(analysis, drawn),
-        stresses_part(analysis),
+        made("The table of motions", lambda: motions_part(analysis, moving)),
+        made("The table of self-stresses", lambda: stresses_part(analysis)),
         decision_part(analysis),
     )
     origin: tuple[str, ...] = (
@@ -84,15 +95,23 @@ def content_of(
         origin_part(raw, name, analysis, is_written) if has_origin else "",
     )
     if is_short:
-        below += f'<p class="keys">{_SCROLLS}</p>'
         tables = (folded("What can be done, tables, decision", *tables),)
         origin = (folded("Deck and versions", *origin),)
+    drawing, choices = "", ""
+    if data is not None:
+        scrolls = f'<p class="keys">{_SCROLLS}</p>' * is_short
+        below = toolbar(data) + keys(data) + scrolls
+        others = left_out(analysis, data)
+        drawing = drawing_part(data, still, words, below, " ".join([*told, others]).strip())
+        choices = choices_part(data, stuck_in(analysis), layers(data))
+    else:
+        drawing = "".join(f'<p class="note">{text(each)}</p>' for each in told)
     body = (
         verdict(analysis, name, advice),
         '<main class="viewer">',
-        drawing_part(data, still, words, below, left_out(analysis, data)),
+        drawing,
         '<div class="side">',
-        choices_part(data, stuck, layers(data)),
+        choices,
         *tables,
         "</div>",
         '<div class="below">',
@@ -135,7 +154,7 @@ def reason_in_words(error: Exception) -> str:
     if isinstance(error, ProblemsError):
         count = error.problems.errors
         return f"{count} error{'s' * (count != 1)}"
-    return str(error) or "not enough memory"
+    return why(error)
 
 
 def _note(item: Any) -> str:

@@ -109,7 +109,7 @@ def _data(number: int, entry: Entry) -> str:
         "under": -under,
         "size": -size,
     }
-    return "".join(f' data-{name}="{escape(str(value))}"' for name, value in data.items())
+    return "".join(f' data-{name}="{text(str(value))}"' for name, value in data.items())
 
 
 def _counted(entry: Entry) -> str:

@@ -7,9 +7,19 @@ const Live = (() => {
   const PATIENCE = 300; // ms before it is said that something is going on
   const LATER = 1000; // ms until an old scene is freed, for which the drawing has to wait
   const AGAIN = 1000; // ms between two attempts to reach the server
-  const KEPT = `flexact ${location.pathname}`;
+  const MOST = 300; // attempts until the page asks no more by itself
+  const KEPT = () => `flexact ${location.pathname}`;
   const GONE = "The server has ended: the page stays as it is, and goes on when flexact watch "
     + "is started again.";
+  const GIVEN_UP = "The server has ended, and the page looks for it no more.";
+
+  function hexadecimal(bytes) {
+    return Array.from(new Uint8Array(bytes), (byte) => byte.toString(16).padStart(2, "0")).join("");
+  }
+
+  function chance() {
+    return hexadecimal(crypto.getRandomValues(new Uint8Array(16)));
+  }
 
   class Live {
     constructor(root) {
@@ -17,6 +27,9 @@ const Live = (() => {
       this.bar = this.part("live");
       this.scene = this.part("live-scene");
       this.revision = Number(this.bar.dataset.revision);
+      this.start = this.bar.dataset.start;
+      this.key = this.bar.dataset.key;
+      this.attempts = 0;
       const { changed, which } = this.part("live-now").dataset;
       this.mount();
       this.keep();
@@ -43,12 +56,12 @@ const Live = (() => {
     /** The view survives a reload of the page. */
     keep() {
       try {
-        const kept = JSON.parse(sessionStorage.getItem(KEPT));
+        const kept = JSON.parse(sessionStorage.getItem(KEPT()));
         if (kept) this.mounted.restore(kept);
       } catch { /* nothing was kept, or nothing may be */ }
       window.addEventListener("pagehide", () => {
         try {
-          sessionStorage.setItem(KEPT, JSON.stringify(this.mounted.view()));
+          sessionStorage.setItem(KEPT(), JSON.stringify(this.mounted.view()));
         } catch { /* it may not be kept */ }
       });
     }
@@ -56,24 +69,95 @@ const Live = (() => {
     listen() {
       clearTimeout(this.later);
       if (this.line) this.line.close();
-      this.line = null;
-      if (document.hidden) return;
-      const line = this.line = new EventSource(`events?seen=${this.revision}`);
-      line.addEventListener("open", () => this.lose(false));
-      line.addEventListener("scene", ({ data }) => this.show(JSON.parse(data)));
-      line.addEventListener("work", ({ data }) => this.work(JSON.parse(data)));
-      line.addEventListener("error", () => {
-        line.close();
-        this.lose(true);
-        this.later = setTimeout(() => this.listen(), AGAIN);
-      });
+      this.line = this.attempt = null;
+      if (!document.hidden && this.attempts < MOST) this.reach();
     }
 
-    lose(on) {
-      this.bar.classList.toggle("lost", on);
-      this.part("live-lost").hidden = !on;
-      this.part("live-lost").textContent = on ? GONE : "";
-      if (on) this.work({ work: "", seconds: 0 });
+    /** Reach the server. Whoever has its port now is told nothing before it has shown that it is ours,
+     * nor is anything that it says believed: see watching/guard.py. */
+    async reach() {
+      const attempt = this.attempt = {};
+      const number = chance();
+      let line = null;
+      try {
+        const first = chance();
+        const answer = await fetch(`/alive?start=${this.start}&number=${first}`, { cache: "no-store" });
+        const { start, proof } = await answer.json();
+        if (proof !== await this.proof("server", first, start)) throw new Error("another server");
+        const ours = await this.proof("page", number, start);
+        const theirs = await this.proof("events", number, start);
+        if (this.attempt !== attempt) return;
+        line = this.line = new EventSource(
+          `/events?start=${this.start}&number=${number}&proof=${ours}&seen=${this.revision}`);
+        let isOurs = false;
+        const hear = (kind, act) => line.addEventListener(kind, ({ data }) => {
+          if (isOurs) act(JSON.parse(data));
+        });
+        line.addEventListener("proof", ({ data }) => {
+          isOurs = JSON.parse(data).proof === theirs;
+          if (isOurs) this.find();
+        });
+        hear("secrets", (secrets) => this.goOn(secrets));
+        hear("scene", (state) => this.show(state));
+        hear("work", (state) => this.work(state));
+        line.addEventListener("error", () => this.lose(attempt, line));
+      } catch {
+        this.lose(attempt, line);
+      }
+    }
+
+    /** What nobody can say of these words, and this port, but the server and its pages. */
+    async proof(...words) {
+      const bytes = (text) => new TextEncoder().encode(text);
+      const how = { name: "HMAC", hash: "SHA-256" };
+      const key = await crypto.subtle.importKey("raw", bytes(this.key), how, false, ["sign"]);
+      const said = bytes([...words, location.port || "80"].join(" "));
+      return hexadecimal(await crypto.subtle.sign("HMAC", key, said));
+    }
+
+    /** The server was started anew: its address is another one. */
+    goOn({ start, key, token }) {
+      Object.assign(this, { start, key });
+      history.replaceState(null, "", `/${token}/`);
+    }
+
+    find() {
+      this.attempts = 0;
+      this.bar.classList.remove("lost");
+      this.part("live-lost").hidden = true;
+      this.part("live-lost").textContent = "";
+    }
+
+    lose(attempt, line) {
+      if (line) line.close();
+      if (this.attempt !== attempt) return;
+      this.line = this.attempt = null;
+      this.attempts += 1;
+      const isGivenUp = this.attempts >= MOST, place = this.part("live-lost");
+      if (this.attempts === 1 || isGivenUp) {
+        this.bar.classList.add("lost");
+        place.hidden = false;
+        place.textContent = isGivenUp ? GIVEN_UP : GONE;
+        this.work({ work: "", seconds: 0 });
+      }
+      if (isGivenUp) place.append(" ", this.again());
+      else this.later = setTimeout(() => this.listen(), AGAIN);
+    }
+
+    again() {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = "Look again";
+      button.addEventListener("click", () => {
+        this.attempts = 0;
+        this.listen();
+      });
+      return button;
+    }
+
+    /** Whether the server is not known to be there, so that nothing is to be sent to its port. */
+    get isLost() {
+      return this.bar.classList.contains("lost");
     }
 
     /** A new state of the file; a scene that stays is left alone. */

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import chain
 from typing import Any
 
+from ..base.partial import attempted
 from ..drawing import QUANTITIES, UNITS, Drawing, Movement, Moving, move, reach_of, resultants
 from ..drawing.freedoms import way_of
 from ..result.freedoms import Freedom
@@ -31,33 +33,57 @@ _NOTHING = 1.0e-9
 _UNSEEN = 1.0e-5
 
 
-def movements(analysis: Result, tracks: Tracks) -> list[dict[str, Any]]:
-    """The motions, then the declared degrees of freedom; as many as fit."""
+def movements(analysis: Result, tracks: Tracks, missing: list[str]) -> list[dict[str, Any]]:
+    """The motions, then the declared degrees of freedom; as many as fit and can be drawn.
+
+    What cannot be drawn is told in `missing`; of motions none is drawn behind it, as their
+    places are their numbers.
+    """
     made: list[dict[str, Any]] = []
     size, drawing = 0, tracks.frame.drawing
-    for kind, label, title, motion in chain(_motions(analysis), _freedoms(analysis)):
-        movement = move(drawing, motion)
+    without: set[str] = set()
+
+    def drawn(motion: Callable[[], Moving | None]) -> tuple[dict[str, Any], int] | None:
+        if (found := motion()) is None:
+            return None
+        movement = move(drawing, found)
         data, added = tracks.movement(movement)
-        size += added
+        return {"note": _note(drawing, movement), **data}, added
+
+    for kind, label, title, motion in chain(_motions(analysis), _freedoms(analysis)):
+        if kind == "motion" and kind in without:
+            continue
+        before = len(missing)
+        data = attempted(f"The drawing of {title}", partial(drawn, motion), None, missing)
+        if len(missing) > before:
+            without.add(kind)
+        if data is None:
+            continue
+        size += data[1]
         if made and size > MOST_POSES:
             break
-        words = {"kind": kind, "label": label, "title": title, "note": _note(drawing, movement)}
-        made.append({**words, **data})
+        made.append({"kind": kind, "label": label, "title": title, **data[0]})
     return made
 
 
-def _motions(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
+_Named = tuple[str, str, str, Callable[[], Moving | None]]
+
+
+def _motions(analysis: Result) -> Iterator[_Named]:
     is_large = analysis.given.arrays.element_number.size > MANY_ELEMENTS
     most = FEW_MODES if is_large else MOST_MODES
     for number, motion in enumerate(analysis.motions[:most], start=1):
-        yield "motion", f"Motion {number}", f"Motion {number}", motion
+        yield "motion", f"Motion {number}", f"Motion {number}", partial(_itself, motion)
 
 
-def _freedoms(analysis: Result) -> Iterator[tuple[str, str, str, Moving]]:
+def _itself(motion: Moving) -> Moving:
+    return motion
+
+
+def _freedoms(analysis: Result) -> Iterator[_Named]:
     for freedom in looked_at(analysis):
-        if (motion := way_of(freedom)) is not None:
-            words = plain(freedom_in_words(freedom))
-            yield "freedom", words, f"Degree of freedom: {words}", motion
+        words = plain(freedom_in_words(freedom))
+        yield "freedom", words, f"Degree of freedom: {words}", partial(way_of, freedom)
 
 
 def looked_at(analysis: Result) -> tuple[Freedom, ...]:
@@ -78,12 +104,15 @@ def _note(drawing: Drawing, movement: Movement) -> str:
     return f"{movement.remark} Drawn with {far}{turned}."
 
 
-def stresses(analysis: Result, frame: Frame) -> list[dict[str, Any]]:
-    """The self-stresses, each with the quantities that it has."""
+def stresses(analysis: Result, frame: Frame, missing: list[str]) -> list[dict[str, Any]]:
+    """The self-stresses, each with the quantities that it has, up to one that cannot be drawn."""
     rows = hinges_in(frame)
-    made = []
+    made: list[dict[str, Any]] = []
     for number, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1):
-        found = resultants(frame.drawing, stress)
+        what = f"The drawing of self-stress {number}"
+        found = attempted(what, partial(resultants, frame.drawing, stress), None, missing)
+        if found is None:
+            break
         weight = {each: 1.0 if UNITS[each] == "N" else 1.0 / found.length for each in QUANTITIES}
         sizes = {each: found.largest(each) * weight[each] for each in QUANTITIES}
         there = [each for each in QUANTITIES if sizes[each] > _NOTHING * max(sizes.values())]

@@ -3,15 +3,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ..advice.spaces.spaces import Spaces
 from ..result.result import Result
 from .assets import PLAIN_SCRIPTS, SCRIPTS, filled
 from .content import broken_content, content_of
 
 
-def page(analysis: Result, still: bytes | None = None, spaces: Spaces | None = None) -> str:
+def page(
+    analysis: Result,
+    still: bytes | None = None,
+    spaces: Spaces | None = None,
+    missing: Sequence[str] = (),
+) -> str:
     """The page of a result; arguments as those of `content_of`."""
-    content = content_of(analysis, still, spaces)
+    content = content_of(analysis, still, spaces, missing=missing)
     return filled(content.title, content.body, SCRIPTS)
 
 

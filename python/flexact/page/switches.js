@@ -484,6 +484,8 @@ const Switches = (() => {
 
   /** Ask the server of the page; what is refused is told in words. */
   async function send(request) {
+    // Whoever has its port then is not told where it was.
+    if (window.live && window.live.isLost) return { status: 0, error: GONE };
     try {
       const answer = await fetch("edit", {
         method: "POST",

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ..result.result import Result
 from ..result.verdict import Certainty, Verdict
 from ..text.advice import lines_on_motions, lines_on_self_stresses
-from ..text.decision import decision
+from ..text.decision import decision, declared_in_words
 from ..text.describe import VerdictInWords, verdict_in_words
 from ..text.margin import margin_line
 from ..text.sentences import Line
@@ -141,8 +141,7 @@ def _about(analysis: Result, name: str) -> Iterator[str]:
         f"rank {analysis.rank}</span>"
     )
     yield _certainty(analysis)
-    freedom = analysis.degrees_of_freedom
-    yield f'<span class="fact">{freedom} degree{"s" * (freedom != 1)} of freedom declared</span>'
+    yield f'<span class="fact">{text(declared_in_words(analysis))}</span>'
 
 
 def decision_part(analysis: Result) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ..advice.spaces.spaces import Spaces
+from ..base.partial import attempted
 from ..result.freedoms import Freedom
 from ..result.result import Result
 from .drawing_data import Frame, static_data
@@ -21,16 +22,25 @@ def viewer_data(
 ) -> dict[str, Any]:
     """All that is drawn of a result, with spaces of a body, and the first choices.
 
-    A movement has so many phases that it takes so many bytes, if it can.
+    A movement has so many phases that it takes so many bytes, if it can. What cannot be drawn is
+    told as "missing", sentences.
     """
     tracks = Tracks(frame, room=room)
+    missing: list[str] = []
+    shown: list[dict[str, Any]] = attempted(
+        "What a body may do", lambda: spaces_data(analysis, frame, spaces), [], missing
+    )
+    held: list[dict[str, Any]] = attempted(
+        "What each flexure holds", lambda: holds_data(analysis, frame), [], missing
+    )
     data = {
         **static_data(analysis.parts, frame),
         "reference": tracks.data(),
         "segments": tracks.segments,
-        "movements": movements(analysis, tracks),
-        "stresses": stresses(analysis, frame),
-        "spaces": spaces_data(analysis, frame, spaces) + holds_data(analysis, frame),
+        "movements": movements(analysis, tracks, missing),
+        "stresses": stresses(analysis, frame, missing),
+        "spaces": shown + held,
+        **({"missing": missing} if missing else {}),
     }
     return {**data, "first": _first(data)}
 
@@ -54,6 +64,7 @@ def left_out(analysis: Result, data: dict[str, Any]) -> str:
 
 
 def _left_out(analysis: Result, data: dict[str, Any]) -> Iterator[str]:
+    yield from data.get("missing", ())
     members = int((analysis.given.arrays.element_node[[0, 2]] > 0).all(axis=0).sum())
     if members > MOST_MEMBERS:
         yield f"Of {members} members the first {MOST_MEMBERS} are drawn."
@@ -63,6 +74,7 @@ def _left_out(analysis: Result, data: dict[str, Any]) -> Iterator[str]:
         yield f"Of {analysis.under_constrained} motions the first {moved} can be shown."
     if (shown := len(data["stresses"])) < analysis.over_constrained:
         yield f"Of {analysis.over_constrained} self-stresses the first {shown} can be shown."
-    freedom, free = analysis.degrees_of_freedom, kinds.count("freedom")
+    # Those inside of what is taken as one beam move nothing by themselves.
+    freedom, free = int(analysis.raw.counts[:, -1].sum()), kinds.count("freedom")
     if free + len(stuck_in(analysis)) < freedom:
         yield f"Of {freedom} declared degrees of freedom {free} can be shown."

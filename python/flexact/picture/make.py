@@ -63,9 +63,7 @@ def check_packages(suffix: str = "") -> None:
         VideoError: A video is wanted, and nothing is there that makes one.
     """
     if missing := _missing():
-        raise PictureError(
-            f"pictures need the package {missing[0]}: pip install 'flexact[pictures]'"
-        )
+        raise PictureError(f"pictures need the package {missing[0]}: pip install matplotlib pillow")
     if suffix.lower() in VIDEOS:
         check_encoder(suffix.lower())
 
@@ -84,7 +82,7 @@ def draw(
     analysis: Result,
     *,
     motion: int | None = None,
-    freedom: int | None = None,
+    freedom: int | str | None = None,
     stress: int | None = None,
     quantity: str | None = None,
     spaces: Spaces | None = None,

@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from operator import index
 from typing import SupportsIndex
 
 from ..advice.spaces.spaces import Spaces
 from ..base.errors import BatchError, require_kind
+from ..base.partial import attempted
 from ..base.plain_text import harmless
 from ..drawing import (
     QUANTITIES,
@@ -59,10 +61,10 @@ def _require_whole(number: SupportsIndex, name: str) -> None:
 
 @dataclass(frozen=True)
 class Chosen:
-    """What was asked for; numbers from 1."""
+    """What was asked for; numbers from 1, a freedom also by its name."""
 
     motion: int | None = None
-    freedom: int | None = None
+    freedom: int | str | None = None
     stress: int | None = None
     quantity: str | None = None
     spaces: Spaces | None = None
@@ -77,7 +79,8 @@ class Chosen:
         if self.held and (self.moves or self.is_stressed or self.spaces is not None):
             raise SubjectError("a picture shows what flexures hold alone")
         for name in ("motion", "freedom", "stress"):
-            if (number := getattr(self, name)) is not None:
+            number = getattr(self, name)
+            if number is not None and not (name == "freedom" and isinstance(number, str)):
                 _require_whole(number, name)
         if self.quantity is not None:
             require_kind(self.quantity, str, "a quantity is given by its name")
@@ -121,12 +124,16 @@ def subjects_of(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subj
     if chosen.spaces is not None:
         shown = spaces_shown(analysis, drawing, chosen.spaces)
         return [Subject(_heading(title), space=space) for title, space in shown]
-    made = []
+    made: list[Subject] = []
+    missing: list[str] = []
     if len(analysis.motions) or not len(analysis.self_stresses):
-        made += _moving(analysis, drawing, select_motion(analysis))
+        made += attempted("The motion", partial(_first, analysis, drawing), made, missing)
     if len(analysis.self_stresses):
-        made.append(_stressed(analysis, drawing, 1, None))
-    return made or [Subject()]
+        first = attempted(
+            "The self-stress", lambda: _stressed(analysis, drawing, 1, None), None, missing
+        )
+        made += [] if first is None else [first]
+    return made or [Subject(" ".join(missing) or Subject.title)]
 
 
 def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subject:
@@ -152,10 +159,16 @@ def moving_subject(analysis: Result, drawing: Drawing, chosen: Chosen) -> Subjec
                 "an animation shows one of them: a motion, a degree of freedom or a self-stress"
             )
         return made[0]
-    made = _moving(analysis, drawing, select_motion(analysis))
+    missing: list[str] = []
+    made = attempted("The motion", partial(_first, analysis, drawing), list[Subject](), missing)
     if not made and len(analysis.self_stresses):
-        made.append(_stressed(analysis, drawing, 1, None))
-    return made[0] if made else Subject()
+        made = [_stressed(analysis, drawing, 1, None)]
+    return made[0] if made else Subject(" ".join(missing) or Subject.title)
+
+
+def _first(analysis: Result, drawing: Drawing) -> list[Subject]:
+    """The motion that is shown where none is asked for."""
+    return _moving(analysis, drawing, select_motion(analysis))
 
 
 def _asked_for(analysis: Result, drawing: Drawing, chosen: Chosen) -> list[Subject]:

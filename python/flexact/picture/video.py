@@ -54,7 +54,7 @@ def check_encoder(suffix: str) -> tuple[str, str]:
     lacks = f"; the ffmpeg that is here has no encoder for {kind}" if programs else ""
     raise VideoError(
         f"a video needs ffmpeg{lacks}: install it so that it is on the PATH, or the package "
-        "imageio-ffmpeg, which brings it: pip install 'flexact[video]'"
+        "imageio-ffmpeg, which brings it: pip install imageio-ffmpeg"
     )
 
 

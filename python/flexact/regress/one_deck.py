@@ -10,6 +10,7 @@ from enum import Enum
 from pathlib import Path
 
 from ..base.errors import FlexactError
+from ..base.partial import why
 from ..base.plain_text import harmless
 from ..core.progress import Progress
 from ..deck.reading import deck_bytes, read_bytes
@@ -17,6 +18,7 @@ from ..diagnostics.errors import DeckError
 from ..files.decks import DeckFile
 from ..model.data import ModelData
 from ..result.decompose import asked_for
+from ..result.failing import AnalysisError
 from ..result.result import result_of
 from .comparison import STRICT, Tolerances, differences
 from .stored_answer import (
@@ -133,6 +135,9 @@ class Question:
             finding = Finding(State.MISSING, error=error)
         except (FlexactError, MemoryError) as error:
             finding = Finding(State.FAILED, error=error)
+        except Exception as error:
+            # One deck over which this program stumbles shall not cost the others.
+            finding = Finding(State.FAILED, error=AnalysisError(why(error)))
         return replace(finding, seconds=time.perf_counter() - start)
 
     def _found(self, case: Case, watch: Watch) -> Finding:

@@ -8,12 +8,14 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from ..base.plain_text import in_short
+from ..base.quantities import Quantity, QuantityError, measured
+from .failing import AnalysisError
 from .verdict import Margin
 
-#: A length [m], or a length [m] and an angle [rad].
-AccuracyGiven = float | Iterable[float | None]
+#: A length [m], or a length [m] and an angle [rad]; a text says its unit, such as "20um,1mrad".
+AccuracyGiven = Quantity | Iterable[Quantity | None]
 
-_NO_NUMBERS = (str, bytes, bytearray, memoryview)
+_NO_NUMBERS = (bytes, bytearray, memoryview)
 
 
 class Accuracy(NamedTuple):
@@ -35,6 +37,22 @@ class Accuracy(NamedTuple):
             return length, False
         return length, margin.angle < self.angle
 
+    def require_within(self, size: float) -> None:
+        """Raise where it is larger than the model: a slip of the unit.
+
+        Args:
+            size: Of the model [m].
+
+        Raises:
+            AnalysisError: it is.
+        """
+        if self.length > size:
+            raise AnalysisError(
+                f"the accuracy is {self.length:g} m, larger than the whole model, {size:.3g} m: "
+                "say its unit, such as 20um, if that is not meant; --beyond (in Python "
+                "beyond=True) permits it"
+            )
+
     @classmethod
     def of(cls, given: AccuracyGiven) -> Accuracy:
         """An accuracy as it may be given.
@@ -44,7 +62,9 @@ class Accuracy(NamedTuple):
             ValueError: one is not positive, or not finite.
         """
         parts: list[Any] = [given]
-        if isinstance(given, Iterable) and not isinstance(given, _NO_NUMBERS):
+        if isinstance(given, str):
+            parts = given.split(",")
+        elif isinstance(given, Iterable) and not isinstance(given, _NO_NUMBERS):
             parts = list(given)
             parts = parts[:1] if parts[1:] == [None] else parts
         if not 1 <= len(parts) <= 2:
@@ -52,14 +72,16 @@ class Accuracy(NamedTuple):
                 "the accuracy is a length [m], or a length and an angle [rad], "
                 f"not {len(parts)} numbers"
             )
-        return cls(*(_checked(part) for part in parts))
+        return cls(*map(_checked, parts, ("m", "rad")))
 
 
-def _checked(part: Any) -> float:
+def _checked(part: Any, unit: str) -> float:
     if isinstance(part, (*_NO_NUMBERS, bool)):
         raise TypeError(f"the accuracy must be a number or two, not {type(part).__name__}")
     try:
-        value = float(part)
+        value = measured(part, unit)
+    except QuantityError as error:
+        raise TypeError(f"the accuracy must be a number or two: {error}") from None
     except TypeError:
         raise TypeError(
             f"the accuracy must be a number or two, not {type(part).__name__}"

@@ -42,6 +42,10 @@ def _ranks(outcome: Outcome, evidence: Evidence, lower: int, higher: int) -> Ite
         yield outcome.rank + higher
     if outcome.proof:
         yield outcome.proof.rank
+    if higher > outcome.raw.fading > 0:
+        yield outcome.rank + higher - outcome.raw.fading
+    if not lower and not higher and (not outcome.proof or outcome.proof.rank == outcome.rank):
+        return
     for k in _groups([pair.value for pair in evidence.pairs[:lower]]):
         yield outcome.rank - k
     if outcome.proof:

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..diagnostics.errors import model_error

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts, natural
@@ -28,6 +28,11 @@ class Joint(NamedTuple):
     """The parts that meet there, by name."""
     name: str
     """Its name in the model; empty without one."""
+
+    @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and where many parts meet many results hold it."""
+        return True
 
     @property
     def is_fold(self) -> bool:

@@ -95,11 +95,12 @@ def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
     It is in doubt where a value that counts as non-zero is within reach of how the geometry
     was stored or typed, so that a change within the last digit would lower the rank; where
     one that counts as zero is above the noise, or is not zero for the numbers as they are;
-    and where neither exact arithmetic nor the method has confirmed the rank.
+    and where neither exact arithmetic nor the method has confirmed the rank. Of a certain one
+    whose rank is not that of the numbers to the last digit, (22), the latter has the alternative.
     """
     found = tuple(_doubts(outcome, evidence))
     if not found:
-        return Assessment(Certainty.CERTAIN, (), ())
+        return Assessment(Certainty.CERTAIN, alternatives_of(outcome, evidence, 0, 0)[:1], ())
     lower = max(doubt.values for doubt in found)
     higher = max(doubt.zeros for doubt in found)
     return Assessment(Certainty.NEARLY, alternatives_of(outcome, evidence, lower, higher), found)

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind, coordinate_name

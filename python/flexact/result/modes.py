@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from operator import eq
 from typing import Generic, TypeVar, overload
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, coordinate_name
@@ -216,7 +216,15 @@ class Modes(Frozen, Sequence[Mode], Generic[Mode]):
     def __getitem__(self, index: slice) -> tuple[Mode, ...]: ...
     def __getitem__(self, index: int | slice) -> Mode | tuple[Mode, ...]:
         """One of them, or a tuple of several."""
-        chosen = range(len(self))[index]
+        try:
+            chosen = range(len(self))[index]
+        except IndexError:
+            many, what = len(self), "motion" if self.kind is Motion else "self-stress"
+            what += "" if many == 1 else "s" if self.kind is Motion else "es"
+            raise IndexError(
+                f"there {'is' if many == 1 else 'are'} {many or 'no'} {what}: none has the index "
+                f"{index}{'; they count from 0' if many else ''}"
+            ) from None
         if isinstance(chosen, range):
             return tuple(self.kind(k, self.analysis) for k in chosen)
         return self.kind(chosen, self.analysis)

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from ..base import memory
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray
@@ -246,13 +246,16 @@ class Outcome(Frozen):
 
     @cached_property
     def counts(self) -> Counts:
-        """Coordinates and deformations by class, eqs. (13) to (15)."""
-        coordinates, deformations = self.raw.counts.tolist()
+        """Coordinates and deformations by class, eqs. (13) to (15), of the model as given.
+
+        D(c) has fewer rows and columns where what is inside of divided sheets is declared.
+        """
+        coordinates, deformations = self.given.count.counts.tolist()
         return Counts(ClassCounts(*coordinates), ClassCounts(*deformations))
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Number of independent coordinates and deformations, eq. (6)."""
+        """Number of independent coordinates and deformations, eq. (6), of the model as given."""
         return self.counts.coordinates.independent + self.counts.deformations.independent
 
     @cached_property

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
@@ -231,8 +231,8 @@ class Pressing(Frozen):
             return self._on_point(body)
         try:
             part = part_of(self.outcome.parts, body)
-        except ModelError:
-            if not isinstance(body, str):
+        except (ModelError, TypeError):
+            if not isinstance(body, (str, tuple, list)):
                 raise
             return self._on_point(body)
         nodes = set()

@@ -10,12 +10,12 @@ both fade evenly through many powers of ten, where those of true zeros end: theo
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base.cached import cached_property
 from ..core import calls
 from ..core.arrays import FloatArray
 from ..core.basis import Basis

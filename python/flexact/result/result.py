@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from ..base.cached import cached_property
 from ..base.loading import load
 from ..base.plain_text import in_short
 from ..core.elements import Class
 from ..core.progress import Progress
-from ..diagnostics.errors import model_error
+from ..diagnostics.errors import ModelError, model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
 from ..model.parts.declaring import declared
@@ -20,6 +22,7 @@ from .certainty import Assessment, assess
 from .decompose import decompose
 from .folds import turning_folds
 from .freedoms import Freedom, freedoms_of
+from .handles import elements_of, node_of
 from .margin import least, margins
 from .modes import Modes, Motion, SelfStress
 from .outcome import Asked
@@ -77,18 +80,35 @@ class Result(Spaces):
     def freedom(self, label: str) -> Freedom:
         """The declared degree of freedom of a label, such as "stage z".
 
+        Args:
+            label: As the freedoms have it, or any name or number of the point or element behind
+                which stands which part of it: "tip x", "5 x", "stage:z", "sheet 1 e3".
+
         Raises:
-            ModelError: there is none.
+            ModelError: there is none, or there are several.
         """
-        found = next((each for each in self.freedoms if each.label == label), None)
-        if found is None:
-            there = ", ".join(each.label for each in self.freedoms[:_MOST_LABELS])
+        found = [each for each in self.freedoms if each.label == label]
+        if not found:
+            found = list(self._freedoms_at(label))
+        if len(found) != 1:
+            there = ", ".join(each.label for each in (found or self.freedoms)[:_MOST_LABELS])
+            many = "several degrees of freedom are" if found else "there is no degree of freedom"
             raise model_error(
-                "no-such-freedom",
-                f"there is no degree of freedom {in_short(label)}",
+                "ambiguous-freedom" if found else "no-such-freedom",
+                f"{many} {in_short(label)}",
                 f"there are {there}" if there else "none is declared",
             )
-        return found
+        return found[0]
+
+    def _freedoms_at(self, text: str) -> Iterator[Freedom]:
+        """Those of a point or element that is named otherwise than in their labels."""
+        words = re.fullmatch(r"(.+?)\s*[\s:]\s*([a-z]+\d*)", text.strip(), re.DOTALL)
+        if words is None:
+            return
+        target = int(words[1]) if words[1].isdecimal() else words[1]
+        for each in self.freedoms:
+            if each.part == words[2] and _is_of(self, each, target):
+                yield each
 
     @cached_property
     def with_internal_declared(self) -> Result | None:
@@ -215,3 +235,18 @@ def result_of(
     one = condensed(data)
     raw = decompose(one.data, asked, progress)
     return kind(data.name if name is None else name, one, raw, asked)
+
+
+def _is_of(result: Result, freedom: Freedom, target: object) -> bool:
+    """Whether a degree of freedom is one of what is meant."""
+    owner, parts = freedom.place[1], result.parts
+    try:
+        if not freedom.is_coordinate:
+            return int(result.condensed.elements[owner]) in elements_of(parts, target)
+        node = int(result.condensed.nodes[owner])
+        body = parts.body_at.get(node)
+        if body is not None and parts.of_body(body).name == target:
+            return True
+        return node_of(parts, target) in (node, parts.place_of(node))
+    except (ModelError, TypeError):
+        return False

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
+from ..base.cached import cached_property
 from ..core.basis import Basis
 from .mode_basis import (
     internal_motions,

@@ -20,6 +20,23 @@ class Verdict(str, Enum):
         return self.value
 
     @property
+    def word(self) -> str:
+        """In a word, as the command has it: "exact", "under", "over" or "both"."""
+        return self.name.lower()
+
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the same verdict; a text is it in a word, or in its own words."""
+        if isinstance(other, str) and not isinstance(other, Verdict):
+            return other in (self.word, self.value)
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        """Whether it is another verdict."""
+        return not self == other
+
+    __hash__ = str.__hash__
+
+    @property
     def colour(self) -> str:
         """In pictures and pages on white, as #rrggbb; the words always stand beside it."""
         return _COLOURS[self]

@@ -2,7 +2,7 @@
 """Elastic states, strokes and misalignment; uses `core`, `model`, `deck` and `result`."""
 
 from .elastic import Elastic, elastic
-from .errors import ElasticError, StrokeError, UnknownError
+from .errors import ElasticError, StrokeError, StrokeWarning, UnknownError
 from .estimate import Estimate
 from .state import State
 
@@ -12,6 +12,7 @@ __all__ = [
     "Estimate",
     "State",
     "StrokeError",
+    "StrokeWarning",
     "UnknownError",
     "elastic",
 ]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ..base.plain_text import in_short
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
-from .errors import ElasticError
+from .errors import ElasticError, StrokeWarning
 from .points import Coordinate
 from .rotations import dual_to_parameters
 from .solution import Solution
@@ -47,7 +48,7 @@ def value_at(at: Solution, drive: Coordinate) -> float:
 
 
 def force_of(at: Solution, drive: Coordinate) -> float:
-    """Force of a drive on the mechanism [N], or moment on its angle [N m]."""
+    """Force of a drive on the mechanism [N], or moment [N m] about the axis of its spin."""
     node, axis = drive
     reaction = at.raw.reaction[:, node]
     if at.solver.mesh.own.arrays.node_kind[node] != NodeKind.ORIENTATION:
@@ -64,7 +65,7 @@ def reaction_of(at: Solution, held: Coordinate) -> float:
 
 
 def freed(at: Solution, held: Held, drive: Coordinate) -> Solution:
-    """The state with the drive free: its force stays as a dead load."""
+    """The state with the drive free: its force or moment stays constant."""
     raw = at.raw
     if at.is_whole(drive.node):
         reaction = raw.reaction.copy(order="F")
@@ -74,8 +75,8 @@ def freed(at: Solution, held: Held, drive: Coordinate) -> Solution:
     return Solution(at.solver, raw, at.way, held)
 
 
-def strokes_given(values: object, is_turn: bool) -> list[float]:
-    """The values of a stroke, or the only one; `is_turn`: of an Euler parameter.
+def strokes_given(values: object, is_turn: bool, rest: float) -> list[float]:
+    """The values of a stroke, or the only one, added to `rest`; `is_turn`: of an Euler parameter.
 
     Raises:
         ElasticError: one is no finite number, or an angle of more than half a turn.
@@ -86,9 +87,30 @@ def strokes_given(values: object, is_turn: bool) -> list[float]:
         raise ElasticError(f"a stroke has values, not {in_short(values)}") from None
     if made.ndim != 1 or not np.isfinite(made).all():
         raise ElasticError(f"a stroke has finite values in a row, not {in_short(values)}")
+    made = made + rest
     if is_turn and (np.abs(made) >= math.pi).any():
         raise ElasticError("an angle of a stroke must be within half a turn, below pi")
     return [float(value) for value in made]
+
+
+def is_far(values: Sequence[float], rest: float) -> bool:
+    """Whether a stroke is surely meant from where it rests: about zero, and far from there."""
+    if not values:
+        return False
+    low, high, most = min(values), max(values), max(map(abs, values))
+    away = max(low - rest, rest - high)
+    return away > most and (low <= 0.0 <= high or away > 3.0 * most)
+
+
+def warn_where_far(values: Sequence[float], rest: float, what: str) -> None:
+    """Warn of a stroke that is surely meant from where it rests."""
+    if is_far(values, rest):
+        warnings.warn(
+            f"{what} rests at {rest:.6g}, and the stroke from {values[0]:.6g} to {values[-1]:.6g} "
+            f"begins {abs(values[0] - rest):.6g} from there: is from_rest=True meant?",
+            StrokeWarning,
+            stacklevel=3,
+        )
 
 
 def with_drive(solver: Solver, target: FloatArray, drive: Coordinate, value: float) -> FloatArray:

@@ -4,18 +4,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
+from ..base.quantities import Quantity, without_units
 from ..core.elements import Class, NodeKind
 from ..deck.models import read
 from ..model.model import Model
 from . import paths
 from .divisions import beams_given
-from .drives import strokes_given
-from .errors import ElasticError
+from .drives import strokes_given, value_at, warn_where_far
+from .errors import ElasticError, require_within
 from .imperfections import Imperfection, misalignment, misfit, number_given, warmth
-from .points import Points
+from .points import Coordinate, Points
 from .policy import DRIVES, HELD, Release, choice, numbered, releases_given
 from .solution import Solution
 from .state import State
@@ -57,23 +59,35 @@ class Elastic(Tolerated):
         )
         return State(self, f"equilibrium {under}", None, made)
 
-    def along(self, node: object, coordinate: str, values: Iterable[float]) -> tuple[State, ...]:
+    def along(
+        self,
+        node: object,
+        coordinate: str,
+        values: Iterable[Quantity],
+        *,
+        from_rest: bool = False,
+        beyond: bool = False,
+    ) -> tuple[State, ...]:
         """Equilibria along the stroke of a drive, without the deck's loads.
 
         Values that ascend or descend are driven to from the start outward, both ways; others
         one after another as given, so that a snap-through shows its hysteresis.
         With drive "free" the driven coordinate may move in what is asked about a state, and the
-        force of the drive stays as a dead load; "locked" holds it.
+        force of the drive, or its moment about the driven axis, stays constant; "locked" holds it.
 
         Args:
-            node: Of the coordinate, or its point.
+            node: Of the coordinate, or its point: a number, a name, also of a body, or (x, y, z).
             coordinate: "x", "y", "z", "rx", "ry" or "rz". An angle is twice the arcsine of its
                 Euler parameter.
-            values: Where it is driven to: absolute [m, rad].
+            values: Where it is driven to: absolute [m, rad], or texts such as "3 mm".
+            from_rest: Whether the values count from where the coordinate is in the model. A stroke
+                of absolute ones that is far from there is warned of (`StrokeWarning`).
+            beyond: Whether it may be driven farther than the model is large.
 
         Raises:
             UnknownError: there is no such coordinate.
-            ElasticError: it is fixed, or a value is not finite.
+            ElasticError: it is fixed, or a value is not finite; or it is farther from where it
+                rests than the model is large, and not `beyond`.
             StrokeError: a value was not reached; `reached` is the last one that was.
         """
         drive = self.points.coordinate(node, coordinate)
@@ -82,8 +96,28 @@ class Elastic(Tolerated):
                 f"{self.points.words(drive)} is fixed: a clamp is moved with misaligned()"
             )
         given = list(values) if isinstance(values, (range, Iterator)) else values
-        turns = self.points.kinds[drive.node] == NodeKind.ORIENTATION
-        there = strokes_given(given, bool(turns))
+        kind = self.points.kinds[drive.node]
+        given = without_units(given, "rad" if kind > NodeKind.POSITION else "m")
+        rest = value_at(paths.at_rest(self.solvers[0], self.locked), drive)
+        is_turn = bool(kind == NodeKind.ORIENTATION)
+        there = strokes_given(given, is_turn, rest if from_rest else 0.0)
+        what = self.points.words(drive)
+        # An angle may be of any number of turns.
+        for value in () if beyond or kind > NodeKind.POSITION else there:
+            require_within(value - rest, self.data.size, False, f"a stroke of {what}")
+        if not from_rest:
+            warn_where_far(there, rest, what)
+        return self.driven(drive, there)
+
+    def driven(self, drive: Coordinate, values: Sequence[float]) -> tuple[State, ...]:
+        """The same at absolute values of a coordinate, whatever they are.
+
+        Raises:
+            ElasticError: an angle is not within half a turn.
+            StrokeError: a value was not reached.
+        """
+        is_turn = self.points.kinds[drive.node] == NodeKind.ORIENTATION
+        there = strokes_given(list(values), bool(is_turn), 0.0)
         ways = [
             paths.driven(at, self.points, drive, there, self.drive == "locked")
             for at in self._assembled()
@@ -95,38 +129,49 @@ class Elastic(Tolerated):
         )
 
     def misaligned(
-        self, node: object, coordinate: str, value: float, about: object = None
+        self,
+        node: object,
+        coordinate: str,
+        value: Quantity,
+        about: object = None,
+        beyond: bool = False,
     ) -> State:
         """A clamp that is moved, or turned about an axis through a point.
 
         Args:
             node: Position or orientation node of the clamp.
             coordinate: "x", "y", "z" [m]; "rx", "ry", "rz" [rad], about a global axis.
-            value: By how much.
+            value: By how much [m, rad], or a text such as "50um".
             about: For a turn: a node, or (x, y, z) [m]; by default the clamp's own position.
+            beyond: Whether it may be larger than the model, an angle than half a turn.
 
         Raises:
             UnknownError: there is no such coordinate.
-            ElasticError: it is not fixed; or it is over-constrained, and held rigid.
+            ElasticError: it is not fixed; or it is over-constrained, and held rigid; or it is
+                larger than the model, and not `beyond`.
             StrokeError: no equilibrium was found.
         """
-        return self._imperfect(misalignment(self.points, node, coordinate, value, about))
+        off = misalignment(self.points, node, coordinate, value, about, beyond)
+        return self._imperfect(off)
 
-    def misfit(self, element: int, deformation: int, value: float) -> State:
+    def misfit(
+        self, element: object, deformation: int, value: float, beyond: bool = False
+    ) -> State:
         """An element that is made too long, twisted or bent.
 
         Args:
-            element: Its number.
+            element: Its number, or the name of its part.
             deformation: Which, from 1.
             value: By how much, in the deck's units: torsion and bending are the element's length
                 times an angle.
+            beyond: Whether it may be larger than the model.
 
         Raises:
             UnknownError: there is no such element or deformation.
             ElasticError: it is over-constrained, and held rigid.
             StrokeError: no equilibrium was found.
         """
-        return self._imperfect(misfit(self.points, element, deformation, value))
+        return self._imperfect(misfit(self.points, element, deformation, value, beyond))
 
     def warmed(self, kelvin: float, expansion: float, elements: object = None) -> State:
         """Elements that are warmer than the ground, and so longer.
@@ -134,7 +179,7 @@ class Elastic(Tolerated):
         Args:
             kelvin: By how much [K].
             expansion: Of their material [1/K].
-            elements: Numbers of the elements; all by default.
+            elements: Numbers of the elements, or names of parts; all by default.
 
         Raises:
             UnknownError: there is no such element.
@@ -148,6 +193,7 @@ class Elastic(Tolerated):
         misaligned: Iterable[tuple[object, ...]] = (),
         misfit: Iterable[tuple[object, object, object]] = (),
         warmed: tuple[object, ...] | None = None,
+        beyond: bool = False,
     ) -> Elastic:
         """The same model with things off in all of its states: for strokes and loads then.
 
@@ -155,13 +201,15 @@ class Elastic(Tolerated):
             misaligned: Arguments of `misaligned`, of each clamp.
             misfit: Arguments of `misfit`, of each element.
             warmed: Arguments of `warmed`.
+            beyond: Whether something may be larger than the model.
 
         Raises:
             UnknownError: something is not there.
             ElasticError: something is wrong with a value.
         """
-        off = [misalignment(self.points, *each) for each in misaligned]
-        off += [_misfit(self.points, *each) for each in misfit]
+        moved = partial(misalignment, self.points, beyond=beyond)
+        off = [moved(*each) for each in misaligned]
+        off += [_misfit(self.points, *each, beyond=beyond) for each in misfit]
         if warmed is not None:
             off.append(warmth(self.points, *warmed))
         return replace(self, off=(*self.off, *off))
@@ -189,8 +237,10 @@ def elastic(
         held: "elastic": fixed deformations that have a stiffness (ESTIFF) are elastic, others are
             rigid; "rigid": all fixed deformations are.
         drive: Whether declared coordinates (DYNX, INPUTX) may move, "free" or "locked".
-        release: Deformations that are released stress-free, pairs of element and deformation; or
-            a mapping of them to the stiffness of a notch [N m/rad; N/m of an elongation].
+        release: Deformations that are released stress-free, pairs of element and deformation, by
+            numbers or in words such as ("sheet 1", "in-plane bending") or, at one end, ("sheet 1",
+            "bending", "stage"); or a mapping of them to the stiffness of a notch [N m/rad; N/m of
+            an elongation].
         beams: Beams into which each flexible sheet or wire is divided, a divided one of the deck
             counting as what it is; 1: the deck's own elements; "auto": 8 and 16, extrapolated.
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ..base.errors import FlexactError
 
 
@@ -10,8 +12,35 @@ class ElasticError(FlexactError, ValueError):
     """What is asked has no answer; the text says why, and what to do."""
 
 
+def require_within(value: float, size: float, is_turn: bool, what: str) -> None:
+    """Raise where a stroke or an error is larger than the model: a slip of the unit.
+
+    Args:
+        value: From where the model rests [m, rad].
+        size: Of the model [m].
+        is_turn: Whether it is an angle.
+        what: Such as "the stroke of z of node 1".
+
+    Raises:
+        ElasticError: the length is larger than the size, or the angle than half a turn.
+    """
+    if abs(value) <= (math.pi if is_turn else size):
+        return
+    most = "half a turn" if is_turn else f"the whole model, {size:.3g} m"
+    unit = "rad" if is_turn else "m"
+    raise ElasticError(
+        f"{what} is {abs(value):.6g} {unit}, larger than {most}: say its unit, such as "
+        f"{'1mrad' if is_turn else '3mm'}, if that is not meant; --beyond (in Python beyond=True) "
+        "permits it"
+    )
+
+
 class UnknownError(ElasticError, LookupError):
     """A node, element, deformation or coordinate that is not there; the text says what is."""
+
+
+class StrokeWarning(UserWarning):
+    """A stroke that is surely meant from where the coordinate rests, and is not given so."""
 
 
 class StrokeError(ElasticError):

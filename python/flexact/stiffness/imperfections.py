@@ -10,10 +10,11 @@ import numpy as np
 
 from ..base.frozen import Frozen
 from ..base.plain_text import in_short
+from ..base.quantities import without_units
 from ..core.arrays import FloatArray
-from ..core.elements import Class, NodeKind, Role, role_table
+from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..model.data import ModelData
-from .errors import ElasticError
+from .errors import ElasticError, require_within
 from .points import Coordinate, Points
 from .rotations import turn_about, turned
 
@@ -107,18 +108,27 @@ def _none(data: ModelData, words: str, value: float) -> Imperfection:
 
 
 def misalignment(
-    points: Points, node: object, name: object, value: object, about: object = None
+    points: Points,
+    node: object,
+    name: object,
+    value: object,
+    about: object = None,
+    beyond: bool = False,
 ) -> Imperfection:
     """A clamp that is moved along, or turned about, a global axis.
 
     Raises:
         UnknownError: there is no such node or coordinate.
-        ElasticError: the coordinate is not held, or the value is no finite number.
+        ElasticError: the coordinate is not held, or the value is no finite number; or it is
+            larger than the model, and not `beyond`.
     """
-    size = number_given(value, "a misalignment")
     coordinate = points.coordinate(node, name)
     data = points.data
     is_turn = data.arrays.node_kind[coordinate.node] > NodeKind.POSITION
+    size = number_given(without_units(value, "rad" if is_turn else "m"), "a misalignment")
+    if not beyond:
+        what = f"the misalignment {_words(points, coordinate, node)}"
+        require_within(size, data.size, bool(is_turn), what)
     point = points.of(node)
     nodes = _turned_nodes(points, node) if is_turn else [point.position]
     if is_turn and point.position >= 0:
@@ -165,19 +175,26 @@ def _words(points: Points, coordinate: Coordinate, node: object) -> str:
     return f"{points.name(coordinate)} of clamp {points.number(points.node(node))}"
 
 
-def misfit(points: Points, element: object, k: object, value: object) -> Imperfection:
+def misfit(
+    points: Points, element: object, k: object, value: object, beyond: bool = False
+) -> Imperfection:
     """An element made too long, twisted or bent, in the deck's units.
 
     Raises:
         UnknownError: there is no such element or deformation.
-        ElasticError: the value is no finite number.
+        ElasticError: the value is no finite number; or it is larger than the model, and not
+            `beyond`.
     """
     index, number = points.deformation(element, k)
     data = points.data
     off = np.zeros((6, data.arrays.element_number.size))
     off[number, index] = 1.0
     words = f"deformation {number + 1} of element {int(data.arrays.element_number[index])}"
-    return replace(_none(data, words, number_given(value, "a misfit")), misfit=off)
+    size = number_given(value, "a misfit")
+    if not beyond:
+        is_angle = dual_table()[data.arrays.element_kind[index], number] == Dual.MOMENT
+        require_within(size, data.size, bool(is_angle), f"the misfit, {words},")
+    return replace(_none(data, words, size), misfit=off)
 
 
 def warmth(
@@ -195,9 +212,9 @@ def warmth(
     if elements is None:
         which = np.arange(data.arrays.element_number.size)
     elif isinstance(elements, (list, tuple, set, frozenset, range, np.ndarray)):
-        which = np.array([points.element(each) for each in elements], np.intp)
+        which = np.array([e for each in elements for e in points.elements(each)], np.intp)
     else:
-        which = np.array([points.element(elements)])
+        which = np.array(points.elements(elements), np.intp)
     roles = role_table()[data.arrays.element_kind].T
     frames, nodes = data.frames, data.arrays.element_node - 1
     way = (data.arrays.node_value[:3, nodes[2]] - data.arrays.node_value[:3, nodes[0]]).T

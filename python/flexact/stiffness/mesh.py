@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, IntArray, ModelArrays
 from ..core.elements import Class, Dual, NodeKind, dual_table

@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.plain_text import in_short
+from ..base.quantities import without_units
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from ..result.handles import position_of
+from ..result.handles import deformations_of, element_of, elements_of, position_of
 from .errors import UnknownError
 
 #: How many numbers of nodes or elements a message names.
@@ -70,11 +71,11 @@ class Points:
         return partner
 
     def node(self, given: object) -> int:
-        """Index of a node by its number, the name of its point, or what a model handed out.
+        """Index of a node by its number, name or place, the name of a body, or a handle.
 
         Raises:
             UnknownError: there is none with this number.
-            ModelError: no point, or several, have this name.
+            ModelError: no point, or several, have this name or are there.
             TypeError: it is nothing of that.
         """
         if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
@@ -142,7 +143,7 @@ class Points:
         """
         if isinstance(given, (list, tuple, np.ndarray)):
             made = np.zeros(3)
-            numbers = np.asarray(given, np.float64)
+            numbers = np.asarray(without_units(given, "m"), np.float64)
             if numbers.ndim != 1 or numbers.size not in (2, 3) or not np.isfinite(numbers).all():
                 raise ValueError(f"a place has three finite coordinates [m], not {in_short(given)}")
             made[: numbers.size] = numbers
@@ -158,22 +159,26 @@ class Points:
         return bool(self.data.arrays.coordinate_class[axis, node] == wanted)
 
     def element(self, given: object) -> int:
-        """Index of an element by its number, or by the handle of an element.
+        """Index of an element by its number, its name, or what a model handed out.
 
         Raises:
-            UnknownError: there is none.
-            TypeError: it is neither.
+            UnknownError: there is none of this number.
+            ModelError: no part, or several, have this name; or it has several elements.
+            TypeError: it is nothing of that.
         """
         number = getattr(given, "number", given)
-        if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
-            raise TypeError(f"an element is given by its number, not by {in_short(given)}")
-        index = self.data.element_index.get(int(number))
-        if index is None:
+        if isinstance(number, (int, np.integer)) and int(number) not in self.data.element_index:
             raise UnknownError(
                 f"there is no element {in_short(int(number))}: there are "
                 f"{_listed(self.data.arrays.element_number)}"
             )
-        return index
+        return element_of(self.parts, given)
+
+    def elements(self, given: object) -> tuple[int, ...]:
+        """Indices of an element, or of all of a part that is given by name or handle; likewise."""
+        if isinstance(given, str) or hasattr(given, "elements"):
+            return elements_of(self.parts, given)
+        return (self.element(given),)
 
     def deformation(self, element: object, k: object) -> tuple[int, int]:
         """Indices of an element and of one of its deformations, from 0.
@@ -190,6 +195,14 @@ class Points:
                 f"{', '.join(map(str, there.tolist()))}"
             )
         return index, int(k) - 1
+
+    def deformations(
+        self, element: object, which: object, at: object = None
+    ) -> list[tuple[int, int]]:
+        """Indices of elements and deformations, from 0, of a number or a word; likewise."""
+        if isinstance(which, str):
+            return deformations_of(self.parts, element, which, at)
+        return [self.deformation(element, which)]
 
 
 def _listed(numbers: IntArray) -> str:

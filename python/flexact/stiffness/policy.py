@@ -11,6 +11,7 @@ import numpy as np
 
 from ..base.frozen import Frozen
 from ..base.plain_text import in_short
+from ..base.quantities import NOTCH, Quantity, without_units
 from ..core.arrays import BoolArray, FloatArray, packed
 from ..core.elastic import ElasticArrays, element_stiffness
 from ..core.elements import Class, Dual, dual_table
@@ -22,7 +23,7 @@ HELD = ("elastic", "rigid")
 DRIVES = ("free", "locked")
 
 #: Deformations that are released, as users give them.
-Release = Iterable[tuple[int, int]] | Mapping[tuple[int, int], float]
+Release = Iterable[tuple[object, ...]] | Mapping[tuple[object, ...], Quantity]
 #: Stiffness [N m/rad; N/m of an elongation] by indices of element and deformation, from 0.
 Releases = dict[tuple[int, int], float]
 
@@ -54,15 +55,16 @@ def releases_given(points: Points, given: object) -> Releases:
         raise TypeError(_WANTED + in_short(given))
     made: Releases = {}
     for pair, stiffness in pairs:
-        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+        if not isinstance(pair, (tuple, list)) or len(pair) not in (2, 3):
             raise TypeError(_WANTED + in_short(pair))
+        stiffness = without_units(stiffness, NOTCH)
         number = stiffness if isinstance(stiffness, (int, float, np.number)) else math.nan
         if isinstance(stiffness, bool) or not (math.isfinite(number) and number >= 0.0):
             raise ElasticError(
                 f"the stiffness of a release must be a number from 0 in N m/rad (of an elongation "
                 f"in N/m), not {in_short(stiffness)}"
             )
-        made[points.deformation(*pair)] = float(number)
+        made.update(dict.fromkeys(points.deformations(*pair), float(number)))
     return made
 
 

@@ -3,22 +3,19 @@
 
 from __future__ import annotations
 
-import re
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core import elastic
 from ..core.arrays import FloatArray, IntArray, PackedModel, packed
 from ..core.elastic import ElasticArrays, ElasticState
 from ..core.elements import AXES, Class, coordinate_name
 from ..model.data import ModelData
-from ..model.prescribed import prescribed_in
+from ..model.prescribed import class_statements, prescribed_in
 from .policy import Policy, notch_in_units
 from .solution import Solution
-
-_STATEMENTS = re.compile(rb"^[ \t\r\f\v]*DYN([XE])[ \t\f\v]+(\d+)", re.MULTILINE | re.IGNORECASE)
 
 
 class Reduced(NamedTuple):
@@ -77,13 +74,11 @@ class Reducer:
 
     def _order(self, letter: bytes) -> dict[int, None]:
         """Indices of nodes or elements as the deck's statements name them."""
-        source = self.data.source
         index = self.data.node_index if letter == b"X" else self.data.element_index
-        found = [] if source is None else _STATEMENTS.findall(source.text)
         return {
-            index[int(number)]: None
-            for which, number in found
-            if which.upper() == letter and int(number) in index
+            index[number]: None
+            for which, number, _ in class_statements(self.data, b"DYN")
+            if which == letter and number in index
         }
 
     @cached_property

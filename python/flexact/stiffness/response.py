@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core.arrays import FloatArray
 from .compliance import Compliance
 from .estimate import matched_by_order, matched_by_sign

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.elements import Class
 from ..model.data import ModelData

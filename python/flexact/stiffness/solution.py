@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core import calls, elastic
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elastic import ElasticState, RawLinear, RawModes, Waypoint
@@ -69,7 +69,7 @@ class Solution:
                 np.asarray(answer.displacement[axes, nodes]),
                 np.asarray(self.unit_motions(answer.loose)[axes, nodes]),
                 np.asarray(self.scale[nodes]),
-                np.array([self.is_held(each) for each in coordinates]),
+                np.array([self._is_still(each) for each in coordinates]),
                 self.solver.least_compliance,
             )
         return self._at[point]
@@ -94,6 +94,13 @@ class Solution:
         node, axis = coordinate
         fixed = self.solver.mesh.data.arrays.coordinate_class[axis, node] == Class.FIXED
         return bool(fixed) or coordinate in self.held
+
+    def _is_still(self, coordinate: Coordinate) -> bool:
+        """Whether nothing moves along it: a held Euler parameter turned otherwise is no axis."""
+        node, axis = coordinate
+        turned = np.delete(self.raw.configuration[1:, node], axis)
+        whole = not self._is_turn[node] or self.is_whole(node) or not np.any(turned)
+        return whole and self.is_held(coordinate)
 
     def is_whole(self, node: int) -> bool:
         """Whether all of an orientation is held, so that its reaction is a moment on the spin."""

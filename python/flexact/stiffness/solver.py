@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
 from ..core.elastic import ElasticArrays, ElasticState, Waypoint, element_stiffness
 from ..core.elements import Class

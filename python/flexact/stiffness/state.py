@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
+from ..base.cached import cached_property
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.configuration import Configuration
@@ -100,14 +100,18 @@ class State(Response):
         return resultants_of(self.model.data, e, stress)
 
     def peak_stress(self, element: object) -> float:
-        """The largest normal stress [Pa] anywhere in an element whose section is known.
+        """The largest normal stress [Pa] anywhere in an element, or part, of known section.
+
+        Args:
+            element: Its number or handle, or the name of a part.
 
         Raises:
+            ModelError: no part, or several, have this name.
             UnknownError: there is no such element.
             ElasticError: its section is not known.
         """
-        e = self.model.points.element(element)
-        return float(self.best(lambda at: _peak(at, e)))
+        which = self.model.points.elements(element)
+        return float(self.best(lambda at: max(peak_of(at, e) for e in which)))
 
     @property
     def energy(self) -> float:
@@ -116,8 +120,11 @@ class State(Response):
 
     @property
     def force(self) -> float:
-        """Force of the drive on the mechanism [N], or moment on its angle [N m]; signed.
+        """Force of the drive on the mechanism [N], or moment about the driven axis [N m]; signed.
 
+        The axis is that of the spin that changes the angle and nothing else: x, y or z while the
+        node turns about that alone. With a free drive compliance, stiffness and frequencies are
+        those at this constant force or moment.
         0 where the drive is free and no stroke was asked for.
 
         Raises:
@@ -206,7 +213,12 @@ class State(Response):
         return f"<State: {self.label}, {self.model.words}>"
 
 
-def _peak(at: Solution, element: int) -> float:
+def peak_of(at: Solution, element: int) -> float:
+    """The largest normal stress [Pa] in the pieces of an element, by its index.
+
+    Raises:
+        ElasticError: its section is not known.
+    """
     mesh = at.solver.mesh
     first, count = int(mesh.first[element]), int(mesh.pieces[element])
     every = [

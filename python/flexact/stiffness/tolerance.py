@@ -9,10 +9,10 @@ level at most once on each side, before it is 0 where the mechanism buckles.
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core import elastic
 from ..core.arrays import FloatArray
 from ..core.elastic import ElasticState

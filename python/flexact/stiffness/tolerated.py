@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..base.cached import cached_property
 from ..base.plain_text import in_short
 from ..core.arrays import FloatArray
 from . import paths
@@ -82,7 +82,7 @@ class Tolerated(Setting):
         about: object,
         of: Callable[[Linear], Pair],
     ) -> Pair:
-        off = misalignment(self.points, node, coordinate, 1.0, about)
+        off = misalignment(self.points, node, coordinate, 1.0, about, beyond=True)
         self.require_stiffness()
         self.require_determined()
         what = self.points.coordinate(node, coordinate), about

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind

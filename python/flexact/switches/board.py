@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cached_property
 
 from ..advice.change import Change
+from ..base.cached import cached_property
 from ..base.plain_text import in_short
 from ..core.elements import AXES, Class, coordinate_name, element_kinds
 from ..model.data import ModelData

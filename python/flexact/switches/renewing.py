@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core.elements import NodeKind
 from ..model.parts.parts import Parts
 from .board import Board, Edits

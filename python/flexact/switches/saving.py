@@ -14,6 +14,8 @@ from ..files.outputs import OutputError, write_together
 from .refusal import RefusedError
 
 _MOST = 200
+#: What no name of a file holds, here or elsewhere.
+_NONE = "/\\:"
 _EDITED = re.compile(r"_edited(?:_\d+)?$")
 
 
@@ -53,8 +55,11 @@ def write_deck(watched: Path, name: str, text: bytes, *, over: bool = False) -> 
 
 
 def free_name(watched: Path) -> str:
-    """A name for the new deck that no file in the folder has."""
-    stem = _EDITED.sub("", watched.stem)
+    """A name for the new deck that no file in the folder has, and that `write_deck` takes."""
+    stem = "".join("_" if c in _NONE or not c.isprintable() else c for c in watched.stem)
+    stem = _EDITED.sub("", stem.strip(". ")) or "deck"
+    while len(os.fsencode(stem)) > _MOST - len(f"_edited_999{SUFFIX}"):
+        stem = stem[:-1]
     for k in range(1, 1000):
         name = f"{stem}_edited{f'_{k}' * (k > 1)}{SUFFIX}"
         if not os.path.lexists(watched.parent / name):
@@ -67,7 +72,7 @@ def _checked(name: str) -> str:
     name = name.strip()
     if not name or name.strip(". ") == "":
         raise RefusedError("the new deck needs a name")
-    if any(c in name for c in "/\\:") or name.startswith(".") or not name.isprintable():
+    if any(c in name for c in _NONE) or name.startswith(".") or not name.isprintable():
         raise RefusedError(
             "the new deck is written to the folder of the watched file: give the name of a file, "
             "without a folder"

@@ -12,8 +12,7 @@ from ..base.plain_text import harmless
 from ..deck.reading import read_bytes
 from ..model.data import ModelData
 from ..result.result import Result
-from ..text.margin import margin_in_short
-from ..text.naming import counts_in_words
+from ..text.margin import margin_in_short, verdict_in_short
 from .board import Board, Edits
 from .calls import Calls
 from .history import History
@@ -185,7 +184,7 @@ class Session:
 
     def _require_sound(self) -> None:
         """Raise as `board` does."""
-        assert self.board is not None
+        _ = self.board
 
     def _look(self, request: Mapping[str, Any]) -> Json:
         """What is offered of a part or a point."""
@@ -259,7 +258,7 @@ class Session:
         board, edits, now = self._board, self.history.now, self.now
         return {
             "is": "deck" if board.given.source is not None else "model",
-            "verdict": _capital(counts_in_words(now.under_constrained, now.over_constrained)),
+            "verdict": _capital(verdict_in_short(now)),
             "margin": f"{_capital(margin_in_short(now))}.",
             "edits": [
                 {"words": edit_in_words(board, each), "place": place_json(each.place)}

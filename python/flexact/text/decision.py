@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ..result.result import Result
 from ..result.verdict import Alternative, Certainty, Proof
 from .naming import counted, counts_in_words
+from .places import parts_words
 from .sentences import Line, sentence
 from .units import angle_in_words, length_in_words
 
@@ -15,8 +16,20 @@ from .units import angle_in_words, length_in_words
 _LARGE = 500
 
 
+def declared_in_words(result: Result) -> str:
+    """How many degrees of freedom the model declares, and how many of them D(c) does not know."""
+    count = result.degrees_of_freedom
+    words = f"{counted(count, 'degree', '', 's')} of freedom declared"
+    if inside := count - int(result.raw.counts[:, -1].sum()):
+        some = "all" if inside == count else inside
+        words += f", {some} of them inside of what is taken as one beam"
+    return words
+
+
 def decision(result: Result) -> Iterator[Line]:
-    """Sentences on the rank."""
+    """Sentences on the rank, first on what D(c) takes as one beam."""
+    if result.condensed.chains:
+        yield sentence(_taken_as_one(result))
     rows, columns, rank = result.rows, result.columns, result.rank
     size = f"{counted(rows, 'row', '', 's')} and {counted(columns, 'column', '', 's')}"
     yield sentence(f"D(c) has {size}; its rank is {rank}.")
@@ -30,6 +43,16 @@ def decision(result: Result) -> Iterator[Line]:
     yield from _certainty(result)
     if result.condition_number is not None:
         yield sentence(f"The condition number of D(c) itself is {result.condition_number:.4g}.")
+
+
+def _taken_as_one(result: Result) -> str:
+    """Which parts are one beam in D(c), though the deck has several."""
+    chains = result.condensed.chains
+    named = f"{len(chains)} divided sheets and wires"
+    if result.is_told_by_parts:
+        named = parts_words([result.parts.of_element(chain.elements[0]) for chain in chains])
+    each, of = ("", "it") if len(chains) == 1 else (" each", "them")
+    return f"Taken as one beam{each} in D(c), as what is inside of {of} is declared: {named}."
 
 
 def _zeros(result: Result) -> str:

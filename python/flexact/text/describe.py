@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import NamedTuple
@@ -11,10 +12,10 @@ from ..base.columns import TIE, USUAL, table
 from ..base.plain_text import harmless
 from ..result.result import Result
 from .advice import lines_on_motions, lines_on_self_stresses
-from .decision import decision
-from .margin import but_only, margin_line
+from .decision import decision, declared_in_words
+from .margin import margin_line, verdict_in_short
 from .motions import internal_in_words, motion_in_parts
-from .naming import counted, counts_in_words, in_words
+from .naming import counted, in_words
 from .self_stresses import conflict_in_words, stress_in_parts
 from .sentences import Line, Pieces, filled, sentence
 from .warnings import warnings_of
@@ -22,6 +23,10 @@ from .warnings import warnings_of
 #: How many motions, and how many self-stresses, are reported one by one on a screen.
 MOST_MODES = 12
 _PARTS = 6
+
+
+#: What services take for a command: two colons that begin a line, and ##[ anywhere.
+_COMMAND = re.compile(r"(?m)(^\s*:|#)(:|#\[)")
 
 
 class _Table(NamedTuple):
@@ -56,7 +61,9 @@ def describe(
         _notes(result, about_model),
     )
     blocks = ([_shown(told, width) for told in section] for section in sections)
-    return "\n\n".join("\n".join(block) for block in blocks if block)
+    text = "\n\n".join("\n".join(block) for block in blocks if block)
+    # In the log of a service that runs tests these would be commands, of whoever names a part.
+    return _COMMAND.sub(lambda found: f"{found[1]} {found[2]}", text)
 
 
 def _shown(told: _Told, width: int) -> str:
@@ -91,8 +98,8 @@ def verdict_in_words(result: Result) -> VerdictInWords:
         ending = "" if over == 1 else "es"
         reasons.append(f"{in_words(over)} self-stress{ending} can exist without any load")
     none = "every motion is held once or declared, and no self-stress can exist without load"
-    start = counts_in_words(under, over).capitalize() + but_only(result)
-    return VerdictInWords(start, f"{'; '.join(reasons) or none}.")
+    start = verdict_in_short(result)
+    return VerdictInWords(f"{start[:1].upper()}{start[1:]}", f"{'; '.join(reasons) or none}.")
 
 
 def _of_folds(under: int, folds: int) -> list[str]:
@@ -124,8 +131,7 @@ def _counts(result: Result) -> Iterator[_Told]:
             ("deformations", *map(str, counts.deformations)),
         )
     )
-    freedoms = counted(result.degrees_of_freedom, "degree", "", "s")
-    yield sentence(f"{freedoms} of freedom declared.")
+    yield sentence(f"{declared_in_words(result)}.")
 
 
 def _motions(result: Result, most: int | None) -> Iterator[Line]:

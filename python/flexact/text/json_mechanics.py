@@ -38,6 +38,20 @@ def parts(result: Result) -> list[Entries] | None:
     ]
 
 
+def taken_as_one(result: Result) -> list[Entries] | None:
+    """Parts of several beams that are one beam each in D(c); None of a large model."""
+    if not result.is_told_by_parts:
+        return None
+    number = result.given.arrays.element_number
+    return [
+        {
+            "part": result.parts.of_element(chain.elements[0]).name,
+            "elements": number[list(chain.elements)].tolist(),
+        }
+        for chain in result.condensed.chains
+    ]
+
+
 def internal_motions(result: Result) -> Entries | None:
     """Motions inside of divided sheets and wires; None where nothing of them is undeclared."""
     whole = result.with_internal_declared

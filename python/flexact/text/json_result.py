@@ -64,6 +64,7 @@ def _without_modes(analysis: Result) -> dict[str, Any]:
         **_decision(analysis),
         **_certainty(analysis),
         "parts": json_mechanics.parts(analysis),
+        "taken_as_one": json_mechanics.taken_as_one(analysis),
         "internal_motions": json_mechanics.internal_motions(analysis),
         "freedoms": list(json_parts.freedoms(analysis)),
         **_given("motions", analysis.under_constrained, len(analysis.motions)),

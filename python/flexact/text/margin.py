@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from ..result.accuracy import Accuracy
 from ..result.result import Result
-from ..result.verdict import Verdict
-from .naming import named_element, named_node
+from ..result.verdict import Margin, Verdict
+from .naming import counts_in_words, named_element, named_node
 from .sentences import Line, Pieces, sentence
 from .units import angle_in_words, length_in_words
 
@@ -62,23 +62,36 @@ def margin_cells(result: Result) -> tuple[str, str]:
     return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
 
 
-def but_only(result: Result) -> str:
+def verdict_in_short(result: Result) -> str:
+    """The verdict as it is stated wherever it is: by how much, and whether the accuracy lifts it.
+
+    Such as "over-constrained by 1, but only by 13 um".
+    """
+    counts = counts_in_words(result.under_constrained, result.over_constrained)
+    return counts + but_only(result.margin, result.accuracy)
+
+
+def but_only(margin: Margin, accuracy: Accuracy | None) -> str:
     """What the verdict is restricted by where the margin is smaller than the accuracy."""
-    if result.accuracy is None or not result.is_marginal:
+    if accuracy is None or not any(accuracy.exceeds(margin)):
         return ""
-    if result.margin.exact_alignment:
+    if margin.exact_alignment:
         return f", but only {_ALIGNED}"
-    length, angle = result.accuracy.exceeds(result.margin)
-    margin = result.margin
+    length, angle = accuracy.exceeds(margin)
     sizes = _sizes(margin.length if length else None, margin.angle if angle else None)
     return f", but only by {' or '.join(sizes)}"
 
 
 def verdict_word(result: Result) -> str:
     """The verdict as it is counted in a batch: exactly constrained within the accuracy, or not."""
-    if result.verdict is Verdict.EXACT and result.is_marginal:
+    return word_of(result.verdict, is_marginal=result.is_marginal)
+
+
+def word_of(verdict: Verdict, *, is_marginal: bool) -> str:
+    """The same of a verdict alone, and whether its margin is smaller than the accuracy."""
+    if verdict is Verdict.EXACT and is_marginal:
         return "exactly constrained but by less than the accuracy"
-    return result.verdict.value
+    return verdict.value
 
 
 def _margin(result: Result) -> Pieces:

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core.arrays import IntArray
 from ..core.elements import AXES, Class, NodeKind
 from ..model.data import ModelData

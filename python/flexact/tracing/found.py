@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
+from ..base.cached import cached_property
 from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..base.cached import cached_property
 from ..core.elements import NodeKind
 from ..model.parts.parts import natural
 from ..result.result import Result

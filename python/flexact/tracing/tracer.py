@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.errors import FlexactError
+from ..base.quantities import Quantity, without_units
 from ..deck.models import read
 from ..drawing.selection import Selection, select_motion
 from ..model.model import Model
@@ -44,10 +45,11 @@ def trace(
     model: Model | Result | str | bytes | os.PathLike[str] | os.PathLike[bytes],
     *,
     motion: int | None = None,
-    freedom: int | None = None,
-    length: float | None = None,
+    freedom: int | str | None = None,
+    length: Quantity | None = None,
     steps: int = STEPS,
     through: bool = True,
+    beyond: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Trace:
     """Follow a motion on D(x) = 0, eq. (5), both ways from the reference.
@@ -59,17 +61,20 @@ def trace(
         model: A model, the path of a deck, or an analysis.
         motion: The number, from 1, of one of the motions that nothing determines; by default the
             first of them, else the first declared degree of freedom that can move.
-        freedom: The number, from 1, of a declared degree of freedom instead.
-        length: How far each way [m]: of the node that moves farthest, a rotation of 1 rad
-            counting as the model's size. By default that size.
+        freedom: The number, from 1, of a declared degree of freedom instead, or its name, such as
+            "stage y".
+        length: How far each way [m], or a text such as "20mm": of the node that moves farthest,
+            a rotation of 1 rad counting as the model's size. By default that size.
         steps: By how many steps each way, at least.
         through: Whether to go straight on where other paths branch off; else the path ends there.
+        beyond: Whether the length may be larger than the model.
         progress: Called with the part that is done, from 0 to 1.
 
     Raises:
         DeckError: the model's deck is wrong.
         ModelError: the model is wrong.
-        FlexactError: there is no such motion or freedom, or the path cannot be begun.
+        FlexactError: there is no such motion or freedom, the path cannot be begun, or the length
+            is larger than the model, and not `beyond`.
         TypeError: something is of another kind than it must be.
         ValueError: the length or the number of steps is not positive.
     """
@@ -91,6 +96,11 @@ def trace(
         )
     held = Held(data)
     size = 1.0 if wished is None else wished / held.size
+    if wished is not None and wished > data.size and size > 1.0 and not beyond:
+        raise TraceError(
+            f"the length is {wished:g} m, larger than the whole model, {data.size:.3g} m: say its "
+            "unit, such as 20mm, if that is not meant; --beyond (in Python beyond=True) permits it"
+        )
     most = size / steps
     wishes = Wishes(size, most, most, _LEAST * min(most, 0.1), 100 * steps + 2000, through)
     return _traced(result, shown, held, wishes, progress)
@@ -108,13 +118,14 @@ def _analysed(given: object) -> Result:
     )
 
 
-def _checked(length: float | None, steps: int) -> float | None:
+def _checked(length: Quantity | None, steps: int) -> float | None:
     if isinstance(steps, bool) or not isinstance(steps, int):
         raise TypeError(f"the number of steps must be whole, not {type(steps).__name__}")
     if steps < 1:
         raise ValueError("there must be one step each way at least")
     if length is None:
         return None
+    length = without_units(length, "m")
     if isinstance(length, bool) or not isinstance(length, (int, float, np.floating, np.integer)):
         raise TypeError(f"the length must be a number, not {type(length).__name__}")
     if not (math.isfinite(length) and length > 0.0):

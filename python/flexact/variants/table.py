@@ -221,9 +221,7 @@ class Table(Frozen):
         try:
             pandas = load("pandas")
         except ImportError:
-            raise FlexactError(
-                "a DataFrame needs the package pandas: pip install 'flexact[tables]'"
-            ) from None
+            raise FlexactError("a DataFrame needs the package pandas: pip install pandas") from None
         return pandas.DataFrame(dict(zip(self.columns, self.arrays, strict=True)))
 
     def __repr__(self) -> str:

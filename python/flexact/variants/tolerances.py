@@ -14,6 +14,7 @@ import numpy as np
 
 from ..base.errors import require_kind
 from ..base.frozen import Frozen
+from ..base.quantities import Quantity, without_units
 from ..core.arrays import FloatArray
 from ..core.progress import Progress
 from ..model.model import Model
@@ -186,7 +187,7 @@ def tolerances(
     sd: Spread,
     samples: int = 1000,
     seed: int = 0,
-    below: float | None = None,
+    below: Quantity | None = None,
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Tolerances:
@@ -199,12 +200,14 @@ def tolerances(
 
     Args:
         model: The mechanism as designed.
-        sd: The standard deviation of each coordinate [m]: one length for all points, or a mapping
-            of points (names, numbers of position nodes, handles) to a length or to three, for x,
-            y and z, where other points stay; or an array, (nodes,) or (nodes, 3).
+        sd: The standard deviation of each coordinate [m], or a text such as "20um": one length for
+            all points, or a mapping of points (names, numbers of position nodes, handles) to a
+            length or to three, for x, y and z, where other points stay; or an array, (nodes,) or
+            (nodes, 3).
         samples: How many times.
         seed: The same seed makes the same samples.
-        below: A margin [m]; `describe` says how many samples have a smaller one.
+        below: A margin [m], or a text such as "50um"; `describe` says how many samples
+            have a smaller one.
         workers: So many threads at most.
         progress: As for `sweep`.
 
@@ -234,6 +237,7 @@ def _require_whole(what: str, value: Any, least: int) -> None:
 
 
 def _limit(below: Any) -> float:
+    below = without_units(below, "m")
     if isinstance(below, bool) or not isinstance(below, (int, float, np.number)):
         raise TypeError(f"the margin must be a length [m], not {type(below).__name__}")
     if not (math.isfinite(below) and below > 0.0):

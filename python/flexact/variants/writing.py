@@ -24,7 +24,7 @@ from .columns import COLUMNS, Column
 Cell = str | int | float | bool | None
 #: Rows of a group of Parquet, which is what is held in memory.
 _GROUP = 2**15
-_WITHOUT_PARQUET = "Parquet needs the package pyarrow: pip install 'flexact[parquet]'"
+_WITHOUT_PARQUET = "Parquet needs the package pyarrow: pip install pyarrow"
 
 
 def require_table(path: Path) -> None:

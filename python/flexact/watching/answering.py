@@ -7,13 +7,13 @@ import pickle
 from collections.abc import Callable
 from dataclasses import replace
 
+from ..base.partial import why
 from ..deck.reading import read_file
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import render_problems
 from ..model.data import ModelData
 from ..page.content import broken_content, content_of
 from ..result.decompose import asked_for
-from ..result.failing import AnalysisError
 from ..result.result import Result, result_of
 from ..text.margin import verdict_word
 from .errors_part import errors_part
@@ -41,10 +41,17 @@ def answer_of(job: Job, judged: Callable[[Judged], None]) -> Answer:
         told = told_of(result)
         judged(Judged(told))
         shown = shown_of(result, told, which, () if script is None else script.files())
-        kept = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
-        return replace(shown, result=kept, model=model)
-    except (ProblemsError, AnalysisError, MemoryError) as error:
+        return replace(shown, result=_kept(result), model=model)
+    except Exception as error:
         return _broken(error, job.path, () if script is None else script.files())
+
+
+def _kept(result: Result) -> bytes:
+    """The result for who switches; empty where a script has put into it what cannot be kept."""
+    try:
+        return pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
+    except Exception:
+        return b""
 
 
 def _result(shown: object, name: str, job: Job) -> Result:
@@ -75,6 +82,6 @@ def shown_of(
 
 
 def _broken(error: Exception, path: str, files: tuple[str, ...]) -> Broken:
-    words = str(error) or "not enough memory"
+    words = str(error) if isinstance(error, ProblemsError) else why(error)
     body = broken_content(error, path).body
     return Broken("cannot be analysed", errors_part(error, path), body, words, files)

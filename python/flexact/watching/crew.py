@@ -12,6 +12,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from ..base.errors import FlexactError, reason_of
 from . import frames
 from .messages import Answer, Job, Judged, Printed
 
@@ -29,7 +30,7 @@ _PATIENCE = 5.0
 _CRASHED = 2**31
 
 
-class WorkerError(Exception):
+class WorkerError(FlexactError):
     """A worker ended before it had an answer; the text says how."""
 
 
@@ -69,11 +70,19 @@ class Worker:
     def _hear(self) -> Any:
         try:
             return frames.receive(self._line)
-        except (EOFError, OSError, ValueError):
+        except (EOFError, OSError):
             raise self._death() from None
+        except Exception:
+            # A script may write to whatever is open in its process.
+            self.stop()
+            raise WorkerError("what the process sent was no answer, and it was ended") from None
 
     def _death(self) -> WorkerError:
-        return WorkerError(_how(self._process.wait()))
+        try:
+            return WorkerError(_how(self._process.wait(_PATIENCE)))
+        except subprocess.TimeoutExpired:
+            self.stop()
+            return WorkerError("the process hears and says nothing any more, and was ended")
 
     @property
     def is_alive(self) -> bool:
@@ -114,6 +123,20 @@ def _how(code: int) -> str:
     return f"the process was ended before it had an answer: {name.lower()}"
 
 
+def _started() -> Worker:
+    """A new worker.
+
+    Raises:
+        WorkerError: The system gives no process, or no pipes to it.
+    """
+    try:
+        return Worker()
+    except OSError as error:
+        raise WorkerError(
+            f"no process can be started now: {reason_of(error)}; save the file again to try anew"
+        ) from error
+
+
 class Crew:
     """The worker whose answer is shown, and a fresh one for the next script."""
 
@@ -126,28 +149,36 @@ class Crew:
         self._fresh = fresh
         self._lock = threading.Lock()
         self._at_work: Worker | None = None
-        self._spare: Worker | None = Worker()
+        self._spare: Worker | None = None
         self._closed = False
+        with contextlib.suppress(WorkerError):
+            self._spare = _started()
 
     def take(self) -> Worker:
-        """The worker for a new job; the one before is stopped unless it can go on."""
+        """The worker for a new job; the one before is stopped unless it can go on.
+
+        Raises:
+            WorkerError: There can be none.
+        """
         with self._lock:
             before = self._at_work
             if before is not None:
                 if not self._fresh and before.is_alive and not before.is_busy:
                     return before
                 before.stop()
-            self._at_work = None if self._closed else (self._spare or Worker())
-            self._spare = None
-            if self._at_work is None:
+                self._at_work = None
+            if self._closed:
                 raise WorkerError("the end")
+            self._at_work, self._spare = self._spare or _started(), None
             return self._at_work
 
     def prepare(self) -> None:
         """Have a fresh worker ready, where one will be wanted."""
         with self._lock:
             if self._fresh and self._spare is None and not self._closed:
-                self._spare = Worker()
+                # Else it is tried again when it is wanted.
+                with contextlib.suppress(WorkerError):
+                    self._spare = _started()
 
     def close(self) -> None:
         """Stop all of them."""

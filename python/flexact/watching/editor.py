@@ -9,7 +9,8 @@ from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
-from ..base.errors import FlexactError
+from ..base.errors import BatchError, FlexactError
+from ..base.partial import why
 from ..base.plain_text import harmless
 from ..diagnostics.errors import ProblemsError
 from ..page.markup import text
@@ -73,7 +74,10 @@ class Editor:
         The verdict is in the answer, and the scene follows.
         """
         with self._lock:
-            self._take()
+            try:
+                self._take()
+            except FlexactError as error:
+                return HTTPStatus.UNPROCESSABLE_ENTITY, {"error": str(error)}
             before = self._session.history.copy()
             reply = answered(self._session, body)
             if reply.changed:
@@ -90,10 +94,18 @@ class Editor:
             return reply.status, reply.content
 
     def _take(self) -> None:
-        """Give the session the analysis of the file, as soon as somebody clicks."""
+        """Give the session the analysis of the file, as soon as somebody clicks.
+
+        Raises:
+            FlexactError: The model holds what the script alone can make, such as its classes.
+        """
         if self._file is not None and not self._is_taken:
+            try:
+                base: Result = pickle.loads(self._file.result)
+            except Exception as error:
+                words = f"this model cannot be switched: {harmless(' '.join(str(error).split()))}"
+                raise BatchError(words) from error
             self._is_taken = True
-            base: Result = pickle.loads(self._file.result)
             self._session.model_name = self._file.model or "model"
             self._session.renew(base)
 
@@ -126,7 +138,7 @@ class Editor:
                         return
                     self._stage.judge(told)
                 shown: Answer = self._with_edits(now, told)
-            except (FlexactError, MemoryError) as error:
+            except Exception as error:
                 words = _in_short(error)
                 shown = Broken("cannot be drawn", text(words), text(words), words, ())
             with self._lock:
@@ -144,7 +156,7 @@ class Editor:
         return shown_of(now, told, which, self._file.files, is_edited=True)
 
 
-def _in_short(error: FlexactError | MemoryError) -> str:
+def _in_short(error: Exception) -> str:
     if isinstance(error, ProblemsError) and error.diagnostics:
         return harmless(error.diagnostics[0].message)
-    return harmless(str(error)) or "not enough memory"
+    return harmless(why(error))

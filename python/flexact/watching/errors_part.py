@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from ..base.plain_text import file_name, harmless
+from ..base.partial import why
+from ..base.plain_text import file_name
 from ..diagnostics.diagnostic import Diagnostic
 from ..diagnostics.errors import ProblemsError
 from ..diagnostics.rendering import MOST_SHOWN, render
@@ -14,7 +15,7 @@ from ..page.markup import text
 def errors_part(error: Exception, path: str) -> str:
     """What is wrong, in full."""
     if not isinstance(error, ProblemsError):
-        return f"<p>{text(harmless(str(error)) or 'not enough memory')}</p>"
+        return f"<p>{text(why(error))}</p>"
     shown = sorted(error.diagnostics, key=lambda item: not item.is_error)[:MOST_SHOWN]
     name = file_name(error.name or path)
     parts = [_problem(item, name, error.source) for item in shown]

@@ -8,6 +8,8 @@ import struct
 from typing import IO, Any
 
 _LENGTH = struct.Struct("!Q")
+#: Longer is no value of ours.
+_MOST = 2**32
 
 
 def send(line: IO[bytes], value: Any) -> None:
@@ -26,8 +28,11 @@ def receive(line: IO[bytes]) -> Any:
 
     Raises:
         EOFError: There is none, or it ends too early.
+        Exception: What is there was not sent by `send`.
     """
     (length,) = _LENGTH.unpack(_read(line, _LENGTH.size))
+    if length > _MOST:
+        raise ValueError("longer than any value")
     return pickle.loads(_read(line, length))
 
 

@@ -11,11 +11,17 @@ from .scene import Scene
 _SCRIPTS = (*(name for name in SCRIPTS if name != "start.js"), "switches.js", "live.js")
 
 
-def live_page(scene: Scene) -> str:
-    """The whole page."""
+def live_page(scene: Scene, start: str, key: str) -> str:
+    """The whole page.
+
+    Args:
+        scene: What it shows.
+        start: The start of the server that it comes from.
+        key: What it finds out by whether a server is one of this user and file; see `guard`.
+    """
     body = (
         f'<div class="live" data-revision="{scene.revision if scene.saved else 0}" '
-        f'data-saved="{text(scene.saved)}">'
+        f'data-saved="{text(scene.saved)}" data-start="{start}" data-key="{key}">'
         '<p class="live-state" role="status"><span class="live-dot" aria-hidden="true"></span>'
         '<span class="live-words"></span> <span class="live-which"></span></p>'
         '<p class="live-work" role="status" hidden></p>'

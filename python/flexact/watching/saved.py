@@ -7,6 +7,7 @@ They are looked at again and again, which works for every way to save, and on ev
 from __future__ import annotations
 
 import os
+import stat
 import time
 from collections.abc import Iterable
 
@@ -16,6 +17,8 @@ QUIET = 0.08
 UNFINISHED = 0.6
 #: A look at files that are saved without end does not wait for ever [s].
 _LONGEST = 3.0
+
+_HOW = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 
 #: Time of the last change, size, and place on the disk; None where there is no file.
 _State = tuple[int, int, int] | None
@@ -79,7 +82,10 @@ def _state(path: str) -> _State:
 def _is_whole(path: str) -> bool | None:
     """Whether a file ends with a line; None where it is empty or not there."""
     try:
-        with open(path, "rb") as file:
+        # What is no file may keep whoever opens it waiting.
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            return None
+        with open(os.open(path, _HOW), "rb") as file:
             file.seek(0, os.SEEK_END)
             if not file.tell():
                 return None

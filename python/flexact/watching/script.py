@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import time
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType, TracebackType
@@ -77,12 +78,15 @@ class Script:
         try:
             exec(compile(source, self.path, "exec"), main.__dict__)
         except SystemExit as ending:
-            if ending.code not in (None, 0):
+            code = ending.code
+            if code is not None and not (isinstance(code, int) and code == 0):
                 raise self._failed(ending) from None
         except BaseException as error:
             raise self._failed(error) from None
         finally:
-            sys.stdout.flush()
+            # It may have closed it, or put something else there.
+            with contextlib.suppress(Exception):
+                sys.stdout.flush()
         return self._found(main)
 
     def files(self) -> tuple[str, ...]:
@@ -225,16 +229,21 @@ def _said(error: BaseException) -> Iterator[tuple[str, str, str]]:
         return
     kind = type(error).__name__
     if isinstance(error, SystemExit):
-        yield kind, f"the script ended itself with {error.code!r}", ""
+        yield kind, f"the script ended itself with {_words(repr, error.code) or 'an object'}", ""
         return
-    try:
-        words = " ".join(str(error).split())
-    except Exception:
-        words = ""
+    words = _words(str, error)
     # The key alone says nothing.
     if isinstance(error, KeyError) and words:
         words = f"there is no key {words}"
     yield kind, words or f"the script stopped with {kind}", ""
+
+
+def _words(how: Callable[[object], str], of: object) -> str:
+    """What an object of a script says of itself, in a line; nothing where it cannot."""
+    try:
+        return " ".join(how(of).split())
+    except Exception:
+        return ""
 
 
 def _source(path: str) -> Source | None:

@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import json
 import os
+import socket
 import socketserver
+import threading
+import time
 from collections.abc import Callable
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -14,16 +18,20 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from ..base.errors import BatchError, reason_of
-from .guard import ADDRESS, is_token, port_of, refusal, token_of
+from .guard import ADDRESS, Secrets, refusal
 from .live_page import live_page
 from .scene import Scene, Stage
 
 #: A line that goes now and then, to find out who has gone [s].
 _BEAT = 10.0
-#: A page comes back so soon when its line has broken [ms].
-_RETRY = 500
 #: Bytes of a request that is taken.
 _LARGEST = 2**20
+#: Connections at a time; more are tabs that nobody looks at, or somebody who means ill.
+_MOST = 64
+#: How long a connection may say nothing before it has shown that it may ask, and afterwards [s].
+_FIRST, _LATER = 5.0, 60.0
+#: Where the system gives no more connections it is not asked at once again [s].
+_PAUSE = 0.1
 
 #: Answers the body of what a page sends: status and JSON.
 Post = Callable[[bytes], tuple[HTTPStatus, dict[str, Any]]]
@@ -48,10 +56,13 @@ class Server(ThreadingHTTPServer):
             BatchError: The port cannot be had.
         """
         self.stage = stage
-        self.token = token_of(path)
+        self.secrets = Secrets(path)
         #: By the last part of the address.
         self.posts: dict[str, Post] = {}
-        for tried in (port_of(path), 0) if port is None else (port,):
+        #: The open connections, the oldest first, each with whether it may ask.
+        self._lines: dict[socket.socket, bool] = {}
+        self._lock = threading.Lock()
+        for tried in (self.secrets.port, 0) if port is None else (port,):
             try:
                 super().__init__((ADDRESS, tried), Handler)
                 return
@@ -67,7 +78,47 @@ class Server(ThreadingHTTPServer):
     @property
     def address(self) -> str:
         """Of the page."""
-        return f"http://{ADDRESS}:{self.server_port}/{self.token}/"
+        return f"http://{ADDRESS}:{self.server_port}/{self.secrets.token}/"
+
+    def get_request(self) -> tuple[socket.socket, Any]:
+        """As below; whoever waits cannot be let in where there are no more files to be had."""
+        try:
+            return super().get_request()
+        except OSError:
+            time.sleep(_PAUSE)
+            raise
+
+    def process_request(self, request: Any, client_address: Any) -> None:
+        """Answer in a thread; of too many, the oldest of those that may not ask is closed."""
+        with self._lock:
+            if len(self._lines) >= _MOST:
+                oldest = next((line for line, may_ask in self._lines.items() if not may_ask), None)
+                if oldest is None:
+                    oldest = request
+                self._lines.pop(oldest, None)
+                # Its thread hears that nobody is there any more, and closes it.
+                with contextlib.suppress(OSError):
+                    oldest.shutdown(socket.SHUT_RDWR)
+            self._lines[request] = False
+        super().process_request(request, client_address)
+
+    def shutdown_request(self, request: Any) -> None:
+        """Close a connection."""
+        with self._lock:
+            self._lines.pop(request, None)
+        super().shutdown_request(request)
+
+    def let(self, request: socket.socket) -> None:
+        """Keep a connection, which has shown that it may ask."""
+        with self._lock:
+            if request in self._lines:
+                self._lines[request] = True
+        request.settimeout(_LATER)
+
+    def server_close(self) -> None:
+        """Give the port back, and take the way in away."""
+        super().server_close()
+        self.secrets.close()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """A page that has gone is no error."""
@@ -89,16 +140,23 @@ class Handler(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     server_version = "flexact"
     sys_version = ""
-    timeout = 60.0
+    timeout = _FIRST
 
     def do_GET(self) -> None:
-        """The page, or its events."""
+        """The page; or its events, for which no secret is sent."""
+        path, _, query = self.path.partition("?")
+        if path in ("/alive", "/events"):
+            if why := refusal(self.headers, self.server.server_port, writes=False):
+                self._refuse(HTTPStatus.FORBIDDEN, why)
+                return
+            asked = {name: values[0] for name, values in parse_qs(query).items()}
+            (self._alive if path == "/alive" else self._events)(asked)
+            return
         rest = self._admitted(writes=False)
         if rest == "":
-            scene = self.server.stage.scene
-            self._answer(live_page(scene).encode("utf-8", "backslashreplace"), "text/html")
-        elif rest == "events":
-            self._events()
+            known = self.server.secrets
+            page = live_page(self.server.stage.scene, known.start, known.page_key(known.start))
+            self._answer(page.encode("utf-8", "backslashreplace"), "text/html")
         elif rest is not None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
@@ -132,17 +190,37 @@ class Handler(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.FORBIDDEN, why)
             return None
         _, token, *rest = [*urlsplit(self.path).path.split("/"), ""]
-        if not is_token(token, self.server.token) or not rest[:-1]:
+        if not self.server.secrets.is_token(token) or not rest[:-1]:
             self._refuse(HTTPStatus.FORBIDDEN, "this is not the address that flexact watch says")
             return None
+        self.server.let(self.connection)
         return "/".join(rest[:-1])
 
-    def _events(self) -> None:
+    def _alive(self, asked: dict[str, str]) -> None:
+        """Show a page of any start of this file that this is its server, at this port."""
+        known, port = self.server.secrets, str(self.server.server_port)
+        proof = known.proof(
+            asked.get("start", ""), "server", asked.get("number", ""), known.start, port
+        )
+        self._answer(
+            json.dumps({"start": known.start, "proof": proof}).encode(), "application/json"
+        )
+
+    def _events(self, asked: dict[str, str]) -> None:
         """Scenes, each as it comes, until the page has gone."""
-        asked = parse_qs(urlsplit(self.path).query)
+        known, port = self.server.secrets, str(self.server.server_port)
+        start, number = asked.get("start", ""), asked.get("number", "")
+        if not known.is_proof(asked.get("proof", ""), start, "page", number, known.start, port):
+            self._refuse(HTTPStatus.FORBIDDEN, "this is no page of this server")
+            return
+        self.server.let(self.connection)
         self._start(HTTPStatus.OK, "text/event-stream", None)
-        self._send(f"retry: {_RETRY}\n\n")
-        shown = asked.get("seen", [""])[0]
+        self._event("proof", {"proof": known.proof(start, "events", number, known.start, port)})
+        if start != known.start:
+            # A page of an earlier start goes on as one of this.
+            own = {"start": known.start, "key": known.page_key(known.start), "token": known.token}
+            self._event("secrets", own)
+        shown = asked.get("seen", "")
         seen: Scene | None = None
         work = ""
         while (scene := self.server.stage.wait(seen, _BEAT)) is not None:

@@ -3,19 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import islice
+from typing import TypeVar
 
+from ..base.partial import attempted
 from ..result.modes import Motion, SelfStress
 from ..result.result import Result
 from ..result.verdict import Certainty
-from ..text.margin import but_only, margin_in_short
+from ..text.margin import margin_in_short, verdict_in_short
 from ..text.motions import motion_in_parts
-from ..text.naming import counts_in_words
 from ..text.self_stresses import conflict_in_words, stress_in_parts
 from ..text.sentences import Pieces
 
+Mode = TypeVar("Mode", Motion, SelfStress)
 #: How many motions, and how many self-stresses, are compared.
 MOST_COMPARED = 12
 #: How many parts of each are compared.
@@ -57,13 +59,19 @@ def told_of(result: Result) -> Told:
         "self-stresses": result.over_constrained,
     }
     return Told(
-        counts_in_words(result.under_constrained, result.over_constrained) + but_only(result),
+        verdict_in_short(result),
         counts,
         margin_in_short(result),
         result.certainty is not Certainty.CERTAIN,
-        tuple(map(_motion, islice(result.motions, MOST_COMPARED))),
-        tuple(map(_stress, islice(result.self_stresses, MOST_COMPARED))),
+        _each(_motion, result.motions),
+        _each(_stress, result.self_stresses),
     )
+
+
+def _each(words: Callable[[Mode], str], modes: Iterable[Mode]) -> tuple[str, ...]:
+    """The first ones in words; none where that fails, as the verdict is told all the same."""
+    some = islice(modes, MOST_COMPARED)
+    return attempted("", lambda: tuple(map(words, some)), (), None)
 
 
 def _motion(motion: Motion) -> str:

@@ -9,6 +9,8 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ..base.errors import BatchError
+from .browser import opens
 from .crew import Crew, Worker, WorkerError
 from .editor import Editor
 from .errors_part import errors_part
@@ -69,27 +71,36 @@ class Watch:
         self._number = 0
         self._failure: BaseException | None = None
 
+    def opens(self) -> bool:
+        """Open the page in the browser of this desk; False where there is none."""
+        try:
+            return opens(self.server.secrets.door(self.server.address).as_uri())
+        except OSError:
+            return False
+
     def run(self) -> None:
         """Go on until an exception, such as that of Ctrl-C, ends it."""
         threading.Thread(target=self.server.serve_forever, args=(0.1,), daemon=True).start()
-        try:
-            self.renew()
-            while True:
-                time.sleep(_LOOK)
-                if self._failure is not None:
-                    raise self._failure
-                if self._saved.is_renewed():
-                    self.renew()
-        finally:
-            self.close()
+        self.renew()
+        while True:
+            time.sleep(_LOOK)
+            if self._failure is not None:
+                raise self._failure
+            if self._saved.is_renewed():
+                self.renew()
 
     def renew(self) -> None:
         """Analyse the file as it is now; what was at work before is stopped."""
         with self._lock:
             self._number += 1
+            number = self._number
         self.stage.work(f"{self.name} is {'running' if self.job.is_script else 'being analysed'}")
-        worker = self.crew.take()
-        threading.Thread(target=self._answer, args=(worker, self._number), daemon=True).start()
+        worker: Worker | WorkerError
+        try:
+            worker = self.crew.take()
+        except WorkerError as error:
+            worker = error
+        threading.Thread(target=self._answer, args=(worker, number), daemon=True).start()
 
     def close(self) -> None:
         """Stop everything, and let the pages know."""
@@ -99,18 +110,26 @@ class Watch:
         self.crew.close()
         self.server.server_close()
 
-    def _answer(self, worker: Worker, number: int) -> None:
+    def _answer(self, worker: Worker | WorkerError, number: int) -> None:
         try:
             try:
+                if isinstance(worker, WorkerError):
+                    raise worker
                 answer = worker.answer(self.job, lambda heard: self._meanwhile(heard, number))
             except WorkerError as error:
-                answer = _died(error, self.job.path)
+                answer = _unshown(str(error), self.job.path)
             with self._lock:
                 # Another save came meanwhile, and it is that one's worker that counts.
                 if number != self._number:
                     return
                 self._saved.also(answer.files)
-                self._heard.renewed(self.editor.renewed(answer), answer)
+                try:
+                    words = self.editor.renewed(answer)
+                except Exception as error:
+                    # One that cannot be shown shall not end the watch.
+                    answer = _unshown(f"unforeseen {type(error).__name__}: {error}", self.job.path)
+                    words = self.stage.put(answer)
+                self._heard.renewed(words, answer)
             self.crew.prepare()
         except BaseException as error:
             # It is the main thread's to end with.
@@ -126,7 +145,6 @@ class Watch:
                 self.editor.judged(heard.told)
 
 
-def _died(error: WorkerError, path: str) -> Broken:
-    words = str(error)
-    errors = errors_part(error, path)
+def _unshown(words: str, path: str) -> Broken:
+    errors = errors_part(BatchError(words), path)
     return Broken("cannot be analysed", errors, f"<main>{errors}</main>", words, ())

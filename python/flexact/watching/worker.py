@@ -24,11 +24,14 @@ def main() -> None:
     jobs, line = _lines()
     said = _Said(line)
     sys.stdout = io.TextIOWrapper(_Raw(said), "utf-8", "replace", line_buffering=True)
+    printed = sys.stdout
     waiting: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_hear, args=(jobs, waiting), daemon=True).start()
     while True:
         answer = answer_of(waiting.get(), said.send)
-        sys.stdout.flush()
+        # A script may have closed it.
+        with contextlib.suppress(ValueError):
+            printed.flush()
         said.send(answer)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from jets import Real
+from jets import Jet, Real, dot
 from mechanics import Mechanics, Place, product, quaternion, vector_of
 from structure import Structure
 
@@ -306,17 +306,20 @@ class Solver:
         rows = np.vstack([d[self.rigid], self.parameter_rows(state.place, parameters)])
         return self.null_space(rows, free)[0]
 
-    def matrices(self, state: Solution) -> tuple[Real, Real, Real]:
-        """K, H and M of all columns at a state."""
-        _, _, k, h, _ = self.tangent_parts(
-            state.place, state.stress, state.parameter_force, state.load.gravity
-        )
+    def matrices(self, state: Solution, held: set[tuple[int, int]]) -> tuple[Real, Real, Real]:
+        """K, H and M of all columns; an Euler parameter that is let free keeps its moment."""
+        forces = {label: f for label, f in state.parameter_force.items() if label in held}
+        _, _, k, h, _ = self.tangent_parts(state.place, state.stress, forces, state.load.gravity)
+        for (node, axis), force in state.parameter_force.items():
+            if (node, axis) not in held:
+                at = [self.mechanics.column[node, a] for a in range(3)]
+                h[np.ix_(at, at)] += angle_hessian(state.place.turn[node], axis, force)
         return k, h, self.mechanics.mass(state.place)
 
     def compliance(self, state: Solution, held: set[tuple[int, int]]) -> Real:
         """Displacements of all columns under unit loads on all columns."""
         z = self.basis(state, held)
-        k, h, _ = self.matrices(state)
+        k, h, _ = self.matrices(state, held)
         tangent = z.T @ (k + h) @ z
         scale = _diagonal(tangent)
         return np.asarray(
@@ -361,6 +364,17 @@ class Solver:
         multipliers = inverse.T @ (pull - tangent @ change)
         stress[self.rigid] = multipliers[: int(np.sum(self.rigid))]
         return change, stress
+
+
+def angle_hessian(turn: Real, axis: int, force: float) -> Real:
+    """(3, 3) second derivatives of the angle of an Euler parameter, times its moment."""
+    w = [Jet.variable(np.zeros(1), a, 3) for a in range(3)]
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    first = w[axis] * turn[0] + w[i] * turn[1 + j] - w[j] * turn[1 + i]
+    sine = first * 0.5 - dot(w, w) * (turn[1 + axis] / 8) + turn[1 + axis]
+    cosine = (sine * sine * -1.0 + 1.0).sqrt()
+    # The force on the parameter is twice the moment over the cosine.
+    return np.asarray(sine.arctan2(cosine).hessian[0] * (force * cosine.value[0]))
 
 
 def _diagonal(matrix: Real) -> Real:

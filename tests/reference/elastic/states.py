@@ -207,7 +207,7 @@ class Oracle:
         zero = np.zeros(len(self.mechanics.rows))
         _, stress = self.solver.linear(start, self.held, np.zeros(self.mechanics.size), zero, shift)
         z = self.solver.basis(start, self.held)
-        k, _, mass = self.solver.matrices(start)
+        k, _, mass = self.solver.matrices(start, self.held)
         _, _, second = self.mechanics.deformations(start.place)
         g = self.mechanics.geometric(second, stress)
         return z, z.T @ k @ z, z.T @ g @ z, z.T @ mass @ z
@@ -295,7 +295,7 @@ class State:
 
     def _reduced(self) -> tuple[Real, Real, Real]:
         z = self.oracle.solver.basis(self.solution, self.oracle.held)
-        k, h, mass = self.oracle.solver.matrices(self.solution)
+        k, h, mass = self.oracle.solver.matrices(self.solution, self.oracle.held)
         return z.T @ k @ z, z.T @ h @ z, z.T @ mass @ z
 
     @property
@@ -381,12 +381,16 @@ class State:
     @property
     def stiffness_matrix(self) -> Real:
         x = self.transfer()
-        return np.array(x.T @ self.oracle.solver.matrices(self.solution)[0] @ x)
+        return np.array(x.T @ self._by_parameters()[0] @ x)
 
     @property
     def geometric_matrix(self) -> Real:
         x = self.transfer()
-        return np.array(x.T @ self.oracle.solver.matrices(self.solution)[1] @ x)
+        return np.array(x.T @ self._by_parameters()[1] @ x)
+
+    def _by_parameters(self) -> tuple[Real, Real, Real]:
+        """K, H and M with constant forces on the Euler parameters, which are the coordinates."""
+        return self.oracle.solver.matrices(self.solution, set(self.solution.parameter_force))
 
     @property
     def under_constrained(self) -> int:

@@ -64,6 +64,8 @@ class RelationKind(str, Enum):
     CIRCLE = "lie on one circle"
     TWO_LINES = "lie on two lines"
     CONIC = "lie on one conic"
+    ALONG = "lie along one axis of the ground"
+    ACROSS_AXIS = "lie across one axis of the ground"
     ROTATION = "a rotation takes them to each other"
     REFLECTION = "a reflection takes them to each other"
     POSITION = "stand in a special position"
@@ -105,7 +107,7 @@ class Relation(Frozen):
             self-stress; zero where they do not.
         pitch: Of the screw that lines of one complex do not stop [m/rad].
         fold: How many times a rotation brings all back in one turn.
-        is_sufficient: Whether other geometries with the same relation were tried and have what
+        is_sufficient: Whether other geometries with the same relations were tried and have what
             this one has.
     """
 
@@ -135,7 +137,8 @@ class Cause(Frozen):
             where that was not looked at.
         is_first_order: Whether some misalignment of one node or element lifts it to first
             order; None where that was not looked at, and of what is generic.
-        relations: What makes this geometry special, the most telling first.
+        relations: What makes this geometry special, the most telling first; together they are
+            enough. None where nothing is known to be.
     """
 
     kind: CauseKind

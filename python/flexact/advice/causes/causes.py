@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 from itertools import chain
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray
 from ...result.modes import Motion
 from ...result.result import Result
@@ -22,9 +22,10 @@ from .lifts import Lifts
 from .mends import mends_of
 from .relations import merged, relations_of
 from .shares import THERE, Shares
+from .trials import Trials
 
 #: How many special self-stresses are explained, and by how many relations a motion.
-_MOST_EXPLAINED, _MOST_RELATIONS = 8, 3
+_MOST_EXPLAINED, _MOST_RELATIONS = 8, 4
 #: Pairs below this part of the largest do not belong together.
 _COUPLED = 1.0e-6
 
@@ -87,6 +88,7 @@ class _Special:
         self.gradients = Gradients(whole)
         self.lifted = Lifted(self.gradients, rank)
         self.shares = Shares(result, whole, self.gradients)
+        self.trials = Trials(whole, rank)
 
     def causes(self, trials: int) -> Causes:
         """All of it."""
@@ -171,8 +173,9 @@ class _Special:
             if same is not None:
                 made[k] = made[same]
                 continue
-            found = relations_of(whole, told[k].together, self._motions) if told[k].together else ()
-            made[k] = found or relations_of(whole, (k,), self._motions)
+            one, trials = told[k], self.trials
+            many = (one.together, one.special) if one.together else ((k,), 1)
+            made[k] = relations_of(whole, many[0], self._motions, trials, many[1])
         return made
 
     def _of_stress(self, share: FloatArray) -> tuple[Relation, ...]:
@@ -191,7 +194,12 @@ class _Special:
         special = self._relations
         largest = max((float(pairs[k]) for k in special), default=0.0)
         able = [k for k in special if pairs[k] > _COUPLED * largest] or list(special)
-        return merged(one for k in able for one in special[k])[:_MOST_RELATIONS]
+        # A part of what is enough together is not.
+        made: tuple[Relation, ...] = ()
+        for k in able:
+            more = merged((*made, *special[k]))
+            made = more if not made or len(more) <= _MOST_RELATIONS else made
+        return made
 
 
 def _made(told: list[Told], cause_of: Callable[[int, CauseKind], Cause]) -> tuple[Cause, ...]:

@@ -29,12 +29,12 @@ class Push(NamedTuple):
     wrench: Wrench
 
 
-def pushes_on(stress: SelfStress, limbs: Limbs) -> list[list[Push]]:
+def pushes_on(stress: SelfStress, limbs: Limbs) -> list[tuple[object, list[Push]]]:
     """What limbs exert in a self-stress, of each body or point on which some do, by limb."""
     carrying = {one.part for one in stress.parts}
     largest = max(end.wrench.size for one in stress.parts for end in one.ends)
     made = []
-    for _, ends in limbs.hubs:
+    for key, ends in limbs.hubs:
         found = []
         for limb, position in ends:
             if not carrying & set(limb.parts):
@@ -44,7 +44,7 @@ def pushes_on(stress: SelfStress, limbs: Limbs) -> list[list[Push]]:
             if wrench is not None and wrench.size > _REST * largest:
                 found.append(Push(limb, wrench))
         if found:
-            made.append(found)
+            made.append((key, found))
     return made
 
 
@@ -52,7 +52,7 @@ def of_forces(result: Result, stress: SelfStress, limbs: Limbs) -> list[Relation
     """What lines of force have in common, on the body of which the most lines are known."""
     able = [
         found
-        for found in pushes_on(stress, limbs)
+        for _, found in pushes_on(stress, limbs)
         if len(found) > 1 and all(_has_line(push) for push in found)
     ]
     for pushes in sorted(able, key=lambda found: -len(found)):

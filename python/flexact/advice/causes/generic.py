@@ -8,10 +8,10 @@ be too low, by bad luck.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.errors import FlexactError
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray

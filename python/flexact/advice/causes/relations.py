@@ -2,8 +2,9 @@
 """What makes the geometry of a special self-stress special: a ladder of simple relations.
 
 First the axes of hinges, then members in one line or plane, then planes of sheets, then the lines
-of force along which limbs press on a body, then joints on a circle or conic, then a symmetry; what
-none of these explains is a special position.
+of force along which limbs press on a body, then joints on a circle or conic, then a symmetry, then
+what lies along an axis; what none of these explains alone the fewest of them do together, or the
+position of all that is stressed.
 """
 
 from __future__ import annotations
@@ -23,66 +24,115 @@ from .axes import of_axes
 from .cause import LineKind, Relation, RelationKind
 from .clusters import clusters_of
 from .conics import conic_of
+from .directions import of_directions
 from .force_lines import of_forces
 from .in_common import in_common
-from .limbs import Limbs
 from .lines import Line, Lines
 from .sheet_planes import of_sheets
-from .symmetry import symmetry_of
+from .symmetry import symmetries_of
 from .trials import Trials
 
-#: How many relations are told, and of how many bars bodies are looked for.
-_MOST, _MOST_BARS = 3, 120
+#: How many relations are told, and tried together; and of how many bars bodies are looked for.
+_MOST, _MOST_TRIED, _MOST_BARS = 4, 12, 120
+#: Of how many self-stresses lines of force are looked at.
+_MOST_STRESSES = 4
 #: Of self-stresses of more resultants together nothing is said.
 _MOST_ENTRIES = 600
 _SAME = 1.0e-6
 
 
 def relations_of(
-    result: Result, stresses: Sequence[int], motions: Sequence[Motion]
+    result: Result,
+    stresses: Sequence[int],
+    motions: Sequence[Motion],
+    trials: Trials,
+    special: int = 1,
 ) -> tuple[Relation, ...]:
     """What makes the geometry of some self-stresses special, the most telling first.
+
+    What is told is enough: other geometries that have it, and nothing else, were tried and have
+    as many special self-stresses.
 
     Args:
         result: A result told by parts.
         stresses: Indices of self-stresses that are special, or of those among which some are.
         motions: Its special motions.
+        trials: Tries other geometries.
+        special: How many of the self-stresses are special.
 
     Returns:
-        At most three; none where so many parts are stressed that this would take long.
+        At most four; none where nothing is known to be enough, or so many parts are stressed that
+        this would take long.
     """
     entries = [result.stress_basis.entries(k)[0].size for k in stresses]
     if sum(entries) > _MOST_ENTRIES:
         return ()
-    return _Ladder(result, [result.self_stresses[k] for k in stresses], motions).found()
+    chosen = [result.self_stresses[k] for k in stresses]
+    return _Ladder(result, chosen, motions, trials, special).found()
 
 
 class _Ladder:
     def __init__(
-        self, result: Result, stresses: list[SelfStress], motions: Sequence[Motion]
+        self,
+        result: Result,
+        stresses: list[SelfStress],
+        motions: Sequence[Motion],
+        trials: Trials,
+        special: int,
     ) -> None:
-        self.result, self.stress, self.motions = result, stresses[-1], motions
-        self.limbs, self.trials = Limbs(result), Trials(result)
+        self.result, self.stresses, self.motions = result, stresses, motions
+        self.limbs, self.trials, self.special = trials.figures.limbs, trials, special
         found = dict.fromkeys(one.part for stress in stresses for one in stress.parts)
         self.parts = tuple(sorted(found, key=self._key))
         self.are_bars = all(part.kind is PartKind.BAR for part in self.parts)
 
     def found(self) -> tuple[Relation, ...]:
+        every: list[Relation] = []
+        for made in self._candidates():
+            if self._are_enough(made):
+                return self._told(made)
+            every += made
+        return self._least(every)
+
+    def _candidates(self) -> Iterator[tuple[Relation, ...]]:
+        """Sets of relations that may be enough, the simplest first."""
         result = self.result
-        for rung in (
-            lambda: of_axes(result, self.parts, self.trials),
-            self._of_members,
-            lambda: of_sheets(result, self.stress, self.limbs, self.motions),
-            lambda: of_forces(result, self.stress, self.limbs),
-            self._of_clusters,
-            self._of_joints,
-            self._of_symmetry,
-        ):
-            made = tuple(rung())
-            if made:
-                return made[:_MOST]
+        yield from of_axes(result, self.parts)
+        yield tuple(self._of_members())
+        yield from of_sheets(result, self.stresses, self.limbs, self.motions)
+        for stress in self.stresses[: -1 - _MOST_STRESSES : -1]:
+            yield tuple(of_forces(result, stress, self.limbs))
+        yield tuple(self._of_clusters())
+        yield tuple(self._of_joints())
+        if self.are_bars:
+            for one in symmetries_of(result, self.parts):
+                yield (one,)
+        yield from of_directions(result, self.parts)
+
+    def _are_enough(self, relations: Sequence[Relation]) -> bool:
+        if not 0 < len(relations) <= _MOST_TRIED:
+            return False
+        return self.trials.are_enough(relations, self.special)
+
+    def _told(self, relations: Sequence[Relation]) -> tuple[Relation, ...]:
+        """Nothing where they are too many to be told."""
+        if len(relations) > _MOST:
+            return ()
+        return tuple(replace(one, is_sufficient=True) for one in relations)
+
+    def _least(self, every: Sequence[Relation]) -> tuple[Relation, ...]:
+        """As few relations as are enough together, else the parts that stand so."""
+        left = list(merged(every))
+        if self._are_enough(left):
+            for one in reversed(tuple(left)):
+                rest = [other for other in left if other is not one]
+                if self._are_enough(rest):
+                    left = rest
+            return self._told(left)
         nowhere = np.zeros(3)
-        return (Relation(RelationKind.POSITION, LineKind.MEMBER, self.parts, (), nowhere, nowhere),)
+        place = Relation(RelationKind.POSITION, LineKind.MEMBER, self.parts, (), nowhere, nowhere)
+        is_told = len(self.parts) > 1 and self._are_enough((place,))
+        return self._told((place,)) if is_told else ()
 
     def _of_members(self) -> Iterator[Relation]:
         """Bars and links of which all that carry lie in one line, or, in space, in one plane."""
@@ -155,11 +205,6 @@ class _Ladder:
 
     def _key(self, part: Part) -> tuple[object, ...]:
         return natural(part.name), part.elements
-
-    def _of_symmetry(self) -> Iterator[Relation]:
-        found = symmetry_of(self.result, self.parts, self.trials) if self.are_bars else None
-        if found is not None:
-            yield found
 
 
 def merged(relations: Iterable[Relation]) -> tuple[Relation, ...]:

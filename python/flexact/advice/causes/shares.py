@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind

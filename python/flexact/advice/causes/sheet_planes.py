@@ -8,7 +8,7 @@ its plane.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +21,7 @@ from ...result.result import Result
 from ...result.screws import Screw, ScrewKind
 from .cause import LineKind, Relation, RelationKind
 from .force_lines import pushes_on
-from .limbs import Limbs
+from .limbs import Limb, Limbs
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
 _SAME = 1.0e-6
@@ -35,28 +35,32 @@ class _Plane(NamedTuple):
 
 
 def of_sheets(
-    result: Result, stress: SelfStress, limbs: Limbs, motions: Sequence[Motion]
-) -> Iterator[Relation]:
+    result: Result, stresses: Sequence[SelfStress], limbs: Limbs, motions: Sequence[Motion]
+) -> Iterator[tuple[Relation, ...]]:
     """What the planes of sheets have in common with each other and with wires.
 
-    Nothing where other parts than single sheets, wires and bars press on a body.
+    Nothing where other parts than single sheets, wires and bars press on a body. Each is one set
+    of relations that may be enough.
 
     Args:
         result: The result.
-        stress: One of its self-stresses.
+        stresses: Some of its self-stresses.
         limbs: Its limbs.
         motions: Its special motions.
     """
-    for pushes in pushes_on(stress, limbs):
-        parts = [push.limb.parts[0] for push in pushes if len(push.limb.parts) == 1]
+    hubs: dict[object, dict[Limb, SelfStress]] = {}
+    for stress in stresses:
+        for key, pushes in pushes_on(stress, limbs):
+            for push in pushes:
+                hubs.setdefault(key, {})[push.limb] = stress
+    for found in hubs.values():
+        parts = [limb.parts[0] for limb in found if len(limb.parts) == 1]
         kinds = {part.kind for part in parts}
-        if len(parts) < len(pushes) or not kinds <= {*_STRAIGHT, PartKind.SHEET}:
+        if len(parts) < len(found) or not kinds <= {*_STRAIGHT, PartKind.SHEET}:
             continue
-        found = _Sheets(result, stress, limbs, parts)
-        made = [*found.in_one_plane()] or [*found.of_motions(motions)]
-        if made:
-            yield from made
-            return
+        sheets = _Sheets(result, found, limbs, parts)
+        yield tuple(sheets.in_one_plane())
+        yield tuple(sheets.of_motions(motions))
 
 
 _STRAIGHT = (PartKind.WIRE, PartKind.BAR)
@@ -64,13 +68,17 @@ _STRAIGHT = (PartKind.WIRE, PartKind.BAR)
 
 class _Sheets:
     def __init__(
-        self, result: Result, stress: SelfStress, limbs: Limbs, parts: Sequence[Part]
+        self,
+        result: Result,
+        found: Mapping[Limb, SelfStress],
+        limbs: Limbs,
+        parts: Sequence[Part],
     ) -> None:
         self.length = result.characteristic_length
         self.limbs = limbs
         self.planes = [
             _Plane(part, limbs.place(part.ends[0]), stress.of(part).normal)
-            for part in parts
+            for part, stress in zip(parts, found.values(), strict=True)
             if part.kind is PartKind.SHEET
         ]
         self.wires = [part for part in parts if part.kind in _STRAIGHT]

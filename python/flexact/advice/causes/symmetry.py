@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Symmetries of frameworks that are enough for a self-stress, as of rings (Tarnai 1980).
 
-A rotation or reflection that takes the bars that carry onto each other is only told where other
-geometries with the same symmetry were tried and have the self-stress as well.
+They are rotations and reflections that take the bars that carry onto each other.
 """
 
 from __future__ import annotations
@@ -12,20 +11,18 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...result.order import without_sense
 from ...result.result import Result
 from .cause import LineKind, Relation, RelationKind
-from .trials import Trials
 
 #: Of more joints no symmetry is looked for.
 _MOST_JOINTS = 36
 #: How many times a rotation may bring all back in one turn.
 _FOLDS = (2, 3, 4, 5, 6, 8)
-_SAME, _TRIALS, _SEED = 1.0e-6, 2, 19_870_402
+_SAME = 1.0e-6
 
 
 class _Operation(NamedTuple):
@@ -39,36 +36,26 @@ class _Operation(NamedTuple):
     """Which joint each one goes to."""
 
 
-def symmetry_of(result: Result, parts: Sequence[Part], trials: Trials) -> Relation | None:
-    """The simplest symmetry of the bars that carry that is enough; None where none is found.
+def symmetries_of(result: Result, parts: Sequence[Part]) -> Iterator[Relation]:
+    """Symmetries of the bars that carry, the simplest first.
 
     Args:
         result: The result.
         parts: Bars that carry something in a self-stress.
-        trials: Tries other geometries.
     """
     nodes = sorted({p for part in parts for p in part.ends})
     if len(nodes) > _MOST_JOINTS:
-        return None
+        return
     index = {node: k for k, node in enumerate(nodes)}
     bars = {frozenset(index[p] for p in part.ends) for part in parts}
     places = result.given.arrays.node_value[:3, nodes].T
     middle = places.mean(axis=0)
     held = [result.parts.is_held(node) for node in nodes]
     for operation in _operations(places - middle, bars, held, result.given.planar):
-        if _is_enough(result, trials, operation, nodes, middle):
-            kind = RelationKind.ROTATION if operation.fold else RelationKind.REFLECTION
-            return Relation(
-                kind,
-                LineKind.MEMBER,
-                tuple(parts),
-                tuple(nodes),
-                without_sense(operation.axis),
-                middle,
-                fold=max(operation.fold, 1),
-                is_sufficient=True,
-            )
-    return None
+        kind = RelationKind.ROTATION if operation.fold else RelationKind.REFLECTION
+        axis, fold = without_sense(operation.axis), max(operation.fold, 1)
+        of = LineKind.MEMBER
+        yield Relation(kind, of, tuple(parts), tuple(nodes), axis, middle, fold=fold)
 
 
 def _operations(
@@ -138,35 +125,28 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
     return image if len(set(image)) == len(image) else None
 
 
-def _is_enough(
-    result: Result, trials: Trials, operation: _Operation, nodes: list[int], middle: FloatArray
-) -> bool:
-    """Whether random geometries with the symmetry have the same rank."""
-    own = np.searchsorted(result.condensed.nodes, nodes)
-    for trial in range(_TRIALS):
-        places, vectors = trials.geometry.random(2 * trial)
-        _make_symmetric(places, own, operation, middle)
-        if not trials.keeps(places, vectors):
-            return False
-    return True
-
-
-def _make_symmetric(
-    places: FloatArray, own: NDArray[np.integer], operation: _Operation, middle: FloatArray
-) -> None:
+def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
+    """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
+    is_turn = one.kind is RelationKind.ROTATION
+    matrix = _rotation(one.direction, 2.0 * np.pi / one.fold)
+    matrix = matrix if is_turn else _reflection(one.direction)
+    own = np.searchsorted(result.condensed.nodes, one.nodes)
+    now = result.given.arrays.node_value[:3, list(one.nodes)].T - one.point
+    image = _image(now @ matrix.T, now, float(np.abs(now).max()))
+    assert image is not None, "the joints have the symmetry"
     done: set[int] = set()
-    for first in range(len(operation.image)):
+    for first in range(len(image)):
         if first in done:
             continue
         orbit = [first]
-        while operation.image[orbit[-1]] != first:
-            orbit.append(operation.image[orbit[-1]])
+        while image[orbit[-1]] != first:
+            orbit.append(image[orbit[-1]])
         done.update(orbit)
-        turn = np.linalg.matrix_power(operation.matrix, len(orbit))
-        point = places[own[first]] - middle
-        order = (operation.fold or 2) // len(orbit)
+        turn = np.linalg.matrix_power(matrix, len(orbit))
+        point = places[own[first]] - one.point
+        order = (one.fold if is_turn else 2) // len(orbit)
         images = [np.linalg.matrix_power(turn, k) @ point for k in range(max(order, 1))]
         point = np.mean(images, axis=0)
         for node in orbit:
-            places[own[node]] = middle + point
-            point = operation.matrix @ point
+            places[own[node]] = one.point + point
+            point = matrix @ point

@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether a relation is enough: other geometries that have it, and nothing else, are tried."""
+"""Whether relations are enough: other geometries that have them, and nothing else, are tried.
+
+A random geometry is led to the nearest that has the relations by Newton's method with the least
+change; joints, axes and all else are anywhere. The relations are enough where almost every such
+geometry has a lower rank than the generic one.
+"""
 
 from __future__ import annotations
 
@@ -7,103 +12,185 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...result.result import Result
+from .cause import LineKind, Relation, RelationKind
+from .conditions import Condition, Figures, condition_of
 from .generic import Geometry, rank_at
+from .symmetry import make_symmetric
 
-_TRIALS = 2
+#: Geometries that are tried of what may be enough; ranks that are found in all, by rows of D(c).
+_TRIALS, _MOST_WORK, _FEWEST, _MOST = 3, 100_000, 20, 400
+#: Steps of Newton's method; what is off in the end, and steps of differences.
+_STEPS, _LEFT, _STEP, _FARTHEST = 40, 1.0e-13, 1.0e-6, 0.3
+#: How far what is free besides is moved: direction, point over the length.
+_MOVED = 0.3
+#: Lengths and vectors that Newton's method has made smaller than this part are nearly none.
+_SHRUNK = 0.05
 _SEED = 19_800_101
 
 
 class Trials(Frozen):
-    """Random geometries of a mechanism that keep a relation.
+    """Random geometries of a mechanism that have relations.
 
     Attributes:
-        result: The result whose rank they must not exceed.
+        result: The result that has them.
+        generic: The rank of almost every geometry.
     """
 
-    def __init__(self, result: Result) -> None:
+    def __init__(self, result: Result, generic: int) -> None:
         """Keep the result."""
-        self.result = result
-        self._geometry = Geometry(result.data)
-
-    def with_parallel(self, groups: Sequence[Sequence[Part]]) -> bool:
-        """Whether parallel axes in each group are enough, nodes being anywhere."""
-
-        def axes(rng: np.random.Generator, _: FloatArray, vectors: FloatArray) -> None:
-            for group in groups:
-                vectors[self._elements(group)] = _unit(rng)
-
-        return self._all_keep(axes)
-
-    def with_concurrent(self, parts: Sequence[Part]) -> bool:
-        """Whether axes through one point are enough."""
-        elements = self._elements(parts)
-        arrays = self.result.data.arrays
-        orientations = arrays.element_node[[1, 3]][:, elements] - 1
-        owners = [
-            {
-                int(node)
-                for k in (0, 2)
-                for node in arrays.element_node[k][
-                    (arrays.element_node[k + 1] - 1 == op) | (arrays.element_node[k + 1] - 1 == oq)
-                ]
-                - 1
-                if node >= 0
-            }
-            for op, oq in orientations.T.tolist()
-        ]
-
-        def axes(rng: np.random.Generator, places: FloatArray, vectors: FloatArray) -> None:
-            centre = rng.uniform(-1.0, 1.0, 3) * self.result.characteristic_length
-            for element, nodes in zip(elements, owners, strict=True):
-                at = self._hinge_place(element, nodes)
-                if at is not None:
-                    way = places[at] - centre
-                    vectors[element] = way / np.linalg.norm(way)
-
-        return self._all_keep(axes)
-
-    def _hinge_place(self, element: int, nodes: set[int]) -> int | None:
-        """The position node at which a hinge stands: shared by what turns on both sides."""
-        given = self.result.parts.place_of
-        arrays, condensed = self.result.data.arrays, self.result.condensed
-        slots = arrays.element_node[:, element] - 1
-        for node in slots.tolist():
-            if node < 0:
-                continue
-            place = given(int(condensed.nodes[node]))
-            found = [n for n in nodes if int(condensed.nodes[n]) == place]
-            if found:
-                return found[0]
-        return None
-
-    def keeps(self, places: FloatArray, vectors: FloatArray) -> bool:
-        """Whether the rank at a geometry is as low as that of the result."""
-        rank = rank_at(self._geometry, places, vectors)
-        return rank is not None and rank <= self.result.rank
+        self.result, self.generic = result, generic
+        self.left = [int(np.clip(_MOST_WORK // max(result.rows, 1), _FEWEST, _MOST))]
 
     @property
     def geometry(self) -> Geometry:
         """The places and vectors of the mechanism."""
-        return self._geometry
+        return self.figures.geometry
 
-    def _all_keep(self, change: object) -> bool:
-        for trial in range(_TRIALS):
-            places, vectors = self._geometry.random(2 * trial)
-            change(np.random.default_rng((_SEED, trial)), places, vectors)  # type: ignore[operator]
-            if not self.keeps(places, vectors):
+    @cached_property
+    def figures(self) -> Figures:
+        """The lines and planes of its parts."""
+        return Figures(self.result)
+
+    def are_enough(self, relations: Sequence[Relation], special: int = 1) -> bool:
+        """Whether what has all of these relations has so many special self-stresses.
+
+        False, too, where that cannot be tried, or too much was tried already.
+        """
+        tried = 0
+        for trial in range(2 * _TRIALS):
+            if tried == _TRIALS:
+                break
+            if self.left[0] <= 0:
                 return False
-        return True
+            made = self.having(relations, trial)
+            if made is None:
+                continue
+            self.left[0] -= 1
+            rank = rank_at(self.geometry, *made)
+            if rank is None or rank > self.generic - special:
+                return False
+            tried += 1
+        return tried == _TRIALS
 
-    def _elements(self, parts: Sequence[Part]) -> list[int]:
-        """Their elements in the model as analysed."""
+    def having(
+        self, relations: Sequence[Relation], trial: int
+    ) -> tuple[FloatArray, FloatArray] | None:
+        """Places and vectors of a random geometry that has relations; None where none is found."""
+        rng = np.random.default_rng((_SEED, trial))
+        places, vectors = self.geometry.random(2 * trial)
+        places = np.where(self.geometry.free, places, self.geometry.places)
+        conditions = []
+        turned = rng.uniform(-_MOVED, _MOVED, 3)
+        for one in relations:
+            if one.kind is RelationKind.POSITION:
+                self._keep(one.parts, places, vectors)
+                continue
+            if one.of is LineKind.MEMBER and one.kind in _SYMMETRIES:
+                make_symmetric(self.result, one, places)
+                continue
+            about = one.couple + turned * bool(one.couple.any())
+            made = condition_of(self.figures, one, _unit(about))
+            if made is None:
+                return None
+            conditions.append(made)
+        if not conditions:
+            return places, vectors
+        return self._led(conditions, places, vectors, rng)
+
+    def _keep(self, parts: Sequence[Part], places: FloatArray, vectors: FloatArray) -> None:
+        """Put some parts back to where they are."""
         own = self.result.condensed.elements
-        return [int(np.searchsorted(own, part.elements[0])) for part in parts]
+        mine = np.flatnonzero(np.isin(own, [index for part in parts for index in part.elements]))
+        slots = self.result.data.arrays.element_node[[0, 2]][:, mine] - 1
+        near = slots.ravel()
+        nodes = self.geometry.owner[near[near >= 0]]
+        places[nodes] = self.geometry.places[nodes]
+        vectors[mine] = self.geometry.vectors[mine]
+
+    def _led(
+        self,
+        conditions: Sequence[Condition],
+        places: FloatArray,
+        vectors: FloatArray,
+        rng: np.random.Generator,
+    ) -> tuple[FloatArray, FloatArray] | None:
+        length, owner, free = self.figures.length, self.geometry.owner, self.geometry.free
+        nodes = np.unique(owner[[node for one in conditions for node in one.nodes]])
+        node, axis = np.nonzero(free[nodes])
+        node = nodes[node]
+        elements = np.unique([e for one in conditions for e in one.elements])
+        elements = elements[np.any(self.geometry.vectors[elements], axis=1)]
+        sizes = [one.free.size for one in conditions]
+        ends = np.cumsum([0, *sizes])
+        besides = np.concatenate([one.free for one in conditions])
+        besides = besides + _MOVED * rng.uniform(-1.0, 1.0, besides.size)
+        besides[self._held(conditions)] = 0.0
+        value = np.concatenate((places[node, axis] / length, vectors[elements].ravel(), besides))
+        split = node.size, node.size + 3 * elements.size
+
+        def put(value: FloatArray) -> tuple[FloatArray, FloatArray]:
+            at, turned = (np.repeat(each[None], len(value), axis=0) for each in (places, vectors))
+            at[:, node, axis] = length * value[:, : split[0]]
+            turned[:, elements] = value[:, split[0] : split[1]].reshape(len(value), -1, 3)
+            return at[:, owner], turned
+
+        def residual(value: FloatArray) -> FloatArray:
+            at, turned = put(value)
+            rest = value[:, split[1] :]
+            made = [
+                one.residual(at, turned, rest[:, ends[k] : ends[k + 1]])
+                for k, one in enumerate(conditions)
+            ]
+            return np.concatenate(made, axis=1)
+
+        held = self._held(conditions, split[1])
+        before, done = value, 0
+        steps = _STEP * np.eye(value.size)
+        for _ in range(_STEPS):
+            off, *sides = residual(np.concatenate((value[None], value + steps, value - steps)))
+            if not np.all(np.isfinite(off)):
+                return None
+            done = done + 1 if float(np.abs(off).max(initial=0.0)) <= _LEFT else 0
+            if done == 2:
+                break
+            slope = np.subtract(*np.split(np.array(sides), 2)).T / (2.0 * _STEP)
+            slope[:, held] = 0.0
+            change = np.linalg.lstsq(slope, off, rcond=1.0e-9)[0]
+            # Far from the end it leads anywhere.
+            value = value - change / max(1.0, float(np.abs(change).max(initial=0.0)) / _FARTHEST)
+        first, last = ((at[0], turned[0]) for at, turned in map(put, (before[None], value[None])))
+        return last if done and self._is_sound(first, last) else None
+
+    def _held(self, conditions: Sequence[Condition], before: int = 0) -> list[int]:
+        """Of directions and points that are free besides those across the plane of a mechanism."""
+        made: list[int] = []
+        for one in conditions if self.result.given.planar else ():
+            count = one.free.size
+            made += range(before + 2, before + count, 3) if one.is_directed else ()
+            before += count
+        return made
+
+    def _is_sound(
+        self, before: tuple[FloatArray, FloatArray], after: tuple[FloatArray, FloatArray]
+    ) -> bool:
+        """Whether no member and no vector has become nearly none."""
+        p, q = self.result.data.arrays.element_node[[0, 2]] - 1
+        both = (p >= 0) & (q >= 0)
+        lengths = [np.linalg.norm(places[q] - places[p], axis=1) for places, _ in (before, after)]
+        sizes = [np.linalg.norm(vectors, axis=1) for _, vectors in (before, after)]
+        return bool(
+            np.all(lengths[1][both] >= _SHRUNK * lengths[0][both])
+            and np.all(sizes[1] >= _SHRUNK * sizes[0])
+        )
 
 
-def _unit(rng: np.random.Generator) -> FloatArray:
-    made = rng.normal(size=3)
-    return np.asarray(made / np.linalg.norm(made))
+def _unit(vector: FloatArray) -> FloatArray:
+    return np.asarray(vector / max(float(np.linalg.norm(vector)), 1.0e-300))
+
+
+_SYMMETRIES = (RelationKind.ROTATION, RelationKind.REFLECTION)

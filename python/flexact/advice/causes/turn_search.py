@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cached_property
 from itertools import combinations
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.errors import FlexactError
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ...result.result import Result
 from ...result.verdict import Alternative
 from ..change import Change
 from .bases import count_bases
-from .minors import Rows, TooManyError
+from .minors import Judge, Rows, TooManyError
 from .reach import Reach
 from .stands import changed
 
@@ -29,10 +30,19 @@ _OF_NOISE = 10.0
 Left = Callable[[Result | Alternative], int]
 
 
-def counted(stands: Result, reach: Reach, left: Left) -> int | None:
-    """How many sets of rows span their space; None where there are too many to be counted.
+class Count(NamedTuple):
+    """How many sets there are; None where they are too many to be counted."""
+
+    certain: int | None
+    doubtful: int | None = 0
+    """How many more work for the numbers as they are, though rounding may hide that they do not."""
+
+
+def counted(stands: Result, reach: Reach, left: Left) -> Count:
+    """How many sets of rows span their space.
 
     A block that the numbers leave in doubt is tried: the mechanism is changed so and analysed.
+    Where that leaves doubts it is counted again with such blocks taken for regular.
 
     Args:
         stands: The result of the deck as it stands, whose rows they are.
@@ -41,10 +51,11 @@ def counted(stands: Result, reach: Reach, left: Left) -> int | None:
     """
     rows, vectors = reach.rows.shape
     if not vectors:
-        return 0
+        return Count(0)
     if float(rows) * vectors**2 > _MOST_WORK:
-        return None
+        return Count(None)
     known: dict[Rows, bool] = {}
+    doubtful: set[Rows] = set()
 
     def judge(chosen: Rows) -> bool | None:
         if chosen not in known:
@@ -55,10 +66,24 @@ def counted(stands: Result, reach: Reach, left: Left) -> int | None:
             try:
                 after = changed(stands, change)
                 known[chosen] = removes_all(stands, after, left)
+                if not known[chosen] and not left(after):
+                    doubtful.add(chosen)
             except FlexactError:
                 known[chosen] = False
         return known[chosen]
 
+    def kindly(chosen: Rows) -> bool | None:
+        found = judge(chosen)
+        return True if chosen in doubtful else found
+
+    count = _bases(stands, reach, judge)
+    if count is None or not doubtful:
+        return Count(count)
+    more = _bases(stands, reach, kindly)
+    return Count(count, None if more is None else max(0, more - count))
+
+
+def _bases(stands: Result, reach: Reach, judge: Judge) -> int | None:
     try:
         count = count_bases(reach.rows, error_of(stands), judge)
     except TooManyError:

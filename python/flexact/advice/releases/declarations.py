@@ -39,6 +39,8 @@ class Declarations(Frozen):
         sets: The best of them, each tried; see `declarations_of`.
         holds: The same of released deformations that may be held, not in `count`.
         left_out: What was not looked at.
+        doubtful: How many sets more do so for the numbers as they are, though rounding may hide
+            that they do not; not in `count`, and None where they are too many.
     """
 
     size: int
@@ -46,6 +48,7 @@ class Declarations(Frozen):
     sets: tuple[Proposal, ...] = ()
     holds: tuple[Proposal, ...] = ()
     left_out: LeftOut = NOTHING_LEFT_OUT
+    doubtful: int | None = 0
 
 
 def declarations_of(result: Result) -> Declarations:
@@ -81,8 +84,9 @@ def declarations_of(result: Result) -> Declarations:
     is_told = whole.under_constrained == size and result.with_internal_declared is None
     holds = _holds(result, whole) if is_told else Outcome((), NOTHING_LEFT_OUT)
     return Declarations(
-        *(size, count, tried.proposals, holds.proposals),
+        *(size, count.certain, tried.proposals, holds.proposals),
         tried.left_out,
+        count.doubtful,
     )
 
 

@@ -24,8 +24,8 @@ from ...result.weights import column_weights, row_weights
 from ..change import Change
 from ..leverage import is_of_class
 
-#: Rows of a null space that are held in full, times vectors.
-MOST_ENTRIES = 4_000_000
+#: Rows of a null space that are held in full, times vectors, and times vectors again.
+MOST_ENTRIES, MOST_WORK = 4_000_000, 50_000_000
 #: Below this part of the largest a row does not reach into the space.
 _NOTHING = 1.0e-7
 
@@ -61,7 +61,8 @@ class Reach(Frozen):
 
 def fits(basis: Basis) -> bool:
     """Whether the rows of a space can be held in full."""
-    return support_of(basis).size * basis.vectors <= MOST_ENTRIES
+    entries = support_of(basis).size * basis.vectors
+    return entries <= MOST_ENTRIES and entries * basis.vectors <= MOST_WORK
 
 
 def of_rows(result: Result, vectors: Places | None = None) -> Reach:

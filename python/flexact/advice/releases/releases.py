@@ -15,7 +15,7 @@ from . import reach as reaches
 from .candidates import candidates
 from .cost import cost_of
 from .counting import counted
-from .kinds import LINK, tier_of_element
+from .kinds import BODY, LINK, tier_of_element
 from .reach import Places, Reach
 from .stands import as_it_stands, complete
 from .steps import by_steps
@@ -38,6 +38,8 @@ class Releases(Frozen):
         sets: The best of them, each tried; see `releases_of`.
         supports: The same of supports: fixed coordinates that may be freed, not in `count`.
         left_out: What was not looked at.
+        doubtful: How many sets more do so for the numbers as they are, though rounding may hide
+            that they do not; not in `count`, and None where they are too many.
     """
 
     size: int
@@ -45,9 +47,10 @@ class Releases(Frozen):
     sets: tuple[Proposal, ...] = ()
     supports: tuple[Proposal, ...] = ()
     left_out: LeftOut = NOTHING_LEFT_OUT
+    doubtful: int | None = 0
 
 
-def releases_of(result: Result, with_links: bool = False) -> Releases:
+def releases_of(result: Result, with_bodies: bool = False) -> Releases:
     """What may be released so that no self-stress is left, the best first.
 
     A set of s deformations works exactly when the s x s block of their rows in the left null
@@ -61,7 +64,7 @@ def releases_of(result: Result, with_links: bool = False) -> Releases:
     Where the stiffness of what is stressed is known, sets come first that cost little of it
     (`flexact.advice.releases.cost`); else those of a condition within ten times the best,
     flexures before bodies, ties by names and places. Links inside of bodies are listed where
-    nothing else does it, or `with_links`.
+    nothing else does it, or `with_bodies`.
 
     Without a self-stress there is one set, the empty one.
 
@@ -83,13 +86,14 @@ def releases_of(result: Result, with_links: bool = False) -> Releases:
     count = counted(stands, reach, lambda after: after.over_constrained)
     tried = Outcome((), NOTHING_LEFT_OUT)
     for source in _sources(result, stands):
-        tried = _listed(result, source, with_links) if count != 0 else tried
+        tried = _listed(result, source, with_bodies) if count.certain != 0 else tried
         if tried.proposals:
             break
     supports = _supports(result, _whole(result, stands))
     return Releases(
-        *(size, count, tried.proposals, supports.proposals),
+        *(size, count.certain, tried.proposals, supports.proposals),
         tried.left_out,
+        count.doubtful,
     )
 
 
@@ -108,7 +112,7 @@ def _whole(result: Result, stands: Result) -> Result:
     return complete(result) if result.condensed.chains else stands
 
 
-def _listed(result: Result, source: Result, with_links: bool) -> Outcome:
+def _listed(result: Result, source: Result, with_bodies: bool) -> Outcome:
     reach = reaches.of_rows(source)
     tiers = _tiers(source, reach)
     cost = cost_of(source, reach)
@@ -118,8 +122,12 @@ def _listed(result: Result, source: Result, with_links: bool) -> Outcome:
         return np.concatenate([first, np.sort(tiers[sets], axis=1)[:, ::-1]], axis=1)
 
     found = candidates(reach, ranking, tiers)
-    without_links = [one for one in found if tiers[list(one.members)].max() < LINK]
-    chosen = found if with_links else without_links or found
+    chosen = found
+    for tier in () if with_bodies else (BODY, LINK):
+        without = [one for one in found if tiers[list(one.members)].max() < tier]
+        if without:
+            chosen = without
+            break
     return listed(result, reach, Purpose.RELEASE, chosen)
 
 

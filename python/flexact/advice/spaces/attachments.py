@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind, natural
 from ...result.result import Result

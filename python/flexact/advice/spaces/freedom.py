@@ -10,12 +10,12 @@ adds nothing to what a body can do.
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray
 from ...core.elements import Class
 from ...core.raw import RawAnalysis
@@ -87,6 +87,10 @@ class Freed:
         """What is known of it, at the nodes of the model in which divided sheets are one beam."""
         one = self.result
         return Result(one.name, one.condensed, self._raw, one.asked)
+
+    def has(self, subject: Subject) -> bool:
+        """Whether none of its nodes is inside of a divided sheet or wire."""
+        return self._place_of.keys() >= {*subject.positions, *subject.orientations}
 
     @property
     def is_known(self) -> bool:

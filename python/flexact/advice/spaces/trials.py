@@ -21,14 +21,17 @@ def proposed(
     """The proposal of a change; None where it does not do what it should.
 
     The mechanism with nothing declared must have `count` motions fewer, all of the body; the body
-    must go on doing what is wanted; and there must be no further self-stress.
+    must go on doing what is wanted; and there must be no further self-stress. What only lengthens
+    a sheet or wire, so that the point between is inside of it, is none.
     """
     result = freed.result
     try:
         data = change.apply(result.given).data
         after: Result = result_of(data, Asked(result.asked.method, result.asked.tolerance))
-        then = Freed(after)
-        space = then.space(_same(subject, result, after))
+        then, same = Freed(after), _same(subject, result, after)
+        if not then.has(same):
+            return None
+        space = then.space(same)
     except FlexactError:
         return None
     fewer = freed.outcome.under_constrained - then.outcome.under_constrained

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -107,14 +107,16 @@ class Chain(NamedTuple):
         return swap.get(deformation - 1, deformation - 1) + 1
 
 
-def chains_of(arrays: ModelArrays, names: Sequence[str]) -> tuple[Chain, ...]:
+def chains_of(
+    arrays: ModelArrays, names: Sequence[str], frames: Callable[[], FloatArray]
+) -> tuple[Chain, ...]:
     """Rows of at least two beams that a designer takes for one sheet or wire.
 
     Neighbours are alone with each other at a node of which nothing is fixed or declared, bend
     in the same way about the same axes, and lie nearly in line; those with different names do
-    not belong together.
+    not belong together. `frames` gives those of the elements, (elements, 3, 3).
     """
-    neighbours = _Neighbours(arrays, names)
+    neighbours = _Neighbours(arrays, names, frames)
     return tuple(row for row in neighbours.rows() if _has_ends(row) and _is_stretched(arrays, row))
 
 
@@ -206,9 +208,12 @@ def _nearly_in_line(arrays: ModelArrays, beams: IntArray, ends: IntArray) -> Boo
 class _Neighbours:
     """Pairs of beams that continue each other."""
 
-    def __init__(self, arrays: ModelArrays, names: Sequence[str]) -> None:
+    def __init__(
+        self, arrays: ModelArrays, names: Sequence[str], frames: Callable[[], FloatArray]
+    ) -> None:
         self.arrays = arrays
         self.names = names
+        self.frames = frames
         self.next_of: dict[tuple[int, int], tuple[int, int]] = {}
         beams, ends = _joined(arrays, _is_bendable(arrays))
         likely = _nearly_in_line(arrays, beams, ends)
@@ -238,19 +243,16 @@ class _Neighbours:
     def _turned_alike(self, i: int, j: int) -> bool:
         """Whether the local y axes of two beams are nearly one line."""
         one, other = self.arrays.element_vector[:, [i, j]].T
-        if np.array_equal(one, other):
+        if np.any(one) and np.array_equal(one, other):
             return True
-        return bool(abs(self._across(i) @ self._across(j)) > _IN_ROW)
-
-    def _across(self, element: int) -> FloatArray:
-        """The local y axis of a beam."""
-        along = self._direction(element)
-        given: FloatArray = self.arrays.element_vector[:, element]
-        largest = np.abs(given).max()
-        hint = given / largest if largest > 0.0 else np.eye(3)[np.argmin(np.abs(along))]
-        across: FloatArray = hint - (hint @ along) * along
-        size = float(np.linalg.norm(across))
-        return across / size if size > 0.0 else across
+        if self.arrays.deformation_class[3, i] == Class.NONE:
+            return True
+        frames = self.frames()
+        first, second = np.abs(frames[[i, j], :, 1])
+        if not np.any((one, other)):
+            # Towards the global axis that stands in for the vector.
+            return bool(first.argmax() == second.argmax())
+        return bool(abs(frames[i, :, 1] @ frames[j, :, 1]) > _IN_ROW)
 
     def classes(self, element: int, turned: bool) -> tuple[int, ...]:
         """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""

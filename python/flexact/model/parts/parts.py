@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections import Counter
 from enum import Enum
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.plain_text import harmless, in_short
 from ...core.arrays import IntArray
 from ...core.elements import Class, Member, NodeKind
@@ -65,6 +65,11 @@ class Part(NamedTuple):
     ends: tuple[int, ...]
     number: int
     is_named: bool
+
+    @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and results hold very many parts."""
+        return True
 
     def __str__(self) -> str:
         """Its name."""

@@ -7,11 +7,12 @@ All is free of units, as `flexact.result.following.held` has it.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.basis import Basis
 from ...core.elements import Class, Dual, NodeKind, dual_table

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from ...base.cached import cached_property
 from ...base.frozen import Frozen
 from ...core import calls
 from ...core.arrays import FloatArray, packed

@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
 
 from ...advice.causes.cause import Cause, CauseKind, Causes, Lift
 from ...advice.causes.driven import driven_against
@@ -77,26 +80,58 @@ def both_in_words(result: Result, causes: Causes) -> Pieces:
     """
     motions = [k for k, motion in enumerate(result.motions[:_MOST]) if not motion.is_internal]
     stresses = list(range(min(len(result.self_stresses), _MOST)))
+    size = sum(result.stress_basis.entries(j)[0].size for j in stresses)
+    stresses = stresses if size <= _MOST_ENTRIES else stresses[:1]
     if not motions or not stresses or not result.is_told_by_parts:
         return ()
-    k = next((k for k in motions if _is_special(causes.motions[k])), motions[0])
-    special = next((j for j in stresses if causes.self_stresses[j].relations), None)
-    if special is not None:
-        found = causes.self_stresses[special].relations
-        held: Pieces = (
-            "a constraint is spent twice where ",
-            *relations_in_words(result, found, True),
-        )
-    else:
-        every = (conflict_in_words(result.self_stresses[j]) for j in stresses)
-        held = next((words for words in every if words), ())
-    if not held:
-        return ()
-    mend = next((one for one in causes.mends if isinstance(one, Mend) and one.stops), None)
-    if mend is not None and mend.stops is not None:
-        on: Pieces = (hub_name(result, mend.end),)
-        return (*held, ", while nothing stops ", *motion_of(mend.stops, on))
-    return (*held, *_free(result, result.motions[k]))
+    motions.sort(key=lambda k: not _is_special(causes.motions[k]))
+    stresses.sort(key=lambda j: not causes.self_stresses[j].relations)
+    for j in stresses:
+        k = next(iter(_going_together(result, causes, j, motions)), None)
+        if k is None:
+            continue
+        found = causes.self_stresses[j].relations
+        about = relations_in_words(result, found, True)
+        held = ("a constraint is spent twice where ", *about) if found else ()
+        held = held or conflict_in_words(result.self_stresses[j])
+        if not held:
+            continue
+        mend = next((one for one in causes.mends if isinstance(one, Mend) and one.stops), None)
+        if mend is not None and mend.stops is not None:
+            on: Pieces = (hub_name(result, mend.end),)
+            return (*held, ", while nothing stops ", *motion_of(mend.stops, on))
+        return (*held, *_free(result, result.motions[k]))
+    return ()
+
+
+def _going_together(
+    result: Result, causes: Causes, j: int, motions: Sequence[int]
+) -> Iterator[int]:
+    """The motions with which a self-stress has to do, of some.
+
+    Both live on this geometry for one reason, or the motion moves what is stressed.
+    """
+    of_stress = causes.self_stresses[j].relations
+    own = {part for one in of_stress for part in one.parts}
+    parts = result.self_stresses[j].parts
+    ends = [end.position for one in parts for end in one.ends if end.position is not None]
+    turning = [node for end in set(ends) for node in _turning(result, end)]
+    for k in motions:
+        of_motion, motion = causes.motions[k].relations, result.motions[k]
+        if of_stress and of_motion:
+            if any(own >= set(one.parts) for one in of_motion):
+                yield k
+            continue
+        moved, turned = np.linalg.norm(motion.displacement, axis=1), np.abs(motion.rotation)
+        least = _STILL * max(float(moved.max(initial=0.0)), float(turned.max(initial=0.0)))
+        if max(moved[ends].max(initial=0.0), turned[turning].max(initial=0.0)) > least:
+            yield k
+
+
+def _turning(result: Result, position: int) -> list[int]:
+    """The orientation nodes of the body at a position node."""
+    body = result.parts.body_at.get(position)
+    return [] if body is None else list(result.parts.bodies[body].orientations)
 
 
 def _is_special(cause: Cause) -> bool:
@@ -114,8 +149,10 @@ def _free(result: Result, motion: Motion) -> Pieces:
     return (", while nothing stops ", *motion_of(first.screw, (listed(names[:_MOST_NAMES]),)))
 
 
-#: How many modes are looked through, and how many bodies are named.
-_MOST, _MOST_NAMES = 20, 3
+#: How many modes are looked through, of how many resultants in all, and how many bodies are named.
+_MOST, _MOST_ENTRIES, _MOST_NAMES = 20, 4_000, 3
+#: What moves by less than this part of the largest stands still.
+_STILL = 1.0e-6
 
 
 # Special ------------------------------------------------------------------------

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from ...base.plain_text import harmless
 from ...core.elements import Class, Role, planar_table
 from ...model.names import part_name
@@ -94,16 +96,18 @@ def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[
     if part.kind is PartKind.HINGE:
         yield from _of_hinge(outcome, part, name, mine)
         return
-    if _holds_nothing_else(outcome, part, mine):
+    if _holds_nothing_else(outcome, part, mine) and _can_go(outcome, part):
         yield _taken_out(outcome, part, name, mine)
         return
     in_plane = [one for one in mine if _is_in_plane(outcome, *one)]
-    if len(in_plane) == 2:
+    left = {_role(outcome, mine[0][0], number) for number in _held_without(outcome, part, mine)}
+    is_wire = len(in_plane) == 2 and left == {Role.ELONGATION}
+    if is_wire:
         yield Phrase(
             "replace ", name, " by a wire", "", " (in-plane bending free at both its ends)"
         )
     for one in mine:
-        if one in in_plane and len(in_plane) == 1:
+        if one in in_plane and not is_wire:
             where = f" at {_place(outcome, part, *one)}"
             yield Phrase("cut ", name, " to a waist", where, " (in-plane bending free there)")
         elif one not in in_plane:
@@ -116,10 +120,8 @@ def _one(outcome: Outcome, part: Part, name: Named, element: int, number: int) -
         return _of_body(outcome, name, element, number)
     role, word = _role(outcome, element, number), _word(outcome, element, number)
     if role == Role.ELONGATION:
-        if part.kind is PartKind.SHEET and not _is_planar(outcome, element):
-            what = " across, so that it gives along its length"
-            return Phrase("fold ", name, what, "", " (elongation free)")
-        return Phrase("let ", name, " give along its length", "", " (elongation free)")
+        # No notch, cut or fold frees this alone: a sheet with a fold holds one thing, not two.
+        return Phrase("let ", name, " slide along its length", "", " (elongation free)")
     if role == Role.TORSION:
         return Phrase("make ", name, " soft in torsion", "", " (twist free)")
     if bending_of(outcome, outcome.data.element_index[element], number) is not None:
@@ -140,7 +142,9 @@ def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase
     if index in outcome.parts.links:
         nodes = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
         ends = dict.fromkeys(place_words(outcome.parts, node) for node in nodes if node >= 0)
-        between = f" between {' and '.join(ends)}" if len(ends) == 2 else ""
+        # A body is no place on itself.
+        is_told = len(ends) == 2 and name.words not in ends
+        between = f" between {' and '.join(ends)}" if is_told else ""
     elif own:
         name = name._replace(words=with_article(own))
     if role == Role.TORSION:
@@ -159,7 +163,7 @@ def _of_hinge(
 ) -> Iterator[Phrase]:
     roles = {_role(outcome, *one) for one in mine}
     is_bearing = bool(roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z})
-    if _holds_nothing_else(outcome, part, mine) and len(mine) > 1:
+    if _holds_nothing_else(outcome, part, mine) and len(mine) > 1 and _can_go(outcome, part):
         if is_bearing:
             yield Phrase("take ", name, " out")
         else:
@@ -182,17 +186,18 @@ def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation
     free = f" ({_word(outcome, *mine[0])} free)"
     if _role(outcome, *mine[0]) != Role.ELONGATION:
         return Phrase("take ", name, " out", "", free)
-    instead = {
-        PartKind.BAR: "make it adjustable in length",
-        PartKind.WIRE: "give it a soft joint",
-    }.get(part.kind, "let it give along its length")
+    is_bar = part.kind is PartKind.BAR
+    instead = "make it adjustable in length" if is_bar else "let it slide along its length"
     return Phrase("take ", name, f" out, or {instead}", "", free)
 
 
 def _holds_nothing_else(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> bool:
     """Whether these are all that a part, other than a body, holds."""
-    if part.kind is PartKind.BODY:
-        return False
+    return part.kind is not PartKind.BODY and not _held_without(outcome, part, mine)
+
+
+def _held_without(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> list[int]:
+    """What a part holds, or has declared, without some: deformations of one beam, from 1."""
     index = outcome.data.element_index
     row = next((c for c in outcome.data.chains if c.elements[0] == part.elements[0]), None)
     if row is None:
@@ -203,8 +208,22 @@ def _holds_nothing_else(outcome: Outcome, part: Part, mine: Sequence[Deformation
         classes = [max(each, key=_is_free) for each in zip(*row.classes, strict=True)]
         beams = [(row.elements.index(index[element]), number) for element, number in mine]
         gone = {row.own(beam, number) for beam, number in beams}
-    rest = (given for k, given in enumerate(classes) if k + 1 not in gone)
-    return all(_is_free(given) or given == Class.NONE for given in rest)
+    return [
+        k
+        for k, given in enumerate(classes, 1)
+        if k not in gone and given != Class.NONE and not _is_free(given)
+    ]
+
+
+def _can_go(outcome: Outcome, part: Part) -> bool:
+    """Whether every node at an end of a part that can move is one of another part as well."""
+    arrays = outcome.given.arrays
+    slots = arrays.element_node - 1
+    used = np.bincount(slots[slots >= 0], minlength=arrays.node_kind.size)
+    own = slots[:, list(part.elements)]
+    alone = [node for node in own[own >= 0].tolist() if used[node] == 1]
+    classes = arrays.coordinate_class[:, alone]
+    return not np.any((classes == Class.DEPENDENT) | (classes == Class.INDEPENDENT))
 
 
 def _is_free(given: int) -> bool:

@@ -11,7 +11,7 @@ from ...model.parts.parts import Part, PartKind
 from ...result.result import Result
 from ..motions import line_words
 from ..places import axis_words, part_words, with_article
-from ..sentences import Named, Piece, Pieces
+from ..sentences import Named, Piece, Pieces, plain
 
 #: How many names stand in a row; of more all but one are the first, and how many more there are.
 _MOST_NAMES = 6
@@ -20,6 +20,8 @@ _FOLDS = {2: "half-turn", 3: "third of a turn", 4: "quarter-turn", 6: "sixth of 
 
 #: Coordinates below this part of the mechanism's size are zero.
 _ZERO = 1.0e-9
+#: Relations of parts themselves, not of their lines of force.
+_OF_PARTS = (RelationKind.POSITION, RelationKind.ALONG, RelationKind.ACROSS_AXIS)
 _TRIED = "; other geometries with this symmetry were tried and have it too"
 
 
@@ -46,7 +48,7 @@ def relations_in_words(
             f"; by a couple {'each' if len(about) > 2 else 'either'} of these groups "
             f"holds the rotation about {axis_words(about[0])}"
         )
-    elif any(one.is_sufficient and one.of is LineKind.AXIS for one in relations):
+    elif all(one.of is LineKind.AXIS for one in relations) and relations:
         made.append("; that is enough, wherever the joints are")
     return tuple(made)
 
@@ -102,15 +104,25 @@ def _relation(result: Result, one: Relation, in_short: bool) -> Pieces:
     if kind is RelationKind.ROTATION:
         turn = _FOLDS.get(one.fold, f"turn by {360 // one.fold} degrees")
         article = "an" if turn[0] in "aeiou" else "a"
-        return (f"{article} {turn} about {line} takes what is stressed onto itself{tried}",)
+        what = "what is stressed" if one.of is LineKind.MEMBER else plain(of)
+        takes = f"{article} {turn} about {line} takes {what} onto "
+        return (f"{takes}{'itself' if one.of is LineKind.MEMBER else 'each other'}{tried}",)
     if kind is RelationKind.REFLECTION:
         return (f"what is stressed is symmetric about {_plane(result, one)}{tried}",)
     if kind is RelationKind.POSITION:
-        return (*of, " stand in a special position together")
+        return (*of, " stand in a special position to each other")
+    if kind in (RelationKind.ALONG, RelationKind.ACROSS_AXIS):
+        many = len(limb_names(result, one.parts)) > 1
+        # The normal of a sheet that is along an axis is what is told.
+        is_along = (kind is RelationKind.ALONG) is not (one.of is LineKind.SHEET)
+        way = "along" if is_along else "across"
+        return (*of, f" lie{'' if many else 's'} {way} {axis}")
     if one.of is LineKind.SHEET and kind is not RelationKind.ONE_PLANE:
         return _of_sheets(result, one, axis, line, in_short)
     words = _common(result, one, axis, line)
-    return (*of, f" {words.partition(', so that')[0] if in_short else words}")
+    # What lines of force do not stop is told, and not what turns about axes do not.
+    is_short = in_short or (one.of is LineKind.AXIS and kind is not RelationKind.REGULUS)
+    return (*of, f" {words.partition(', so that')[0] if is_short else words}")
 
 
 def _of_sheets(result: Result, one: Relation, axis: str, line: str, in_short: bool) -> Pieces:
@@ -154,8 +166,9 @@ def _lines_of(result: Result, one: Relation) -> Pieces:
     """The lines of a relation: of limbs of two sheets fold lines, of bars and wires they."""
     names = row_of(limb_names(result, one.parts))
     if one.of is LineKind.AXIS:
-        return ("the axes of ", *names)
-    if one.of is not LineKind.FORCE or one.kind is RelationKind.POSITION:
+        many = len(limb_names(result, one.parts)) > 1
+        return (f"the ax{'e' if many else 'i'}s of ", *names)
+    if one.of is not LineKind.FORCE or one.kind in _OF_PARTS:
         return names
     kinds = {part.kind for part in one.parts}
     if kinds <= {PartKind.WIRE, PartKind.BAR}:

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from ...advice.spaces.families import SAME, Family, FamilyKind
+from ...base.cached import cached_property
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.parts.parts import Part, PartKind, natural

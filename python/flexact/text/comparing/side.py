@@ -11,11 +11,19 @@ from typing import Any, NamedTuple
 from ...base.errors import FlexactError
 from ...base.plain_text import harmless
 from ...diagnostics.errors import ProblemsError
+from ...result.accuracy import Accuracy
 from ...result.result import Result
-from ...result.verdict import Verdict
+from ...result.verdict import Margin, Verdict
 from .. import json_modes
 from ..decision import certainty_word
-from ..margin import margin_in_short, margin_of_sizes, verdict_word
+from ..margin import (
+    but_only,
+    margin_in_short,
+    margin_of_sizes,
+    verdict_in_short,
+    verdict_word,
+    word_of,
+)
 from ..motions import motion_in_parts
 from ..naming import counts_in_words
 from ..self_stresses import stress_in_parts
@@ -88,7 +96,7 @@ def side_of(result: Result) -> Side:
     source = result.given.source
     return Side(
         verdict_word(result),
-        counts_in_words(result.under_constrained, result.over_constrained),
+        verdict_in_short(result),
         _numbers(
             {name: part._asdict() for name, part in result.counts._asdict().items()},
             *(result.under_constrained, result.over_constrained, result.degrees_of_freedom),
@@ -155,11 +163,20 @@ def _stored(found: dict[str, Any]) -> Side:
     move, turn = (
         None if margin[key] is None else float(margin[key]["value"]) for key in ("length", "angle")
     )
+    exact, given = bool(margin["exact_alignment"]), found["accuracy"]
+    sizes = Margin(move, turn, None, None, None, exact)
+    accuracy = None
+    if given is not None:
+        within = [None if given[k] is None else given[k]["value"] for k in ("length", "angle")]
+        accuracy = Accuracy.of(within)
     return Side(
-        Verdict(found["verdict"]).value,
-        counts_in_words(under, over),
+        word_of(
+            Verdict(found["verdict"]),
+            is_marginal=accuracy is not None and any(accuracy.exceeds(sizes)),
+        ),
+        counts_in_words(under, over) + but_only(sizes, accuracy),
         _numbers(found["counts"], under, over, int(found["degrees_of_freedom"])),
-        margin_of_sizes(move, turn, length, exact=bool(margin["exact_alignment"])),
+        margin_of_sizes(move, turn, length, exact=exact),
         str(found["certainty"]),
         tuple(
             Mode(_moving(made), _vector(made, "node", "coordinate", length))

@@ -6,12 +6,13 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
+from ...base.partial import why
 from ...base.plain_text import harmless
 from ...core.arrays import ModelArrays
 from ...core.progress import Progress
 from ...deck.reading import read_bytes
 from ...diagnostics.errors import DeckError, ProblemsError
-from ...files.decks import FolderError
+from ...files.decks import FolderError, no_formula
 from ...result.failing import AnalysisError
 from ...result.outcome import Asked
 from ...result.result import Result, result_of
@@ -73,8 +74,7 @@ def deck_row(raw: bytes, name: str, asked: Asked, want: str) -> DeckRow:
         made = failed_row(error, name, want)
     except Exception as error:
         # One deck over which this program stumbles shall not cost the others.
-        unforeseen = AnalysisError(f"unforeseen {type(error).__name__}: {error}")
-        made = failed_row(unforeseen, name, want)
+        made = failed_row(AnalysisError(why(error)), name, want)
     made.values["seconds"] = time.perf_counter() - start
     return made
 
@@ -97,7 +97,7 @@ def first_error(error: Exception, name: str) -> str:
     elif isinstance(error, MemoryError):
         message = "not enough memory"
     elif isinstance(error, FolderError):
-        return harmless(message)  # which names it
+        return harmless(no_formula(message))  # which names it
     return harmless(f"{place}: {message}")
 
 

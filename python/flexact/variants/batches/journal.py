@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 from ...base.errors import BatchError, reason_of
 from ...base.loading import load
-from ...files.outputs import OutputError, keep_names, written_whole
+from ...files.outputs import OutputError, TakenError, keep_names, written_whole
 
 if sys.platform != "win32":
     import fcntl
@@ -66,9 +66,12 @@ class Journal:
             OutputError: It cannot be written.
             JournalError: Another process has just begun one.
         """
-        with written_whole(path) as file:
-            file.write(_line(head))
-        made = cls.resume(path)
+        try:
+            with written_whole(path, anew=True) as file:
+                file.write(_line(head))
+            made = cls.resume(path)
+        except TakenError:
+            made = None
         if made is None or made.head != head:
             raise JournalError(f"{path} is another run's, which has just begun")
         return made
@@ -89,6 +92,10 @@ class Journal:
         made = cls(path, handle)
         try:
             made._lock()
+            if not made._is_in_place():
+                # The run that had it locked has ended meanwhile, and taken it away.
+                made.close()
+                return cls.resume(path)
             head = next(made.entries(), None)
             if head is None or head.place:
                 raise JournalError(
@@ -96,10 +103,17 @@ class Journal:
                 )
             made._end_line()
         except BaseException:
-            os.close(handle)
+            made.close()
             raise
         made.head = head.record
         return made
+
+    def _is_in_place(self) -> bool:
+        """Whether the file that is open is the one at the path."""
+        try:
+            return os.path.samestat(os.fstat(self._handle), os.stat(self.path))
+        except FileNotFoundError:
+            return False
 
     def _lock(self) -> None:
         """Keep other processes away until this one ends, however it does."""
@@ -234,8 +248,12 @@ def _line(record: Any) -> bytes:
 
 
 def _record(line: bytes) -> Any:
-    """The record of a line; None where the line is not whole."""
+    """The record of a line, an object; None where the line is not whole, or holds none."""
     text = line[_DIGITS + 1 :]
     if not text or line[: _DIGITS + 1] != b"%08x " % zlib.crc32(text):
         return None
-    return json.loads(text)
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None

@@ -43,6 +43,19 @@ class Crossing(NamedTuple):
     """How many variants were made to find it."""
 
 
+class Missed(NamedTuple):
+    """A search that was given up, since a variant could not be made or analysed."""
+
+    parameters: Row
+    """What should have made it."""
+    along: str
+    """As of a `Crossing`."""
+    rows: tuple[int, int]
+    """The rows on both sides, or twice the row that it is."""
+    error: str
+    """Why not."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Crossings(Frozen, Sequence[Crossing]):
     """The singular variants of a table, in the order of its rows.
@@ -51,10 +64,12 @@ class Crossings(Frozen, Sequence[Crossing]):
         found: Each of them.
         evaluations: How many variants were made to find them, and to find that there are no
             others.
+        missed: Where a search was given up, so that a crossing may be there that is not found.
     """
 
     found: tuple[Crossing, ...]
     evaluations: int
+    missed: tuple[Missed, ...] = ()
 
     def __len__(self) -> int:
         """How many were found."""
@@ -77,13 +92,30 @@ class Crossings(Frozen, Sequence[Crossing]):
         return np.array([each.parameters[parameter] for each in self.found], np.float64)
 
     def __repr__(self) -> str:
-        """How many, and the first."""
+        """How many, and the first; and what was given up."""
         told = "; ".join(map(_in_short, self.found[:6]))
         more = "; ..." if len(self) > 6 else ""
-        return f"<Crossings: {len(self)}{': ' * bool(told)}{told}{more}>"
+        return f"<Crossings: {len(self)}{': ' * bool(told)}{told}{more}{self._given_up}>"
+
+    @property
+    def _given_up(self) -> str:
+        if not self.missed:
+            return ""
+        first, many = self.missed[0], len(self.missed)
+        at = _numbers(first.parameters) or f"between rows {first.rows[0]} and {first.rows[1]}"
+        what = f"{many} search{'es' * (many > 1)} given up"
+        return f"; {what}, {'first' if many > 1 else 'which'} at {at}: {first.error}"
 
 
 def _in_short(each: Crossing) -> str:
-    told = [f"{k} {v:.10g}" for k, v in each.parameters.items() if isinstance(v, float)]
-    told = told or [f"{each.share:.6g} from row {each.rows[0]} to {each.rows[1]}"]
-    return f"{', '.join(told)}: {each.verdict}"
+    at = _numbers(each.parameters)
+    at = at or f"{each.share:.6g} from row {each.rows[0]} to {each.rows[1]}"
+    return f"{at}: {each.verdict}"
+
+
+def _numbers(row: Row) -> str:
+    return ", ".join(f"{name} {value:.10g}" for name, value in row.items() if _is_float(value))
+
+
+def _is_float(value: object) -> bool:
+    return isinstance(value, float)

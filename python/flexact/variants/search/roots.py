@@ -65,7 +65,8 @@ def sign_change(function: Function, a: float, b: float, fa: float, fb: float) ->
             break
         share = _share(a, b, c, fa, fb, fc)
         share = min(max(share, tolerance / width), 1.0 - tolerance / width)
-    return Zero(best, least, width) if abs(least) <= _CONTINUOUS * largest else None
+    # From ends that are next to nothing it cannot fall below what rounding leaves.
+    return Zero(best, least, width) if abs(least) <= max(_CONTINUOUS * largest, _BELOW) else None
 
 
 def _share(a: float, b: float, c: float, fa: float, fb: float, fc: float) -> float:

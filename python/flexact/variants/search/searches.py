@@ -12,21 +12,24 @@ from ...base.errors import FlexactError
 from ...result.outcome import Asked
 from ...result.result import Result, result_of
 from ...result.verdict import Verdict
+from ..row import in_a_line
 from ..sweeps.parameters import Row
-from ..sweeps.source import Source, between
-from .crossing import Crossing
+from ..sweeps.source import Source
+from ..sweeps.source import between as row_between
+from .crossing import Crossing, Missed
 from .roots import Zero, minimum, sign_change
 from .signed import signed_value
 
 if TYPE_CHECKING:
     from ..table import Table
 
+_ANOTHER = "another mechanism than those of the rows: its coordinates or deformations are others"
 #: A singular value this small is not told from zero, whatever the default says.
 _ZERO = 1.0e-10
 
 
 class Search(NamedTuple):
-    """Rows between which a zero may be."""
+    """Rows between which a zero may be; the first is at 0, the next at 1."""
 
     along: str
     rows: tuple[int, ...]
@@ -38,6 +41,8 @@ class Search(NamedTuple):
     """Of the rows."""
     topology: int
     """Of all of them; see `flexact.variants.search.signed`."""
+    ends: tuple[float, float] = (0.0, 1.0)
+    """Between which places the sign changes; `values` are of these then."""
 
 
 class Found(NamedTuple):
@@ -45,13 +50,20 @@ class Found(NamedTuple):
 
     crossings: tuple[Crossing, ...]
     evaluations: int
+    missed: tuple[Missed, ...] = ()
 
 
 def parameters_between(table: Table, a: int, b: int, share: float) -> Row:
     """The parameters between those of two rows."""
     names = table.parameter_names
     ends = [[table[name][k : k + 1].tolist()[0] for name in names] for k in (a, b)]
-    return between(names, ends[0], ends[1], share)
+    return row_between(names, ends[0], ends[1], share)
+
+
+def between(search: Search, place: float) -> tuple[int, int, float]:
+    """The rows round a place, of which the first row's is 0, and the share between them."""
+    first = min(max(int(place), 0), len(search.rows) - 2)
+    return search.rows[first], search.rows[first + 1], place - first
 
 
 @dataclass(frozen=True)
@@ -61,32 +73,45 @@ class Follow:
     table: Table
     source: Source
 
-    def at(self, a: int, b: int, share: float, rank: int, topology: int) -> float | None:
-        """The signed singular value between two rows; None where there is none."""
+    def at(
+        self, a: int, b: int, share: float, rank: int, topology: int
+    ) -> tuple[float | None, str]:
+        """The signed singular value between two rows; None, and why, where there is none."""
         try:
             data = self.source.variant(a, b, share, parameters_between(self.table, a, b, share))
             data.require_sound()
             found = signed_value(data, rank)
-        except Exception:
-            return None
-        return found.value if found.topology == topology else None
+        except Exception as error:
+            return None, in_a_line(error)
+        if found.topology != topology:
+            return None, _ANOTHER
+        return found.value, ""
 
     def __call__(self, search: Search) -> Found:
         """What one search finds."""
         counted = _Counted(self, search)
         zeros = list(_zeros(search, counted))
         made = [self._crossing(search, zero, kind, counted) for zero, kind in zeros]
-        return Found(tuple(each for each in made if each is not None), counted.calls)
+        missed = [self.missed(search, *each) for each in counted.errors[:1]]
+        found = tuple(each for each in made if each is not None)
+        return Found(found, counted.calls, tuple(missed))
+
+    def missed(self, search: Search, place: float, error: str) -> Missed:
+        """A search that an error at a place has ended."""
+        a, b, share = between(search, place)
+        row = parameters_between(self.table, a, b, share)
+        return Missed(row, search.along, (a, b), error)
 
     def _crossing(
         self, search: Search, zero: Zero, kind: str, counted: _Counted
     ) -> Crossing | None:
         """The crossing at a zero, if an analysis there says so, too."""
-        a, b, share = counted.between(zero.place)
+        a, b, share = between(search, zero.place)
         row = parameters_between(self.table, a, b, share)
         try:
             result = self._singular(self.source, a, b, share, row, search.rank, zero, kind)
-        except FlexactError:
+        except FlexactError as error:
+            counted.errors.append((zero.place, in_a_line(error)))
             return None
         if result is None:
             return None
@@ -121,23 +146,22 @@ class _Counted:
 
     def __init__(self, follow: Follow, search: Search) -> None:
         self.calls = 0
+        self.errors: list[tuple[float, str]] = []
         self._follow, self._search = follow, search
-
-    def between(self, place: float) -> tuple[int, int, float]:
-        """The rows round a place, of which the first row's is 0, and the share between them."""
-        rows = self._search.rows
-        first = min(max(int(place), 0), len(rows) - 2)
-        return rows[first], rows[first + 1], place - first
 
     def __call__(self, place: float) -> float | None:
         self.calls += 1
-        return self._follow.at(*self.between(place), self._search.rank, self._search.topology)
+        where, search = between(self._search, place), self._search
+        value, error = self._follow.at(*where, search.rank, search.topology)
+        if error:
+            self.errors.append((place, error))
+        return value
 
 
 def _zeros(search: Search, function: _Counted) -> Iterator[tuple[Zero, str]]:
     values = search.values
     if search.is_sign_change:
-        zero = sign_change(function, 0.0, 1.0, values[0], values[1])
+        zero = sign_change(function, *search.ends, values[0], values[1])
         if zero is not None:
             yield zero, "sign change"
         return

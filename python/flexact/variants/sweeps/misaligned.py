@@ -11,15 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.plain_text import in_short
+from ...base.quantities import Quantity, without_units
 from ...core.arrays import FloatArray, IntArray, floats
 from ...core.elements import NodeKind
 from ...model.data import ModelData
 from ...model.model import Model
+from ...model.parts.parts import Parts
 from ...model.variation import axes_used
+from ...result.handles import position_of
 
 #: A length [m] for all points; lengths by points: names, numbers of nodes, or handles; or an
 #: array of them, (nodes,) or (nodes, 3).
-Spread = float | Mapping[Any, ArrayLike] | ArrayLike
+Spread = Quantity | Mapping[Any, ArrayLike] | ArrayLike
 
 
 def misaligned(model: Model, sd: FloatArray, samples: int, seed: int) -> FloatArray:
@@ -91,7 +94,7 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
         for name, value in sd.items():
             made[point == point[_node(model, name)]] = _one(value)
     else:
-        given = floats(sd, "the standard deviation")
+        given = floats(without_units(sd, "m"), "the standard deviation")
         if given.shape not in ((), (nodes,), (nodes, 3)):
             raise ValueError(
                 f"the standard deviation is one length, or has the shape ({nodes} nodes,) or "
@@ -106,7 +109,7 @@ def spread_given(model: Model, sd: Any) -> FloatArray:
 
 
 def _one(value: Any) -> FloatArray:
-    given = floats(value, "the standard deviation of a point")
+    given = floats(without_units(value, "m"), "the standard deviation of a point")
     if given.shape not in ((), (3,)):
         raise ValueError(
             f"the standard deviation of a point is a length, or one of each of x, y and z, "
@@ -116,7 +119,4 @@ def _one(value: Any) -> FloatArray:
 
 
 def _node(model: Model, name: Any) -> int:
-    if isinstance(name, str):
-        # The model itself is not touched.
-        name = Model.from_data(model.data).point(name).position
-    return model.node_index(getattr(name, "position", name))
+    return position_of(Parts(model.data), name)

@@ -127,7 +127,10 @@ def made_by(make: Make, row: Row) -> ModelData:
 def between(
     names: Sequence[str], first: Sequence[Value], last: Sequence[Value], share: float
 ) -> Row:
-    """The parameters between those of two rows; what is no number is that of the first."""
+    """The parameters between those of two rows, as Python's own numbers.
+
+    What is no number is that of the first.
+    """
     return {name: _between(a, b, share) for name, a, b in zip(names, first, last, strict=True)}
 
 
@@ -137,7 +140,7 @@ def _between(a: Value, b: Value, share: float) -> Value:
     if share == 1.0:
         return b
     assert isinstance(a, (int, float)) and isinstance(b, (int, float))
-    return a + share * (b - a)
+    return float(a + share * (b - a))
 
 
 def is_number(value: Value) -> bool:

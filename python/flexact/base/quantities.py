@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers with their units, as people write them: "20um", "3 mm", "2deg", "210 GPa"."""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+from typing import Any, NamedTuple, SupportsFloat, SupportsIndex
+
+from .errors import FlexactError
+from .plain_text import in_short
+
+#: What Python takes for a quantity: SI, or a text that says its unit.
+Quantity = float | str
+
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_MICRO = ("u", "\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}")
+_SMALL = {"m": -3, **dict.fromkeys(_MICRO, -6), "n": -9}
+
+
+class _Kind(NamedTuple):
+    """Quantities of one kind."""
+
+    name: str
+    example: str
+    powers: dict[str, int]
+    """Powers of ten by unit without blanks, so that 5um is the number that 5e-6 is."""
+
+
+def _prefixed(unit: str, **more: int) -> dict[str, int]:
+    return {unit: 0, **{prefix + unit: power for prefix, power in _SMALL.items()}, **more}
+
+
+#: By SI unit.
+_KINDS = {
+    "m": _Kind("a length", "50um, 0.1mm or 5e-5", _prefixed("m", cm=-2)),
+    "rad": _Kind("an angle", "50urad, 1mrad, 2deg or 1e-3", _prefixed("rad")),
+    "deg": _Kind("an angle", "30, 30deg or 0.5rad", {}),
+    "Pa": _Kind(
+        *("a stress or a modulus", "210GPa or 2.1e11"),
+        {"Pa": 0, "kPa": 3, "MPa": 6, "N/mm2": 6, "GPa": 9},
+    ),
+    "kg/m3": _Kind("a density", "7850kg/m3 or 7850", {"kg/m3": 0, "g/cm3": 3, "kg/dm3": 3}),
+    "kg": _Kind("a mass", "0.2kg or 200g", {"kg": 0, "g": -3, "mg": -6}),
+    "kg m2": _Kind("a moment of inertia", "2e-4kgm2 or 2e-4", {"kgm2": 0}),
+    "N": _Kind("a force", "5N or 20mN", _prefixed("N", kN=3)),
+    "N m": _Kind("a moment", "0.5Nm or 20Nmm", {"Nm": 0, "mNm": -3, "Nmm": -3, "kNm": 3}),
+    "N/m": _Kind("a stiffness", "5N/mm or 5000", {"N/m": 0, "N/mm": 3, "kN/m": 3, "N/um": 6}),
+    "N m/rad": _Kind("a stiffness", "3.5Nm/rad or 3.5", {"Nm/rad": 0, "mNm/rad": -3}),
+    "m/s2": _Kind("an acceleration", "9.81m/s2 or 9.81", {"m/s2": 0, "mm/s2": -3}),
+}
+#: Of a notch, which bends or, of an elongation, stretches.
+NOTCH = "N m/rad or N/m"
+_KINDS[NOTCH] = _Kind(
+    *("a stiffness", "3.5Nm/rad, 5N/mm or 3.5"),
+    {**_KINDS["N m/rad"].powers, **_KINDS["N/m"].powers},
+)
+_DEGREES = ("deg", "\N{DEGREE SIGN}")
+
+
+class QuantityError(FlexactError, ValueError):
+    """A text that is no quantity of the kind that is wanted; it says what is."""
+
+
+def quantity(text: str, unit: str) -> float:
+    """The number that a text such as "50um" or "0.1 mm" is in an SI unit, or in "deg".
+
+    A number without a unit is in that unit.
+
+    Raises:
+        QuantityError: it is none, of another kind, or too large.
+    """
+    return _read(text, unit)[0]
+
+
+def measured(given: object, unit: str) -> float:
+    """What Python is given for a quantity: a number, or a text that says its unit.
+
+    Raises:
+        QuantityError: the text is no such quantity, or says no unit.
+        TypeError, ValueError, OverflowError: it is no number.
+    """
+    if not isinstance(given, str):
+        if not isinstance(given, (SupportsFloat, SupportsIndex)):
+            raise TypeError
+        return float(given)
+    value, said = _read(given, unit)
+    if not said:
+        raise QuantityError(
+            f"a text says its unit, such as {_KINDS[unit].example.split(' or ')[0].split(',')[0]}: "
+            f"{in_short(given)} does not; give a number, or its unit"
+        )
+    return value
+
+
+def without_units(given: object, unit: str) -> Any:
+    """What is given with each text in it, alone or in lists and tuples, as its number.
+
+    Raises:
+        QuantityError: as of `measured`.
+    """
+    if isinstance(given, str):
+        return measured(given, unit)
+    if isinstance(given, (list, tuple)):
+        return [without_units(each, unit) for each in given]
+    return given
+
+
+def _read(text: str, unit: str) -> tuple[float, str]:
+    """The number, and the unit that was said."""
+    found, kind = _NUMBER.fullmatch(text), _KINDS[unit]
+    said = "" if found is None else re.sub(r"[\s*]|\N{MIDDLE DOT}", "", found[2])
+    said = said.replace("\N{SUPERSCRIPT TWO}", "2").replace("\N{SUPERSCRIPT THREE}", "3")
+    value = math.nan
+    if found is not None:
+        turned = _KINDS["rad"].powers.get(said)
+        if not said or (unit == "deg" and said in _DEGREES):
+            value = float(found[1])
+        elif unit == "deg" and turned is not None:
+            value = math.degrees(float(Decimal(found[1]).scaleb(turned)))
+        elif unit == "rad" and said in _DEGREES:
+            value = math.radians(float(found[1]))
+        elif said in kind.powers:
+            value = float(Decimal(found[1]).scaleb(kind.powers[said]))
+    if math.isnan(value):
+        of = next((k.name for k in _KINDS.values() if said in k.powers), "")
+        of = "an angle" if said in _DEGREES else of
+        told = in_short(text.strip())
+        raise QuantityError(
+            f"{kind.name} [{unit}] is wanted, such as {kind.example}, not {told}"
+            f"{f', which is {of}' if of else ''}"
+        )
+    if not math.isfinite(value):
+        raise QuantityError(f"{in_short(text.strip())} is too large")
+    return value, said

@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every verb in every form of its output, listed from what the program itself knows."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import flexact
+from flexact.cli.analyse import LOGS
+from flexact.cli.command import parser_of
+from flexact.cli.findings import FORMS
+from flexact.cli.main import main
+from flexact.cli.summary import TABLES
+from flexact.convert.text import JSON, YAML
+from flexact.costing.saving import SUFFIXES as COSTS
+from flexact.drawing import QUANTITIES
+from flexact.editor.completion import complete_at
+from flexact.editor.deck import Deck
+from flexact.editor.document import Document, Position
+from flexact.editor.hover import hover_at
+from flexact.editor.outline import folds_of, outline_of
+from flexact.editor.problems import problems_of
+from flexact.editor.verdicts import advice_on, opinion_on
+from flexact.mesh.collection import SUFFIX as CYCLE
+from flexact.mesh.file import FORMATS
+from flexact.picture import STILLS, SUFFIXES
+from flexact.saving import PAGES
+from flexact.tracing.saving import SUFFIXES as TRACES
+from flexact.watching.answering import answer_of
+from flexact.watching.editor import Editor
+from flexact.watching.messages import Job, Shown
+from flexact.watching.scene import Stage
+
+#: Verbs that take no deck.
+WITHOUT_DECK = {"bench", "completion", "help"}
+MESHES = (*(f".{form}" for form in FORMATS), ".vtp", CYCLE)
+#: Of suffixes that mean the same the first.
+PAGE, TABLE = PAGES[0], TABLES[0]
+
+
+class Output(NamedTuple):
+    """One verb in one form.
+
+    Attributes:
+        name: As it would be typed.
+        make: Makes it of a deck in a folder; gives what is said besides.
+        seconds: How long it takes, about.
+    """
+
+    name: str
+    make: Callable[[Path, Path], str]
+    seconds: float = 0.1
+
+    @property
+    def verb(self) -> str:
+        """The verb, or "python"."""
+        return self.name.split()[0]
+
+
+@cache
+def outputs() -> tuple[Output, ...]:
+    """All of them."""
+    return (*map(_command, _commands()), *_in_python())
+
+
+def _commands() -> Iterator[str]:
+    """As they are typed; DECK is the deck, and OUT/ a folder for what is written."""
+    decision = "--accuracy 2e-5"
+    for log in ("", *(f" --log {log}" for log in LOGS)):
+        yield f"analyse DECK{log}"
+        yield f"analyse DECK{log} -o OUT"
+    yield f"analyse DECK --json {decision}"
+    for method in _choices("analyse", "--method"):
+        yield f"analyse DECK --method {method}"
+    for form in FORMATS:
+        yield f"analyse DECK DECK2 -o OUT --mesh {form}"
+    for form in FORMS:
+        yield f"analyse DECK DECK2 --format {form}"
+        yield f"check DECK --format {form}"
+    for table in TABLES:
+        yield f"analyse DECK DECK2 --summary -o OUT/table{table}"
+        yield f"batch DECK DECK2 -o OUT/table{table} --files OUT/files --report OUT/pages"
+    yield "check DECK --json"
+    yield "check DECK DECK2 --summary"
+    yield "advise DECK"
+    yield f"advise DECK DECK2 --json {decision}"
+    yield "advise DECK --apply 1 -o OUT/mended.dat"
+    for suffix in (PAGE, *STILLS):
+        yield f"advise DECK -o OUT/advice{suffix}"
+    yield "cost DECK"
+    yield "cost DECK --json"
+    for suffix in COSTS:
+        yield f"cost DECK -o OUT/cost{suffix} --beams 1 --release none"
+    yield "declare DECK -o OUT/declared.dat"
+    yield "regress DECK DECK2 --against OUT --store"
+    for suffix in SUFFIXES:
+        yield f"picture DECK -o OUT/picture{suffix} {decision}"
+    for which in ("motion", "freedom", "stress"):
+        yield f"picture DECK --{which} 1 -o OUT/{which}{STILLS[0]}"
+    yield f"picture DECK --held -o OUT/held{STILLS[0]}"
+    for quantity in QUANTITIES:
+        yield f"picture DECK --quantity {quantity.replace(' ', '-')} -o OUT/quantity.svg"
+    for suffix in MESHES:
+        yield f"export DECK -o OUT/mesh{suffix}"
+        yield f"export DECK --freedom 1 -o OUT/mesh{suffix}"
+    for suffix in TRACES:
+        yield f"trace DECK --steps 6 -o OUT/trace{suffix}"
+        yield f"trace DECK --freedom 1 --steps 6 -o OUT/trace{suffix}"
+    yield f"view DECK --no-browser -o OUT/view{PAGE}"
+    yield f"report DECK -o OUT/page{PAGE} {decision}"
+    yield "report DECK DECK2 -o OUT/pages"
+    yield f"report DECK DECK2 --compare -o OUT/changes{PAGE}"
+    for suffix in (*JSON, *YAML, ".dat", ".vtu", ".msh"):
+        yield f"convert DECK -o OUT/converted{suffix}"
+
+
+def _choices(verb: str, option: str) -> tuple[str, ...]:
+    actions = parser_of(verb)._option_string_actions
+    return tuple(actions[option].choices or ())
+
+
+#: Seconds that some outputs take, by words in them.
+_SLOW = {".gif": 3.0, ".mp4": 3.0, ".webm": 3.0, "cost": 3.0, "batch": 2.0, "advise": 1.0}
+
+
+def _command(words: str) -> Output:
+    def make(deck: Path, folder: Path) -> str:
+        paths = {"DECK": str(deck), "DECK2": str(_second(folder))}
+        typed = [
+            str(folder / "out" / word[4:]) if word.startswith("OUT") else paths.get(word, word)
+            for word in words.split()
+        ]
+        code = main(typed)
+        if code not in (0, 1, 2, 3):
+            raise AssertionError(f"exit code {code}")
+        return ""
+
+    seconds = max([0.3, *(slow for word, slow in _SLOW.items() if word in words)])
+    return Output(words, make, seconds)
+
+
+def _second(folder: Path) -> Path:
+    """A deck that is well, which comes behind the first."""
+    path = folder / "second.dat"
+    path.write_text("TRUSS 1 1 2\nX 2 1 0 0\nFIX 1\nFIX 2 2 3\n", encoding="utf-8")
+    return path
+
+
+def _in_python() -> Iterator[Output]:
+    """What verbs show in windows of others: a browser, an editor, a notebook."""
+    yield Output("watch DECK", _watch, 1.0)
+    yield Output("lsp DECK", _edit, 1.0)
+    yield Output("python notebook", _notebook, 2.0)
+    yield Output("python show", _show, 1.0)
+    yield Output("python results", _results, 1.0)
+
+
+def _watch(deck: Path, folder: Path) -> str:
+    """The scene of the deck, then that of a click, as the page has them."""
+    told: list[Any] = []
+    answer = answer_of(Job(str(deck), is_script=False), told.append)
+    stage = Stage(deck.name)
+    editor = Editor(str(deck), stage)
+    words = [editor.renewed(answer), json.dumps(stage.scene.event(), allow_nan=False)]
+    if isinstance(answer, Shown):
+        pickle.loads(answer.result)
+        for request in ({"do": "tell"}, _first_choice(editor), {"do": "undo"}):
+            if request is not None:
+                _, content = editor.post(json.dumps(request).encode())
+                words.append(json.dumps(content, allow_nan=False))
+    return "\n".join(words)
+
+
+def _first_choice(editor: Editor) -> dict[str, Any] | None:
+    _, content = editor.post(b'{"do": "tell"}')
+    for proposal in content["told"]["proposals"]:
+        for item in proposal["items"]:
+            return {"do": "set", "set": item["choices"][0]["set"]}
+    return None
+
+
+def _edit(deck: Path, folder: Path) -> str:
+    """What an editor shows of the deck: problems, verdict, steps, outline, hover, completion."""
+    opened = Deck(Document.of(deck.read_text("utf-8")))
+    told: list[object] = [problems_of(opened), outline_of(opened), folds_of(opened)]
+    for line in range(len(opened.document.lines)):
+        for place in (0, 8):
+            told += [
+                hover_at(opened, Position(line, place)),
+                complete_at(opened, Position(line, place)),
+            ]
+    opinion = opinion_on(opened)
+    if opinion is not None and opinion.result is not None:
+        told += [opinion.words, opinion.remarks]
+        advice = advice_on(opinion, flexact.Analysis.advice)
+        told += [] if advice is None else [(step.pieces, step.outcome) for step in advice.steps]
+    return "\n".join(map(str, told))
+
+
+def _analysed(deck: Path) -> flexact.Analysis | None:
+    try:
+        return flexact.analyse(deck)
+    except flexact.FlexactError:
+        return None
+
+
+def _notebook(deck: Path, folder: Path) -> str:
+    analysis = _analysed(deck)
+    if analysis is None:
+        return ""
+    rows = (analysis, analysis.motions, analysis.self_stresses, flexact.Results([analysis]))
+    _write(folder / "out" / "notebook.html", "\n".join(each._repr_html_() for each in rows))
+    model = flexact.read(deck)
+    return f"{model!r}\n{model._repr_html_()}\n{analysis!r}\n{analysis.describe()}"
+
+
+def _show(deck: Path, folder: Path) -> str:
+    try:
+        made = flexact.read(deck).show(folder / "out" / "shown.html")
+    except flexact.FlexactError as error:
+        return str(error)
+    return str(made)
+
+
+def _results(deck: Path, folder: Path) -> str:
+    """What a result holds, as JSON, as a log, and as motions of bodies."""
+    analysis = _analysed(deck)
+    if analysis is None:
+        return ""
+    told = [str(json.loads(analysis.to_json())["verdict"]), analysis.margin, analysis.warnings]
+    told += [(motion.bodies, motion.displacement) for motion in analysis.motions[:2]]
+    told += [(freedom.owner, freedom.motion is None) for freedom in analysis.freedoms[:2]]
+    return "\n".join(map(str, told))
+
+
+def _write(path: Path, content: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(content, encoding="utf-8")
