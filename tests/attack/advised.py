@@ -2,7 +2,7 @@
 """Whether advice is true: its steps applied, its statements pasted, its hardware built, its causes
 kept while all else is random.
 
-    offences(model) -> Iterator[Offence]
+    offences(given) -> Iterator[Offence]
 
 Causes are tried in 20 geometries each, other ones than the product tries. That these have what is
 named is measured here, on lines and planes taken from places and vectors, and their rank is
@@ -11,8 +11,6 @@ decided by NumPy.
 
 from __future__ import annotations
 
-import copy
-import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import combinations
@@ -20,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pasting import analysis_pasted, steps_pasted
 
 import flexact
 from flexact import Model
@@ -51,10 +50,10 @@ class Offence(NamedTuple):
     words: str
 
 
-def offences(model: Model, done: Counter[str] | None = None) -> Iterator[Offence]:
-    """All of them; how much was tried is added to `done`."""
+def offences(given: Model | str, done: Counter[str] | None = None) -> Iterator[Offence]:
+    """All of them, of a model or of the text of a deck; how much was tried is added to `done`."""
     done = Counter() if done is None else done
-    result = flexact.analyse(model)
+    result = flexact.analyse(flexact.read_text(given) if isinstance(given, str) else given)
     advice = result.advice()
     try:
         advice.describe()
@@ -64,26 +63,26 @@ def offences(model: Model, done: Counter[str] | None = None) -> Iterator[Offence
         return
     yield from (Offence("failed", words) for words in advice.failed)
     for step in advice:
-        yield from _of_step(model, step, done)
+        yield from _of_step(step, done)
+    for one in (*steps_pasted(given, advice), *analysis_pasted(given, result)):
+        done["statements"] += 1
+        if not one.is_right:
+            words = f"{one.note}: {one.found}, not {one.said} ({one.words})"
+            yield Offence("false statement", words)
     yield from of_causes(result, advice, done)
 
 
 # Steps ---------------------------------------------------------------------------
 
 
-def _of_step(model: Model, step: Step, done: Counter[str]) -> Iterator[Offence]:
+def _of_step(step: Step, done: Counter[str]) -> Iterator[Offence]:
     said = step.after.under_constrained, step.after.over_constrained
     for choice in range(1, 2 + min(len(step.alternatives), _ALTERNATIVES)):
         done["steps"] += 1
         found = _counts(step.apply(choice))
         if found != said:
             yield Offence("false step", f"{step!r} choice {choice}: {found}")
-    for note in _notes(step.statement):
-        done["statements"] += 1
-        found = pasted(model, note)
-        if found != said:
-            yield Offence("false statement", f"{note}: {found}, not {said} ({step.statement})")
-    built = hardware(model, step)
+    built = hardware(step)
     if built is not None and built.data.arrays.element_number.size:
         done["hardware"] += 1
         if _counts(built) != said:
@@ -95,29 +94,10 @@ def _counts(model: Model) -> tuple[int, int]:
     return result.under_constrained, result.over_constrained
 
 
-_CALL = r'model\.\w+\((?:[^()"]|"[^"]*"|\([^()]*\))*\)'
-
-
-def _notes(words: str) -> list[str]:
-    """Calls that stand together, in the order in which they are printed."""
-    return re.findall(rf"{_CALL}(?:, {_CALL})*", " ".join(words.split()))
-
-
-def pasted(model: Model, note: str) -> tuple[int, int] | str:
-    """Motions and self-stresses after calls as they are printed, or what they raise."""
-    changed = copy.deepcopy(model)
-    try:
-        for call in re.findall(_CALL, note):
-            exec(call, {"model": changed})
-    except flexact.FlexactError as error:
-        return str(error)
-    return _counts(changed)
-
-
 # Hardware ------------------------------------------------------------------------
 
 
-def hardware(model: Model, step: Step) -> Model | None:
+def hardware(step: Step) -> Model | None:
     """The mechanism with the hardware that the words of a release name; None where they name none.
 
     Waists are notches about the normal of a sheet, at its end; what is taken out is not there.

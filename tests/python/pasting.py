@@ -199,7 +199,7 @@ _INSIDE = ("To declare what is inside: ", "To declare what is inside, instead of
 
 def analysis_pasted(given: Model | str, result: flexact.Analysis) -> Iterator[Pasted]:
     """Each note that `analyse` prints, with the counts that it says, exactly or by "one"."""
-    whole = result.with_internal_declared or result
+    whole = (result.under_constrained and result.with_internal_declared) or result
     counts = whole.under_constrained, whole.over_constrained
     before: list[str] = []
     for line in describe(result, width=1_000_000).splitlines():

@@ -16,7 +16,6 @@ SEED = 2028
 
 @pytest.mark.parametrize("number", range(24))
 def test_no_advice_is_false(number: int) -> None:
-    """Steps give the counts that they say, hardware does what is released, causes are enough."""
-    found = list(offences(mechanism(SEED, number)))
-    # Statements that are pasted have a test of their own.
-    assert [one for one in found if one.kind != "false statement"] == []
+    """Steps and statements give the counts that they say, hardware likewise; causes are enough."""
+    model = mechanism(SEED, number)
+    assert list(offences(model.to_deck() if number // 8 % 2 else model)) == []

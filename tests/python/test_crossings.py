@@ -41,10 +41,11 @@ def platform(yaw: float, height: float = 1.0) -> Model:
 def held_by(*bars: tuple[float, float, float, float]) -> Model:
     """A body in the plane on bars, each from a point of it in some direction."""
     model = Model(planar=True)
-    ends = [(x, y) for x, y, _, _ in bars]
-    for (x, y), (_, _, dx, dy) in zip(ends, bars, strict=True):
-        model.truss((x, y), (x + dx, y + dy))
-        model.fix((x + dx, y + dy))
+    ends = [model.node(x, y) for x, y, _, _ in bars]
+    for end, (x, y, dx, dy) in zip(ends, bars, strict=True):
+        foot = model.node(x + dx, y + dy)
+        model.truss(end, foot)
+        model.fix(foot)
     model.body(ends)
     return model
 

@@ -65,11 +65,11 @@ def test_whatever_the_number_of_beams_it_is_one_sheet(name: str, shape: str) -> 
         for against, turned in ((False, False), (True, True)):
             division = replace(how, beams=beams, seed=beams, against=against, turned=turned)
             several = analyse(make(division))
-            told, wanted = but_own_counts(several), but_own_counts(one)
+            mine_told, told = but_own_counts(several), but_own_counts(one)
             if against:
                 # No name stands for beams that run against each other, but their numbers do.
-                told, wanted = without_notes(told), without_notes(wanted)
-            assert told == wanted
+                mine_told, told = without_notes(mine_told), without_notes(told)
+            assert mine_told == told
             for mine, wanted in zip(several.margins, one.margins, strict=True):
                 for size, of_one in ((mine.length, wanted.length), (mine.angle, wanted.angle)):
                     assert (size is None) == (of_one is None)

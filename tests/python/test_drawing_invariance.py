@@ -180,7 +180,9 @@ def page_of(analysis: flexact.Analysis, as_in: ModelData) -> dict[str, Any]:
     (frame,) = frames_of(drawing)
     nodes = as_in.arrays.element_node[0, drawing.members.index] - 1
     swapped = drawing.members.nodes[:, 0] != nodes
-    (told,) = stresses(analysis, frame)
+    missing: list[str] = []
+    (told,) = stresses(analysis, frame, missing)
+    assert not missing
     made: dict[str, Any] = {f"largest {name}": size for name, size in told["largest"].items()}
     made["dominant"] = list(told["largest"]).index(told["dominant"])
     for name, packed in told["members"].items():

@@ -100,7 +100,7 @@ def test_a_deck_is_typed_and_mended(start: Callable[..., Client]) -> None:
     found = client.diagnostics(3, verdict=True)
     assert verdict_of(found).startswith("over-constrained by 1; ")
     assert "sheet 1 and sheet 2 both hold the stage" in str(found[-1]["relatedInformation"])
-    step = next(one for one in fixes(client, 0) if one["title"].startswith("Make the stage soft"))
+    step = next(one for one in fixes(client, 0) if one["title"].startswith("Cut sheet 1 to a waist"))
     edits = edits_of(client.ask("codeAction/resolve", step))
     client.change(4, *({"range": e["range"], "text": e["newText"]} for e in edits))
     assert verdict_of(client.diagnostics(4, verdict=True)).startswith("exactly constrained; ")

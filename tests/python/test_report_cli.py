@@ -124,7 +124,7 @@ def test_an_existing_page_is_replaced_only_by_a_whole_one(
     def full(*_: Any) -> int:
         raise OSError(28, os.strerror(28))
 
-    monkeypatch.setattr(Path, "write_bytes", full)
+    monkeypatch.setattr("flexact.files.outputs.new_file", full)
     assert main(["report", str(decks / f"{verdict}.dat"), "-o", str(page)]) == 2
     assert page.read_text(encoding="utf-8") == "old"
     assert files_in(tmp_path / "out") == ["page.html"]

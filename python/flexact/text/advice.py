@@ -71,7 +71,9 @@ def _lines_on_folds(result: Result, whole: Result) -> Iterator[Line]:
 def lines_on_self_stresses(result: Result) -> tuple[Line, ...]:
     """What may be released, freed or taken away so that there are fewer self-stresses."""
     is_hidden = not result.over_constrained
-    result = result.with_internal_declared or result
+    if result.under_constrained:
+        # Then it is told what the mechanism is with each divided sheet or wire as one beam.
+        result = result.with_internal_declared or result
     count = result.over_constrained
     ways = {
         Step.RELEASE: "release one of: ",
