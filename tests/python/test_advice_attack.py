@@ -14,8 +14,15 @@ from attack.mechanisms import mechanism
 SEED = 2028
 
 
-@pytest.mark.parametrize("number", range(24))
-def test_no_advice_is_false(number: int) -> None:
+#: Mechanisms of another seed of which something was false: hardware of a wire that carries more,
+#: or after which a point hangs loose; statements where folded sheets are nearly in one plane; a
+#: declaration at the second orientation of a body.
+FOUND = (139, 154, 167, 295, 335, 869, 994)
+CASES = [*((SEED, number) for number in range(24)), *((28, number) for number in FOUND)]
+
+
+@pytest.mark.parametrize(("seed", "number"), CASES)
+def test_no_advice_is_false(seed: int, number: int) -> None:
     """Steps and statements give the counts that they say, hardware likewise; causes are enough."""
-    model = mechanism(SEED, number)
+    model = mechanism(seed, number)
     assert list(offences(model.to_deck() if number // 8 % 2 else model)) == []

@@ -19,6 +19,8 @@ _SUPPORTS = 3
 
 def lines_on_motions(result: Result) -> tuple[Line, ...]:
     """What may be declared or held so that there are fewer motions."""
+    if not result.under_constrained:
+        return ()
     advice = on_motions(result)
     whole = result.with_internal_declared
     if whole is not None:

@@ -77,7 +77,14 @@ def calls_of(result: Outcome, advice: Way, part: Part) -> tuple[str, ...]:
 def taken_back(result: Outcome, part: Part) -> tuple[str, ...]:
     """The calls that take back a declaration; a deformation is held before it is released."""
     if isinstance(part, Coordinate):
-        return (call_of(result, "clear", part),)
+        call = coordinate_call(result, "clear", part.node, part.name)
+        cleared = Change(coordinates=((part.node, part.name, Class.DEPENDENT),))
+        wanted, found = cleared.apply(result.given).data, made(result.given, [call])
+        # Of a body with several orientations its name is that of the first.
+        is_it = found is not None and np.array_equal(
+            found.arrays.coordinate_class, wanted.arrays.coordinate_class
+        )
+        return ((call if is_it else Call("clear", (part.node, part.name))).in_words(),)
     return _in_turn(result, (HOLD, "release"), part)
 
 
