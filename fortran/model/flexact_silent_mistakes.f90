@@ -117,7 +117,8 @@ contains
       associate (role => element_kinds(model%element_kind(k))%role, class => model%deformation_class(:, k))
          tells_axes_apart = .false.
          do i = 1, size(y)
-            if (.not. any(role == y(i))) cycle
+            ! Planar elements have the first alone.
+            if (.not. (any(role == y(i)) .and. any(role == z(i)))) cycle
             if (class(findloc(role, y(i), 1)) /= class(findloc(role, z(i), 1))) tells_axes_apart = .true.
          end do
       end associate

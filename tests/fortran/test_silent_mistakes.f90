@@ -127,6 +127,7 @@ contains
       call expect('BEAM 1 1 2 3 4'//nl//'X 3 1 1.00000001 3'//nl//'RLSE 1 3'//nl//ground, '')
       call expect('HINGE 1 1 2 1 1.0000000001 3'//nl//'RLSE 1 2'//nl//'FIX 1', 'nearly-equal-components')
       call expect('HINGE 1 1 2 1 1.0000000001 3'//nl//'RLSE 1 1'//nl//'FIX 1', '')
+      call expect('PLRBEAM 1 1 2 3'//nl//'X 3 1 1'//nl//'RLSE 1 2'//nl//ground, '')
       call expect('BEAM 1 1 2 3 4'//nl//'X 1 0 0 0.2'//nl//'X 3 0.1 0 0.3'//nl//'RLSE 1 3'//nl//ground, '')
       call expect(guide//ground//'TRUSS 2 3 5'//nl//'X 5 1001 0 0', '')
    end subroutine warnings
