@@ -119,9 +119,9 @@ def test_beams_need_no_names(name: str) -> None:
     assert divided.margin.length == pytest.approx(one.margin.length, rel=1e-9)
 
 
-def test_without_a_vector_the_default_is_that_of_the_chord() -> None:
-    """Beams that are off the line by nothing to speak of have another default axis each."""
-    found = []
+def test_beams_whose_default_axes_differ_are_no_sheet_and_that_is_told() -> None:
+    """Off the line by 1e-9 m each beam has a default axis of its own, as the deck language says."""
+    found, told = [], []
     for beams, amplitude in ((1, 0.0), (6, 0.0), (6, 1e-9)):
         rng, model, stage = np.random.default_rng(2), Model(), []
         for k in (0, 1):
@@ -137,8 +137,10 @@ def test_without_a_vector_the_default_is_that_of_the_chord() -> None:
         model.rigid(*stage)
         model.independent(stage[0], "y")
         found.append(analyse(model))
+        told.append([each.code for each in model.diagnostics])
     assert {counts(each) for each in found} == {(0, 1)}
-    assert {each.rows for each in found} == {12}
+    assert [each.rows for each in found] == [12, 12, 48]
+    assert told == [[], [], ["nearly-equal-components"]]
 
 
 def test_an_arc_has_its_plane_across_the_chord() -> None:
