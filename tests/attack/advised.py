@@ -291,8 +291,10 @@ def _figures(
     for (_, first, mine), (_, second, others) in combinations(sheets, 2):
         shared = set(mine[::2]) & set(others[::2])
         ends = [part for part in one.parts if part.kind is PartKind.SHEET]
-        if len(shared) == 1 and len(ends) == len(sheets) and _is_fold(arrays, *shared):
-            lines.append((places[shared.pop()], _unit(np.cross(first, second))))
+        way = np.cross(first, second)
+        is_fold = len(shared) == 1 and len(ends) == len(sheets) and _is_fold(arrays, *shared)
+        if is_fold and np.linalg.norm(way) > _THERE:
+            lines.append((places[shared.pop()], _unit(way)))
     return lines, [(point, normal) for point, normal, *_ in planes]
 
 
