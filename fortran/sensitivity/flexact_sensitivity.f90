@@ -7,6 +7,7 @@
 !> of the elements, in the reference configuration, with lengths and frames; theory.md
 !> (20), (21) and (29).
 module flexact_sensitivity
+   use, intrinsic :: iso_fortran_env, only: int64
    use flexact_effects, only: geometry_t, make_geometry, find_effects, parameters
    use flexact_kinds, only: wp
    use flexact_model, only: model_t
@@ -25,6 +26,8 @@ module flexact_sensitivity
 
    !> Of so many nodes one is where digits are counted from.
    integer, parameter :: most_origins = 12
+   !> And coordinates have so many from there at most: lengths of many sizes tell no place.
+   integer, parameter :: few_digits = 4
 
    !> Zeros that were turned are no larger than this part of the geometry.
    real(wp), parameter :: remnant = 16*epsilon(1.0_wp)
@@ -201,13 +204,16 @@ contains
       logical, allocatable :: rounded(:, :)
       logical :: printed(axes)
       real(wp) :: half(axes), bits(axes), units(axes), extent
-      integer :: node, i
+      integer :: node, i, finest(axes)
 
       allocate (number(axes, model%nodes), rounded(axes, model%nodes))
       number = decimal(model%node_value(1:axes, :))
       counted = number
-      call count_from_a_node(model, counted)
+      call count_from_a_node(model, counted, finest)
       call find_rounded(model, counted, rounded, printed)
+      do node = 1, model%nodes
+         counted(:, node) = to_place(counted(:, node), finest)
+      end do
       extent = extent_of(model)
       do node = 1, model%nodes
          if (.not. is_position(model%node_kind(node))) cycle
@@ -224,37 +230,59 @@ contains
       end do
    end subroutine add_lifts_of_nodes
 
-   !> Coordinates along each axis from that of a node on, where they have clearly fewer digits
-   !> so: what was moved by decimals has more of them, and is known no worse.
-   pure subroutine count_from_a_node(model, number)
+   !> Coordinates along each axis from that of a node on, with the fewest digits, where all have
+   !> few so: what was moved by decimals has more of them, and is known no worse.
+   !> Finest: the last place that any of them has then; of other axes none.
+   pure subroutine count_from_a_node(model, number, finest)
       type(model_t), intent(in) :: model
       type(decimal_t), intent(inout) :: number(:, :)
-      type(decimal_t) :: shifted(model%nodes), best(model%nodes)
+      integer, intent(out) :: finest(:)
+      type(decimal_t) :: from_node(model%nodes), best(model%nodes)
+      integer :: digits(model%nodes), axis, node, looked_at, fewest, last
       logical :: is_place(model%nodes), is_apart(model%nodes)
-      integer :: axis, node, looked_at, digits, fewest
 
       is_place = is_position(model%node_kind)
+      finest = huge(finest)
       do axis = 1, axes
+         if (.not. all(number(axis, :)%short .or. .not. is_place)) cycle
+         digits = digits_of(number(axis, :))
+         is_apart = is_place .and. digits > 0
+         ! All digits, and not to one place: they were rounded to a number of digits.
+         if (3*count(digits == maxval(digits) .and. number(axis, :)%place > minval(number(axis, :)%place, is_apart) &
+                     .and. is_apart) > count(is_apart)) cycle
          best = number(axis, :)
-         fewest = sum(digits_of(best), is_place)
+         fewest = huge(fewest)
          looked_at = 0
          do node = 1, model%nodes
-            if (.not. (is_place(node) .and. number(axis, node)%short)) cycle
-            shifted = difference(number(axis, node), number(axis, :))
-            ! What has too many digits then stays as it is.
-            where (.not. shifted%short) shifted = number(axis, :)
-            digits = sum(digits_of(shifted), is_place)
-            is_apart = is_place .and. shifted%mantissa /= 0
-            if (digits < fewest .and. 4*digits <= 3*sum(digits_of(number(axis, :)), is_apart)) then
-               best = shifted
-               fewest = digits
-            end if
+            if (.not. is_place(node)) cycle
             looked_at = looked_at + 1
-            if (looked_at == most_origins) exit
+            if (looked_at > most_origins) exit
+            from_node = difference(number(axis, node), number(axis, :))
+            if (.not. all(from_node%short .or. .not. is_place)) cycle
+            is_apart = is_place .and. from_node%mantissa /= 0
+            associate (left => digits_of(from_node))
+               if (sum(left, is_apart) >= fewest) cycle
+               last = minval(from_node%place, is_apart)
+               if (any(left + from_node%place - last > few_digits .and. is_apart)) cycle
+               fewest = sum(left, is_apart)
+               best = from_node
+               finest(axis) = last
+            end associate
          end do
          number(axis, :) = best
       end do
    end subroutine count_from_a_node
+
+   !> A number with the zeros that it has up to a place.
+   elemental type(decimal_t) function to_place(number, place)
+      type(decimal_t), intent(in) :: number
+      integer, intent(in) :: place
+
+      to_place = number
+      if (number%mantissa == 0 .or. number%place <= place .or. digits_of(number) + number%place - place > 15) return
+      to_place%mantissa = number%mantissa*10_int64**(number%place - place)
+      to_place%place = place
+   end function to_place
 
    !> Which coordinates look rounded, both by themselves and, along their axis, as
    !> seen along some element: the joints 100, 101, ... of a lattice do not. Along

@@ -243,16 +243,10 @@ class _Neighbours:
     def _turned_alike(self, i: int, j: int) -> bool:
         """Whether the local y axes of two beams are nearly one line."""
         one, other = self.arrays.element_vector[:, [i, j]].T
-        if np.any(one) and np.array_equal(one, other):
+        if np.array_equal(one, other):
             return True
-        if self.arrays.deformation_class[3, i] == Class.NONE:
-            return True
-        frames = self.frames()
-        first, second = np.abs(frames[[i, j], :, 1])
-        if not np.any((one, other)):
-            # Towards the global axis that stands in for the vector.
-            return bool(first.argmax() == second.argmax())
-        return bool(abs(frames[i, :, 1] @ frames[j, :, 1]) > _IN_ROW)
+        across = self.frames()[[i, j], :, 1]
+        return bool(abs(across[0] @ across[1]) > _IN_ROW)
 
     def classes(self, element: int, turned: bool) -> tuple[int, ...]:
         """(6,) classes of a beam's deformations, or of the beam with its ends exchanged."""
