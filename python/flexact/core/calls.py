@@ -113,12 +113,13 @@ def element_rows() -> list[ElementKind]:
     return rows
 
 
-def _require_room(needed: float) -> None:
+def _require_room(needed: float, left: float | None = None) -> None:
     """Raise where a limit of the address space does not leave so many bytes to the core.
 
     It would end the process. Where there is no limit, the system lends more than it has.
     """
-    if needed > (left := address_space()):
+    left = address_space() if left is None else left
+    if needed > left:
         raise MemoryError(
             f"about {needed / 1e6:.3g} MB of memory are needed, but the limits of the process "
             f"leave {left / 1e6:.3g} MB"
@@ -142,8 +143,10 @@ def read_deck(text: bytes) -> RawDeck:
     """
     data = np.frombuffer(text, np.int8)
     room, reading = _most_in(data)
-    _require_room(reading)
-    if reading + room.bytes > address_space():
+    left = address_space()
+    _require_room(reading, left)
+    most, of_node = room, _OF_END[room.values > 0]
+    if reading + room.bytes > left:
         # Then it is read to know the room that it takes, and once more into that.
         room = _Room(1, 1, 1)
     made = room.made()
@@ -151,7 +154,8 @@ def read_deck(text: bytes) -> RawDeck:
     nodes, elements, planar, _, drawn, long, given, loaded = sizes.tolist()
     needed = _Room(nodes, elements, (drawn or given or loaded) * (2 * elements + nodes + 1))
     if any(np.greater(needed, room)):
-        _require_room(reading + needed.bytes)
+        # What the first reading took serves the second, whether the system has it back or not.
+        _require_room(reading - of_node * (most.nodes - nodes) + needed.bytes, left)
         made = needed.made()
         sizes, counts, number, words = _core.read_deck(data, *made)
     model, names, value = PackedModel(*made[:4]), made[4], made[5]
