@@ -132,7 +132,7 @@ contains
       if (.not. (from%short .and. to%short)) return
       if (from%mantissa == 0 .or. to%mantissa == 0) then
          difference = to
-         if (to%mantissa == 0) difference = from
+         if (to%mantissa == 0) difference = decimal_t(.true., -from%mantissa, from%place)
          return
       end if
       if (max(digits_of(from) + from%place, digits_of(to) + to%place) &

@@ -64,7 +64,7 @@ contains
       number = difference(decimal(0.0_wp), decimal(0.866_wp))
       call tally%check(number%mantissa == 866, 'from zero')
       number = difference(decimal(0.866_wp), decimal(0.0_wp))
-      call tally%check(abs(number%mantissa) == 866, 'to zero')
+      call tally%check(number%mantissa == -866, 'to zero')
       number = difference(decimal(1.0e8_wp), decimal(1.0e-8_wp))
       call tally%check(.not. number%short, 'more digits than a number holds')
       number = difference(decimal(0.5_wp), decimal(sqrt(0.75_wp)))
