@@ -43,10 +43,12 @@ class Pasted(NamedTuple):
     """Motions and self-stresses that there are then, as is said."""
     found: tuple[int, int] | str
     """What an analysis finds, or the error."""
+    others: tuple[tuple[int, int], ...] = ()
+    """What it offers besides, where it is in doubt."""
 
     @property
     def is_right(self) -> bool:
-        return self.found == self.said
+        return self.found == self.said or self.said in self.others
 
 
 def notes_in(words: str) -> list[str]:
@@ -91,6 +93,14 @@ def pasted(given: Model | str, *notes: str) -> tuple[int, int]:
 
     "A or B" is run as A; "A instead of B", "without B" and "A instead" as they say.
     """
+    return _counts_of(_after(given, *notes))
+
+
+def _counts_of(result: flexact.Analysis | flexact.Alternative) -> tuple[int, int]:
+    return result.under_constrained, result.over_constrained
+
+
+def _after(given: Model | str, *notes: str) -> flexact.Analysis:
     if isinstance(given, str):
         for note in notes:
             given = _with_statements(given, note)
@@ -99,8 +109,7 @@ def pasted(given: Model | str, *notes: str) -> tuple[int, int]:
         model = copy.deepcopy(given)
         for note in notes:
             exec(note, {"model": model})
-    result = flexact.analyse(model)
-    return result.under_constrained, result.over_constrained
+    return flexact.analyse(model)
 
 
 def _with_statements(deck: str, note: str) -> str:
@@ -164,10 +173,12 @@ def _take_away(lines: list[str], keyword: str, owner: str, *numbers: str) -> Non
 
 def _tried(words: str, given: Model | str, said: tuple[int, int], *notes: str) -> Pasted:
     try:
-        found: tuple[int, int] | str = pasted(given, *notes)
+        after = _after(given, *notes)
     except (flexact.FlexactError, AssertionError, SyntaxError, TypeError, ValueError) as error:
-        found = f"{type(error).__name__}: {error}"
-    return Pasted(words, notes[-1], said, found)
+        return Pasted(words, notes[-1], said, f"{type(error).__name__}: {error}")
+    is_doubtful = after.certainty is not flexact.Certainty.CERTAIN
+    others = tuple(map(_counts_of, after.alternatives)) if is_doubtful else ()
+    return Pasted(words, notes[-1], said, _counts_of(after), others)
 
 
 def steps_pasted(given: Model | str, advice: flexact.Advice) -> Iterator[Pasted]:
