@@ -19,6 +19,8 @@ from .exact_deck import Deck, Vector
 from .exact_rows import rows_of
 
 _DIGITS = 80
+#: With so many digits a zero comes out below this.
+_ZERO = mpmath.mpf(10) ** -60
 #: Numbers of so many digits were printed; of more, they stand for what is stored.
 _PRINTED = range(10, 15)
 
@@ -39,7 +41,7 @@ def explains(deck: Deck, rank: int) -> bool:
                 for k in beyond:
                     part = mpmath.fdot(changed, [v[k, j] for j in range(len(changed))])
                     lifts[k] += abs(u[i, k] * scales[i] * part)
-        return all(values[k] <= lifts[k] for k in beyond)
+        return all(values[k] <= max(lifts[k], _ZERO) for k in beyond)
 
 
 def _changes(before: Matrix, after: Matrix) -> Iterator[tuple[int, list[Any]]]:
