@@ -134,3 +134,18 @@ def _read(text: str, unit: str) -> tuple[float, str]:
     if not math.isfinite(value):
         raise QuantityError(f"{in_short(text.strip())} is too large")
     return value, said
+
+
+def larger_in_words(what: str, size: str, most: str, example: str) -> str:
+    """What is said of a size that is larger than the model: mostly a slip of the unit.
+
+    Args:
+        what: Such as "the accuracy".
+        size: What it is, with its unit.
+        most: What it is held against.
+        example: How it may be written.
+    """
+    return (
+        f"{what} is {size}, larger than {most}: say its unit, such as {example}, if that is not "
+        "meant; --beyond (in Python beyond=True) permits it"
+    )

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 from ..base.plain_text import in_short
-from ..base.quantities import Quantity, QuantityError, measured
+from ..base.quantities import Quantity, QuantityError, larger_in_words, measured
 from .failing import AnalysisError
 from .verdict import Margin
 
@@ -47,11 +47,8 @@ class Accuracy(NamedTuple):
             AnalysisError: it is.
         """
         if self.length > size:
-            raise AnalysisError(
-                f"the accuracy is {self.length:g} m, larger than the whole model, {size:.3g} m: "
-                "say its unit, such as 20um, if that is not meant; --beyond (in Python "
-                "beyond=True) permits it"
-            )
+            most = f"the whole model, {size:.3g} m"
+            raise AnalysisError(larger_in_words("the accuracy", f"{self.length:g} m", most, "20um"))
 
     @classmethod
     def of(cls, given: AccuracyGiven) -> Accuracy:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..base.plain_text import in_short
 from ..base.quantities import without_units
+from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
 from ..diagnostics.errors import model_error
 from ..model.deformation_arguments import find_deformations
@@ -184,15 +185,20 @@ def _at(parts: Parts, place: object) -> int:
     given = np.asarray(without_units(place, "m"), np.float64)
     if given.shape not in ((2,), (3,)) or not np.isfinite(given).all():
         raise TypeError(f"a place has three finite coordinates [m], not {in_short(place)}")
-    arrays = parts.data.arrays
-    nodes = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
-    values = arrays.node_value[:3, nodes]
-    apart = np.abs(values - np.pad(given, (0, 3 - given.size))[:, None]).max(axis=0)
-    size = float(np.abs(values).max(initial=0.0))
-    found = nodes[apart <= ROUNDING * size]
+    found = positions_near(parts, np.pad(given, (0, 3 - given.size)), ROUNDING)
     if not found.size:
         raise model_error("no-such-point", f"there is no point at {in_short(place)}")
-    return int(found[int(np.argmin(arrays.node_number[found]))])
+    return int(found[int(np.argmin(parts.data.arrays.node_number[found]))])
+
+
+def positions_near(parts: Parts, place: FloatArray, within: float) -> IntArray:
+    """Indices of position nodes at a place (3,) [m], within a part of the largest coordinate."""
+    arrays = parts.data.arrays
+    nodes = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION).astype(np.int32)
+    values = arrays.node_value[:3, nodes]
+    apart = np.abs(values - place[:, None]).max(axis=0)
+    found: IntArray = nodes[apart <= within * np.abs(values).max(initial=0.0)]
+    return found
 
 
 def elements_of(parts: Parts, target: object) -> tuple[int, ...]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 
 from ..base.errors import FlexactError
+from ..base.quantities import larger_in_words
 
 
 class ElasticError(FlexactError, ValueError):
@@ -27,12 +28,8 @@ def require_within(value: float, size: float, is_turn: bool, what: str) -> None:
     if abs(value) <= (math.pi if is_turn else size):
         return
     most = "half a turn" if is_turn else f"the whole model, {size:.3g} m"
-    unit = "rad" if is_turn else "m"
-    raise ElasticError(
-        f"{what} is {abs(value):.6g} {unit}, larger than {most}: say its unit, such as "
-        f"{'1mrad' if is_turn else '3mm'}, if that is not meant; --beyond (in Python beyond=True) "
-        "permits it"
-    )
+    unit, example = ("rad", "1mrad") if is_turn else ("m", "3mm")
+    raise ElasticError(larger_in_words(what, f"{abs(value):.6g} {unit}", most, example))
 
 
 class UnknownError(ElasticError, LookupError):

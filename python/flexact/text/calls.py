@@ -21,6 +21,7 @@ from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
 from ..model.places import ROUNDING
 from ..model.words import AT_Q
+from ..result.handles import positions_near
 from ..result.outcome import Outcome
 from .deformation import bending_of, part_of, role_of
 
@@ -241,11 +242,8 @@ def _point(parts: Parts, position: int) -> Argument | None:
     name = parts.name_of_point(position)
     if parts.points_by_name.get(name) == [position]:
         return name
-    arrays = parts.data.arrays
-    places = arrays.node_value[:3, arrays.node_kind <= NodeKind.POSITION]
-    here = arrays.node_value[:3, position]
-    near = np.abs(places - here[:, None]).max(axis=0) <= _APART * np.abs(places).max()
-    if np.count_nonzero(near) > 1:
+    here = parts.data.arrays.node_value[:3, position]
+    if positions_near(parts, here, _APART).size > 1:
         return None
     return tuple(here[: 2 if parts.data.planar else 3].tolist())
 

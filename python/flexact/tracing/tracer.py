@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.errors import FlexactError
-from ..base.quantities import Quantity, without_units
+from ..base.quantities import Quantity, larger_in_words, without_units
 from ..deck.models import read
 from ..drawing.selection import Selection, select_motion
 from ..model.model import Model
@@ -97,10 +97,8 @@ def trace(
     held = Held(data)
     size = 1.0 if wished is None else wished / held.size
     if wished is not None and wished > data.size and size > 1.0 and not beyond:
-        raise TraceError(
-            f"the length is {wished:g} m, larger than the whole model, {data.size:.3g} m: say its "
-            "unit, such as 20mm, if that is not meant; --beyond (in Python beyond=True) permits it"
-        )
+        whole = f"the whole model, {data.size:.3g} m"
+        raise TraceError(larger_in_words("the length", f"{wished:g} m", whole, "20mm"))
     most = size / steps
     wishes = Wishes(size, most, most, _LEAST * min(most, 0.1), 100 * steps + 2000, through)
     return _traced(result, shown, held, wishes, progress)
