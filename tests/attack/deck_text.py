@@ -64,10 +64,10 @@ def exact(number: Fraction) -> str:
     return _plain(context.divide(Decimal(number.numerator), Decimal(number.denominator)))
 
 
-def has_long_numbers(text: str) -> bool:
-    """Whether a number has more digits than tell all doubles apart."""
+def has_long_numbers(text: str, digits: int = _ALL_DIGITS) -> bool:
+    """Whether a number has more digits; more than 17 do not tell doubles further apart."""
     numbers = re.findall(r"(?<![\w.])[-+]?([\d.]+)", text)
-    return any(len(number.replace(".", "").strip("0")) > _ALL_DIGITS for number in numbers)
+    return any(len(number.replace(".", "").strip("0")) > digits for number in numbers)
 
 
 def as_double(number: Fraction) -> str:

@@ -15,6 +15,7 @@ from flexact.core.arrays import FloatArray
 from flexact.core.elements import Class
 from flexact.text.decision import certainty_word
 
+from .deck_text import has_long_numbers
 from .exact_deck import read
 from .families import Case
 from .storing import explains
@@ -27,6 +28,8 @@ UNPROVED = {"auto, unproved": "auto", "sparse, unproved": "sparse"}
 CAN_PROVE = "prove" in inspect.signature(flexact.analyse).parameters
 #: A doubt is without need where the smallest value is this many times what rounding makes.
 _FAR_ABOVE = 1000.0
+#: A decimal of so many digits is told from any other by its double.
+_DECIMALS = 15
 
 
 class Judgement(str, Enum):
@@ -160,18 +163,27 @@ def _offered(analysis: flexact.Analysis) -> Iterator[Counts]:
 
 def _certain(case: Case, given: Counts, offered: tuple[Counts, ...]) -> Judgement:
     if given not in case.truths:
-        return Judgement.STORED if _is_stored(case, given) else Judgement.WRONG
+        return Judgement.STORED if _is_stored(case, given, offered) else Judgement.WRONG
     if given != case.typed:
         return Judgement.MEANT
     silent = case.meant is not None and case.meant not in (given, *offered)
     return Judgement.TYPED if silent else Judgement.RIGHT
 
 
-def _is_stored(case: Case, given: Counts) -> bool:
-    """Whether more values than are zero as typed are zero within the storing of the numbers."""
+def _is_stored(case: Case, given: Counts, offered: tuple[Counts, ...]) -> bool:
+    """Whether more values than are zero as typed are zero within the storing of the numbers.
+
+    Numbers of more than 15 digits stand for the doubles that are read of them, theory.md (22);
+    what is true to their last digit has to be offered.
+    """
     deck = read(case.text)
     rank = len(deck.columns()) - given.under_constrained
-    return given.under_constrained > case.typed.under_constrained and explains(deck, rank)
+    if given.under_constrained <= case.typed.under_constrained:
+        return False
+    if explains(deck, rank):
+        return True
+    is_told = has_long_numbers(case.text, _DECIMALS) and case.typed in offered
+    return is_told and explains(deck.stored(), rank)
 
 
 def _doubtful(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import io
 import os
 import queue
@@ -49,9 +50,13 @@ def _lines() -> tuple[BinaryIO, BinaryIO]:
 
 def _hear(jobs: BinaryIO, waiting: queue.SimpleQueue[Any]) -> None:
     """Hand jobs on; where nobody is left who could give one, end with all that was started."""
-    with contextlib.suppress(EOFError, OSError):
+    try:
         while True:
             waiting.put(frames.receive(jobs))
+    except (EOFError, OSError) as error:
+        # What the script itself has closed says nothing of who asks, who ends this process then.
+        if getattr(error, "errno", None) == errno.EBADF:
+            return
     if hasattr(os, "killpg"):
         os.killpg(0, signal.SIGKILL)
     os._exit(1)
