@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import re
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
@@ -66,6 +67,15 @@ class Output(NamedTuple):
 def outputs() -> tuple[Output, ...]:
     """All of them."""
     return (*map(_command, _commands()), *_in_python())
+
+
+def outputs_in_turn(turn: int) -> Iterator[Output]:
+    """Of those that show the same in several suffixes one, another one at each turn."""
+    alike: dict[str, list[Output]] = {}
+    for output in outputs():
+        alike.setdefault(re.sub(r"(OUT/\w+)\.\w+", r"\1", output.name), []).append(output)
+    for several in alike.values():
+        yield several[turn % len(several)]
 
 
 def _commands() -> Iterator[str]:
