@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 import flexact
+from flexact.analysis.deformation_words import deformation_word
 from flexact.core.elements import Dual, Member, NodeKind, element_kinds
-from flexact.text.deformation import deformation_word
 
 Vector = np.ndarray
 ROOT = Path(__file__).resolve().parents[1]

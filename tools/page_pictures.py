@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from flexact.cli.main import main as flexact
+from flexact.apps.cli.main import main as flexact
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "python"))

@@ -10,40 +10,16 @@ starts quickly.
 
 import typing as _typing
 
-from .base.loading import load as _load
-from .base.version import VERSION as _VERSION
 from .model.showing import shown_by as _shown_by
+from .util.loading import load as _load
+from .util.version import VERSION as _VERSION
 
 if _typing.TYPE_CHECKING:
-    from .advising import Advice, Step
-    from .analysis import Analysis, analyse
-    from .base.errors import FlexactError
-    from .costing.cost import Cost, cost
-    from .costing.shape import Shape
-    from .costing.state_shape import shape
-    from .deck.models import read, read_text
-    from .diagnostics.diagnostic import Diagnostic, Place, Severity
-    from .diagnostics.errors import DeckError, ModelError
-    from .model.configuration import Configuration
-    from .model.handles import (
-        Assembly,
-        Body,
-        Element,
-        FoldedSheet,
-        Node,
-        Notch,
-        Sheet,
-        Wire,
-    )
-    from .model.jacobian import Jacobian, deformations, jacobian
-    from .model.material import Material
-    from .model.model import Model
-    from .notebook.output import viewer
-    from .notebook.results import Results
-    from .result.exact import ExactBases
-    from .result.failing import AnalysisError
-    from .result.modes import Motion, SelfStress
-    from .result.verdict import (
+    from .advice.advising import Advice, Step
+    from .analysis.exact import ExactBases
+    from .analysis.failing import AnalysisError
+    from .analysis.modes import Motion, SelfStress
+    from .analysis.verdict import (
         Alternative,
         Certainty,
         ClassCounts,
@@ -54,7 +30,13 @@ if _typing.TYPE_CHECKING:
         Proof,
         Verdict,
     )
-    from .stiffness import (
+    from .api import Analysis, analyse
+    from .costs.cost import Cost, cost
+    from .costs.shape import Shape
+    from .costs.state_shape import shape
+    from .deck.diagnostics import Diagnostic, Place, Severity
+    from .deck.errors import DeckError, ModelError
+    from .elasticity import (
         Elastic,
         ElasticError,
         Estimate,
@@ -63,54 +45,114 @@ if _typing.TYPE_CHECKING:
         UnknownError,
         elastic,
     )
-    from .tracing.trace import Trace
-    from .tracing.tracer import trace
-    from .variants.search.crossing import Crossing, Crossings
-    from .variants.sweep import sweep
-    from .variants.sweeps.parameters import grid
-    from .variants.table import Table
-    from .variants.tolerances import Tolerances, tolerances
+    from .model.configuration import Configuration
+    from .model.handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Sheet, Wire
+    from .model.jacobian import Jacobian, deformations, jacobian
+    from .model.material import Material
+    from .model.model import Model
+    from .model.models import read, read_text
+    from .show.notebook.notebook_output import viewer
+    from .show.notebook.rows import Results
+    from .sweeps.crossing import Crossing, Crossings
+    from .sweeps.parameters import grid
+    from .sweeps.sweep import sweep
+    from .sweeps.table import Table
+    from .sweeps.tolerances import Tolerances, tolerances
+    from .tracing.trace import trace
+    from .tracing.tracing_trace import Trace
+    from .util.errors import FlexactError
 
 __version__ = _VERSION
 
 #: The module of each public name.
 _HOMES = {
-    "advising": ("Advice", "Step"),
-    "analysis": ("Analysis", "analyse"),
-    "base.errors": ("FlexactError",),
-    "costing.cost": ("Cost", "cost"),
-    "costing.shape": ("Shape",),
-    "costing.state_shape": ("shape",),
-    "deck.models": ("read", "read_text"),
-    "diagnostics.diagnostic": ("Diagnostic", "Place", "Severity"),
-    "diagnostics.errors": ("DeckError", "ModelError"),
+    "advice.advising": (
+        "Advice",
+        "Step",
+    ),
+    "analysis.exact": ("ExactBases",),
+    "analysis.failing": ("AnalysisError",),
+    "analysis.modes": (
+        "Motion",
+        "SelfStress",
+    ),
+    "analysis.verdict": (
+        "Alternative",
+        "Certainty",
+        "ClassCounts",
+        "Counts",
+        "Gap",
+        "Margin",
+        "Nearly",
+        "Proof",
+        "Verdict",
+    ),
+    "api": (
+        "Analysis",
+        "analyse",
+    ),
+    "costs.cost": (
+        "Cost",
+        "cost",
+    ),
+    "costs.shape": ("Shape",),
+    "costs.state_shape": ("shape",),
+    "deck.diagnostics": (
+        "Diagnostic",
+        "Place",
+        "Severity",
+    ),
+    "deck.errors": (
+        "DeckError",
+        "ModelError",
+    ),
+    "elasticity": (
+        "Elastic",
+        "ElasticError",
+        "Estimate",
+        "State",
+        "StrokeError",
+        "UnknownError",
+        "elastic",
+    ),
     "model.configuration": ("Configuration",),
-    "model.jacobian": ("Jacobian", "deformations", "jacobian"),
     "model.handles": (
-        *("Assembly", "Body", "Element", "FoldedSheet", "Node", "Notch", "Sheet", "Wire"),
+        "Assembly",
+        "Body",
+        "Element",
+        "FoldedSheet",
+        "Node",
+        "Notch",
+        "Sheet",
+        "Wire",
+    ),
+    "model.jacobian": (
+        "Jacobian",
+        "deformations",
+        "jacobian",
     ),
     "model.material": ("Material",),
     "model.model": ("Model",),
-    "notebook.output": ("viewer",),
-    "notebook.results": ("Results",),
-    "result.failing": ("AnalysisError",),
-    "result.exact": ("ExactBases",),
-    "result.modes": ("Motion", "SelfStress"),
-    "result.verdict": (
-        *("Alternative", "Certainty", "ClassCounts", "Counts", "Gap", "Margin", "Nearly", "Proof"),
-        "Verdict",
+    "model.models": (
+        "read",
+        "read_text",
     ),
-    "stiffness": (
-        *("Elastic", "ElasticError", "Estimate", "State", "StrokeError", "UnknownError"),
-        "elastic",
+    "show.notebook.notebook_output": ("viewer",),
+    "show.notebook.rows": ("Results",),
+    "sweeps.crossing": (
+        "Crossing",
+        "Crossings",
     ),
-    "tracing.tracer": ("trace",),
-    "tracing.trace": ("Trace",),
-    "variants.search.crossing": ("Crossing", "Crossings"),
-    "variants.sweeps.parameters": ("grid",),
-    "variants.sweep": ("sweep",),
-    "variants.table": ("Table",),
-    "variants.tolerances": ("Tolerances", "tolerances"),
+    "sweeps.parameters": ("grid",),
+    "sweeps.sweep": ("sweep",),
+    "sweeps.table": ("Table",),
+    "sweeps.tolerances": (
+        "Tolerances",
+        "tolerances",
+    ),
+    "tracing.trace": ("trace",),
+    "tracing.tracing_trace": ("Trace",),
+    "util.errors": ("FlexactError",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -182,8 +224,8 @@ __all__ = [
 
 # A model may know nothing of what stands on top of it.
 _shown_by(
-    lambda model, path: _load("flexact.analysis").show_model(model, path),
-    lambda model: _load("flexact.notebook.models").html_of(model.data),
+    lambda model, path: _load("flexact.api").show_model(model, path),
+    lambda model: _load("flexact.show.notebook.models").html_of(model.data),
 )
 
 

@@ -3,7 +3,7 @@
 
 import sys
 
-from flexact.cli.main import main
+from .apps.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

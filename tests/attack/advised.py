@@ -22,15 +22,15 @@ from pasting import analysis_pasted, steps_pasted
 
 import flexact
 from flexact import Model
+from flexact.advice.advising import Advice, Step
 from flexact.advice.causes.cause import CauseKind, LineKind, Relation, RelationKind
 from flexact.advice.causes.generic import generic_rank
 from flexact.advice.causes.trials import Trials
 from flexact.advice.proposal import Purpose
-from flexact.advising import Advice, Step
+from flexact.advice.releases.words import outcome_as_given, released
+from flexact.analysis.result import Result
 from flexact.core.elements import Role, role_table
 from flexact.model.parts.parts import Part, PartKind
-from flexact.result.result import Result
-from flexact.text.advising.hardware import outcome_as_given, released
 
 Floats = NDArray[np.float64]
 

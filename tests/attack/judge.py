@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 import flexact
+from flexact.analysis.verdict_words import certainty_word
 from flexact.core.arrays import FloatArray
 from flexact.core.elements import Class
-from flexact.text.decision import certainty_word
 
 from .deck_text import has_long_numbers
 from .exact_deck import read

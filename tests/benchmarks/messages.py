@@ -22,8 +22,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "python"))
 from commands import in_turn
 from dask_cluster import running_cluster
 
-from flexact.engine import chunks
-from flexact.engine.running import results_of
+from flexact.sweeps import running as chunks
+from flexact.sweeps.engine_running import results_of
 
 #: Items, and what one of them takes [s].
 ITEMS, SECONDS = 2000, 0.0015

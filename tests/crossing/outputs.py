@@ -12,30 +12,30 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import flexact
-from flexact.cli.analyse import LOGS
-from flexact.cli.command import parser_of
-from flexact.cli.findings import FORMS
-from flexact.cli.main import main
-from flexact.cli.summary import TABLES
-from flexact.convert.text import JSON, YAML
-from flexact.costing.saving import SUFFIXES as COSTS
-from flexact.drawing import QUANTITIES
-from flexact.editor.completion import complete_at
-from flexact.editor.deck import Deck
-from flexact.editor.document import Document, Position
-from flexact.editor.hover import hover_at
-from flexact.editor.outline import folds_of, outline_of
-from flexact.editor.problems import problems_of
-from flexact.editor.verdicts import advice_on, opinion_on
-from flexact.mesh.collection import SUFFIX as CYCLE
-from flexact.mesh.file import FORMATS
-from flexact.picture import STILLS, SUFFIXES
-from flexact.saving import PAGES
+from flexact.apps.cli.analyse import LOGS
+from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.findings import FORMS
+from flexact.apps.cli.main import main
+from flexact.apps.cli.summary import TABLES
+from flexact.apps.convert.text import JSON, YAML
+from flexact.apps.editor.completion import complete_at
+from flexact.apps.editor.document import Document, Position
+from flexact.apps.editor.editor_deck import Deck
+from flexact.apps.editor.editor_problems import problems_of
+from flexact.apps.editor.hover import hover_at
+from flexact.apps.editor.outline import folds_of, outline_of
+from flexact.apps.editor.problems import advice_on, opinion_on
+from flexact.apps.watch.answering import answer_of
+from flexact.apps.watch.edit_session import Editor
+from flexact.apps.watch.scene import Stage
+from flexact.apps.watch.watching_messages import Job, Shown
+from flexact.costs.saving import SUFFIXES as COSTS
+from flexact.show.drawing import QUANTITIES
+from flexact.show.mesh.collection import SUFFIX as CYCLE
+from flexact.show.mesh.file import FORMATS
+from flexact.show.picture import STILLS, SUFFIXES
+from flexact.show.saving import PAGES
 from flexact.tracing.saving import SUFFIXES as TRACES
-from flexact.watching.answering import answer_of
-from flexact.watching.editor import Editor
-from flexact.watching.messages import Job, Shown
-from flexact.watching.scene import Stage
 
 #: Verbs that take no deck.
 WITHOUT_DECK = {"bench", "completion", "help"}

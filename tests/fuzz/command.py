@@ -12,7 +12,7 @@ import tempfile
 import zlib
 from pathlib import Path
 
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 
 from .trial import OffenceError, Outcome
 

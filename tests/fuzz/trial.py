@@ -12,13 +12,13 @@ from typing import Any, NoReturn
 import numpy as np
 
 import flexact
-from flexact.convert.mesh_files import MeshError
-from flexact.convert.mesh_reading import model_of_mesh
-from flexact.convert.mesh_writing import mesh_of
-from flexact.convert.tables import model_of, tables_of
-from flexact.convert.text import text_of
-from flexact.diagnostics.diagnostic import Diagnostic, Place, Severity
-from flexact.diagnostics.rendering import render_problems
+from flexact.apps.convert.convert_mesh_files import MeshError
+from flexact.apps.convert.mesh_files import model_of_mesh
+from flexact.apps.convert.mesh_writing import mesh_of
+from flexact.apps.convert.tables import model_of, tables_of
+from flexact.apps.convert.text import text_of
+from flexact.deck.diagnostics import Diagnostic, Place, Severity
+from flexact.deck.rendering import render_problems
 
 #: Models with more deformations are read and written, but not analysed: that takes long.
 MOST_DEFORMATIONS = 1500

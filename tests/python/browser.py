@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.page import page
+from flexact.show.page import page
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")

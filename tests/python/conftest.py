@@ -12,7 +12,7 @@ from left_out import pytest_make_collect_report, pytest_runtest_makereport  # no
 from small_decks import DECKS, write
 from wording import AsStored
 
-from flexact.base.partial import STRICT
+from flexact.util.partial import STRICT
 
 # Workers of xdist state a width that is no terminal's.
 os.environ.pop("COLUMNS", None)

@@ -17,15 +17,9 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.costing.designs import (
-    CostValues,
-    Design,
-    MisalignmentCurve,
-    Stroke,
-    StrokeCurve,
-)
-from flexact.costing.shape import Shape
-from flexact.costing.values import (
+from flexact.costs.designs import CostValues, Design, MisalignmentCurve, Stroke, StrokeCurve
+from flexact.costs.shape import Shape
+from flexact.costs.values import (
     DIRECTIONS,
     FREQUENCY,
     Clamp,
@@ -37,8 +31,8 @@ from flexact.costing.values import (
     Released,
     Tolerance,
 )
-from flexact.deck.reading import read_file
 from flexact.model.configuration import Configuration
+from flexact.model.reading import read_file
 
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 CLAMPS = tuple(

@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import flexact
 from flexact import Model
-from flexact.text.describe import describe
+from flexact.advice.describe import describe
 
 #: What a statement of a deck begins with in a note.
 _KEYWORDS = "DYNX|DYNE|FIX|RLSE"

@@ -87,7 +87,7 @@ def main() -> int:
     for part in " ".join(sys.argv[1:]).split(", "):
         system, _, commands = part.partition(" ")
         pretend(system, names)
-        command = import_module("flexact.cli.main").main
+        command = import_module("flexact.apps.cli.main").main
         for words in commands.split(" + "):
             code = command(words.split())
             print(f"exit {code}: {system} {words}", file=sys.stderr)

@@ -16,7 +16,7 @@ from known_models import (
 )
 
 from flexact import Analysis, Model, analyse
-from flexact.advice import leverage
+from flexact.analysis import ways as leverage
 
 DECKS = Path(__file__).resolve().parents[2] / "input_decks"
 

@@ -9,7 +9,7 @@ import pytest
 
 from flexact.advice.releases.bases import count_bases
 from flexact.advice.releases.echelon import echelon_of
-from flexact.advice.releases.minors import Rows, TooManyError
+from flexact.advice.releases.matroid import Rows, TooManyError
 
 Edges = list[tuple[int, int]]
 ERROR = 1.0e-15

@@ -17,13 +17,13 @@ from turned_elements import turned
 import flexact
 from flexact import Model
 from flexact.advice.causes.causes import causes_of
-from flexact.text.advising.causes import (
+from flexact.advice.causes.words import (
     both_in_words,
     cause_of_motion_in_words,
     cause_of_stress_in_words,
     mend_in_words,
 )
-from flexact.text.sentences import plain
+from flexact.analysis.sentences import plain
 
 DECKS = [
     "flexures/five_wires_lower_two_parallel",

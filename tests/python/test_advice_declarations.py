@@ -12,12 +12,12 @@ from reference_decks import NAMES, text_of, transform
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.advice.change import Change
 from flexact.advice.proposal import Purpose
+from flexact.advice.releases.advising_releases import declaration_in_words
 from flexact.advice.releases.declarations import declarations_of
+from flexact.analysis.change import Change
+from flexact.analysis.sentences import Named, plain
 from flexact.core.elements import Class
-from flexact.text.advising.releases import declaration_in_words
-from flexact.text.sentences import Named, plain
 
 
 def of_deck(name: str) -> Analysis:

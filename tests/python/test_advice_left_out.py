@@ -11,7 +11,7 @@ import pytest
 
 import flexact
 from flexact import Analysis, Model
-from flexact.base.partial import STRICT
+from flexact.util.partial import STRICT
 
 
 def guide() -> Analysis:
@@ -26,18 +26,18 @@ def guide() -> Analysis:
 
 #: What is made to fail, and what is said to be left out.
 FAILING = {
-    "flexact.advising.advice.causes_of": "causes",
-    "flexact.advising.advice.extents_of": "how far motions go",
-    "flexact.advising.advice.releases_of": "releases",
-    "flexact.advising.advice.declarations_of": "declarations",
-    "flexact.advising.advice.undeclarations_of": "declarations to take back",
-    "flexact.advising.advice.spaces_of": "freedom and constraint",
+    "flexact.advice.advice.causes_of": "causes",
+    "flexact.advice.advice.extents_of": "how far motions go",
+    "flexact.advice.advice.releases_of": "releases",
+    "flexact.advice.advice.declarations_of": "declarations",
+    "flexact.advice.advice.undeclarations_of": "declarations to take back",
+    "flexact.advice.advice.spaces_of": "freedom and constraint",
     "flexact.advice.spaces.spaces.wires_for": "wires and sheets to add",
-    "flexact.advising.describe.both_in_words": "a pair",
-    "flexact.advising.describe.spaces_lines": "words of freedom and constraint",
-    "flexact.advising.motions.motion_in_sentence": "a motion",
-    "flexact.advising.motions.stress_in_sentence": "a self-stress",
-    "flexact.text.advising.releases._note": "a step",
+    "flexact.advice.words.both_in_words": "a pair",
+    "flexact.advice.words.spaces_lines": "words of freedom and constraint",
+    "flexact.advice.motions.motion_in_sentence": "a motion",
+    "flexact.advice.motions.stress_in_sentence": "a self-stress",
+    "flexact.advice.releases.advising_releases._note": "a step",
 }
 
 

@@ -15,9 +15,9 @@ from flexact import Model
 from flexact.advice.causes.causes import causes_of
 from flexact.advice.causes.joint_moves import JointMove
 from flexact.advice.causes.mend import Mend
-from flexact.advice.change import Change
 from flexact.advice.proposal import Purpose
-from flexact.result.screws import Screw
+from flexact.analysis.change import Change
+from flexact.analysis.screws import Screw
 
 SYMMETRIC = "paper/five_folded_sheets_symmetric"
 

@@ -9,8 +9,8 @@ from known_models import bar_driven_twice, folded_sheet, frame, twelve_trusses
 from random_models import mechanism
 
 from flexact import Analysis, Model, analyse
-from flexact.advice import leverage
-from flexact.advice.ways import coordinate_of
+from flexact.analysis import ways as leverage
+from flexact.analysis.advice_ways import coordinate_of
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 

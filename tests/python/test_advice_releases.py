@@ -25,14 +25,14 @@ from attack.truth import residues
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.advice import leverage
 from flexact.advice.proposal import Purpose
-from flexact.advice.releases import reach
+from flexact.advice.releases import candidates as reach
+from flexact.advice.releases.advising_releases import release_in_words
 from flexact.advice.releases.releases import releases_of
 from flexact.advice.releases.steps import by_steps
+from flexact.analysis import ways as leverage
+from flexact.analysis.sentences import Named, plain
 from flexact.core.elements import Class
-from flexact.text.advising.releases import release_in_words
-from flexact.text.sentences import Named, plain
 
 #: Beams without vectors on a lattice of 0.05, many of whose default axes tie.
 TIES = """\

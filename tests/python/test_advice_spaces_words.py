@@ -14,8 +14,8 @@ import flexact
 from flexact import Model
 from flexact.advice.spaces.freedom import Freed
 from flexact.advice.spaces.spaces import spaces_of
-from flexact.text.advising.spaces import spaces_lines
-from flexact.text.sentences import plain
+from flexact.advice.spaces.words import spaces_lines
+from flexact.analysis.sentences import plain
 
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
 #: What may change with place, scale and turn: points, directions, planes and pitches.

@@ -17,11 +17,11 @@ from small_decks import BROKEN, COLLINEAR, DECKS, VERDICTS, json_lines, write
 
 import flexact
 from flexact import Advice, Model, ModelError, analyse
-from flexact.advice.change import Change
+from flexact.advice.json import line_of
 from flexact.advice.proposal import Purpose
-from flexact.advising.json_advice import line_of
-from flexact.cli.main import main
-from flexact.deck.editing import edited_deck
+from flexact.analysis.change import Change
+from flexact.apps.cli.main import main
+from flexact.model.editing import edited_deck
 
 INPUT = ROOT / "input_decks"
 ADVISED = validator("advised")

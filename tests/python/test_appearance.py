@@ -17,8 +17,8 @@ from wrong_use import APPEARANCE, Call, code_of, each, two_nodes_and_a_bar
 
 import flexact
 from flexact import Model, ModelError
-from flexact.diagnostics.rendering import render_problems
-from flexact.model.appearance import Appearance, CrossSection
+from flexact.deck.rendering import render_problems
+from flexact.model.attributes import Appearance, CrossSection
 
 FOLDER = Path(__file__).parent / "decks"
 NAN = np.nan

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from flexact.variants.batches.deck_rows import deck_columns
-from flexact.variants.batches.filter import FilterError, filter_of
-from flexact.variants.columns import Column
+from flexact.sweeps.batch import FilterError, filter_of
+from flexact.sweeps.columns import Column
+from flexact.sweeps.deck_rows import deck_columns
 
 ROW = {
     "deck": "guides/five wires.dat",

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from test_cli_process import process_environment
 
-from flexact.files.outputs import OutputError
-from flexact.variants.batches.journal import Journal, JournalError
+from flexact.sweeps.journal import Journal, JournalError
+from flexact.util.outputs import OutputError
 
 HEAD = {"journal": 1, "decks": ["\u03b1", "\udcff.dat"]}
 RECORDS = [{"row": [k, 0.1 * k, None, float("inf")], "text": "x\ny"} for k in range(5)]
@@ -116,7 +116,7 @@ def test_a_journal_is_there_with_its_head_or_not_at_all(tmp_path: Path) -> None:
 def test_two_processes_do_not_share_a_journal(path: Path) -> None:
     code = (
         "import sys; from pathlib import Path\n"
-        "from flexact.variants.batches.journal import Journal, JournalError\n"
+        "from flexact.sweeps.journal import Journal, JournalError\n"
         "try: Journal.resume(Path(sys.argv[1]))\n"
         "except JournalError as error: print(error)\n"
     )
@@ -157,7 +157,7 @@ def test_long_heads_and_records_are_read(tmp_path: Path) -> None:
 RACE = """
 import sys, time
 from pathlib import Path
-from flexact.variants.batches.journal import Journal, JournalError
+from flexact.sweeps.journal import Journal, JournalError
 path, moment, mark = Path(sys.argv[1]), float(sys.argv[2]), sys.argv[3]
 while time.time() < moment: pass
 try:

@@ -21,9 +21,9 @@ from test_batch import rows_of
 from test_cli_process import process_environment
 from test_cli_signals import bars_in_a_row
 
-from flexact.cli.main import main
-from flexact.files.outputs import OutputError
-from flexact.variants.batches.journal import Journal
+from flexact.apps.cli.main import main
+from flexact.sweeps.journal import Journal
+from flexact.util.outputs import OutputError
 
 KINDS = (*DECKS.values(), BROKEN)
 
@@ -39,7 +39,7 @@ def many(tmp_path: Path) -> Path:
 #: The command, with so long a wait before each line of its journal, and no end beyond some lines.
 HELD = """\
 import sys, time
-from flexact.variants.batches.journal import Journal
+from flexact.sweeps.journal import Journal
 
 pause, lines, add = float(sys.argv.pop(1)), int(sys.argv.pop(1)), Journal.add
 
@@ -50,7 +50,7 @@ def held(journal, record):
     return add(journal, record)
 
 Journal.add = held
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 sys.exit(main())
 """
 
@@ -190,7 +190,7 @@ def interrupted(decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
     arguments = ["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.cli.batch_run.write_table", refuse)
+        patch.setattr("flexact.apps.cli.batch_run.write_table", refuse)
         assert main(arguments) == 2
     assert len(journaled(tmp_path / "t.csv.journal")) == 5
     return arguments
@@ -198,7 +198,7 @@ def interrupted(decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 def analysed(monkeypatch: pytest.MonkeyPatch, arguments: Sequence[str]) -> list[str]:
     """The decks that a run analyses."""
-    from flexact.cli import batch_work
+    from flexact.apps.cli import batch_work
 
     names: list[str] = []
     row = batch_work.deck_row
@@ -246,7 +246,7 @@ def test_files_that_are_not_there_any_more_are_made_again(
         raise OutputError("no space")
 
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.cli.batch_run.write_table", refuse)
+        patch.setattr("flexact.apps.cli.batch_run.write_table", refuse)
         assert main(arguments) == 2
     (folder / "over.log").unlink()
     (folder / "both.vtu").write_bytes(b"half")
@@ -300,7 +300,7 @@ def test_where_nothing_is_done_nothing_is_left(
     def interrupt(*_: object) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr("flexact.cli.batch_work.deck_row", interrupt)
+    monkeypatch.setattr("flexact.apps.cli.batch_work.deck_row", interrupt)
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]) == 130
     assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []
 

@@ -15,7 +15,7 @@ from reference_decks import ROOT
 
 import flexact
 from flexact import Analysis, Model, ModelError, analyse
-from flexact.result.screws import ScrewKind
+from flexact.analysis.screws import ScrewKind
 
 
 def stages() -> Model:

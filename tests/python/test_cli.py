@@ -10,8 +10,8 @@ import pytest
 from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
 
 import flexact
-from flexact.cli.main import main
-from flexact.cli.outcome import ExitCode
+from flexact.apps.cli.main import main
+from flexact.apps.cli.outcome import ExitCode
 
 # Verdicts and exit codes
 
@@ -238,7 +238,7 @@ def test_too_large_an_analysis_is_told_in_json(
     def refuse(*_: object, **__: object) -> None:
         raise flexact.AnalysisError("a matrix of 9 x 9")
 
-    monkeypatch.setattr("flexact.cli.analysed.result_of", refuse)
+    monkeypatch.setattr("flexact.apps.cli.decks.result_of", refuse)
     assert main(["analyse", "--json", str(decks / "exact.dat")]) == 2
     out, err = capsys.readouterr()
     (diagnostic,) = json_lines(out)[0]["error"]["diagnostics"]

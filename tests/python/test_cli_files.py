@@ -8,8 +8,8 @@ import pytest
 from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
 
 import flexact
-from flexact.cli.main import main
-from flexact.files.outputs import OutputError
+from flexact.apps.cli.main import main
+from flexact.util.outputs import OutputError
 
 
 def test_files_of_a_deck(decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -71,7 +71,7 @@ def test_a_mesh_that_cannot_be_written_does_not_cost_the_verdict(
     def fail(*_: object) -> bytes:
         raise OutputError("no mesh of this")
 
-    monkeypatch.setattr("flexact.cli.result_files.mesh_bytes", fail)
+    monkeypatch.setattr("flexact.apps.cli.result_files.mesh_bytes", fail)
     out = tmp_path / "out"
     arguments = ["analyse", "--json", str(decks), "-o", str(out)]
     assert main([*arguments, "--expect", "exact"]) == 2

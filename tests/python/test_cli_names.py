@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from small_decks import BROKEN, DECKS, write
 
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 
 pytestmark = pytest.mark.posix
 

@@ -14,8 +14,8 @@ import pytest
 from small_decks import DECKS, write
 from test_cli_process import process_environment
 
-from flexact.base.interruption import SIGNALS, Stopped, undisturbed, unwinding
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
+from flexact.util.interruption import SIGNALS, Stopped, undisturbed, unwinding
 
 pytestmark = pytest.mark.posix
 
@@ -32,7 +32,7 @@ def slow(*given, **named):
     time.sleep(60)
 
 module.{function} = slow
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 sys.exit(main())
 """
 
@@ -103,7 +103,7 @@ def test_control_c_during_an_import_is_quiet(tmp_path: Path) -> None:
     ("module", "function", "before"),
     [
         ("meshio", "write", "Path(given[0]).write_text('half of it')"),
-        ("flexact.files.outputs", "new_file", "given[0].write_text('half of it')"),
+        ("flexact.util.outputs", "new_file", "given[0].write_text('half of it')"),
     ],
 )
 def test_nothing_is_left_behind_while_writing(
@@ -123,7 +123,7 @@ def test_a_host_of_the_command_gets_its_exit_code(
     def interrupt(*_: object, **__: object) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr("flexact.cli.analysed.result_of", interrupt)
+    monkeypatch.setattr("flexact.apps.cli.decks.result_of", interrupt)
     before = signal.getsignal(signal.SIGINT)
     assert main(["analyse", str(decks / "exact.dat")]) == 130
     assert "Traceback" not in capsys.readouterr().err

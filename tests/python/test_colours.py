@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from colour_vision import MATRICES, ciede2000, lab_of
 
-from flexact.drawing import colours
 from flexact.model.parts.forms import Form
+from flexact.show.drawing import colours
 
 #: Distances by CIEDE2000: of what is told apart at once, and of a ghost, which has outlines, from
 #: paper.

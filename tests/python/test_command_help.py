@@ -17,10 +17,10 @@ import pytest
 from small_decks import DECKS, write
 
 import flexact
-from flexact.cli.command import VERBS, parser_of
-from flexact.cli.help_texts import examples_in
-from flexact.cli.main import main
-from flexact.cli.outcome import ExitCode
+from flexact.apps.cli.command import VERBS, parser_of
+from flexact.apps.cli.help_texts import examples_in
+from flexact.apps.cli.main import main
+from flexact.apps.cli.outcome import ExitCode
 
 ROOT = Path(__file__).parents[2]
 #: They serve until they are stopped, are for shells, or take long: their examples are read alone.

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from small_decks import BROKEN, write
 
-from flexact.base.columns import columns, refitted, table, wrapped
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
+from flexact.util.text import columns, refitted, table, wrapped
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"

@@ -10,9 +10,9 @@ from reference_decks import ROOT
 from small_decks import BROKEN, DECKS, files_in, write
 
 import flexact
-from flexact.cli.main import main
-from flexact.cli.outcome import ExitCode
-from flexact.text.comparing import Gravity, Side, change_of, side_of, stored_side
+from flexact.analysis.comparing import Gravity, Side, change_of, side_of, stored_side
+from flexact.apps.cli.main import main
+from flexact.apps.cli.outcome import ExitCode
 
 #: Four bars in a square with fixed lower corners, and what makes it stiff.
 SQUARE = """\
@@ -119,8 +119,8 @@ def test_expect_same_exits_with_3(
     runs: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Pictures take their time.
-    monkeypatch.setattr("flexact.cli.compare.small_picture", lambda result: None)
-    monkeypatch.setattr("flexact.cli.compare.has_packages", lambda: False)
+    monkeypatch.setattr("flexact.apps.cli.report.small_picture", lambda result: None)
+    monkeypatch.setattr("flexact.apps.cli.report.has_packages", lambda: False)
     one, other = runs
     (other / "breaks.dat").unlink()
     compared = ["report", str(one), str(other), "--compare", "-o", str(tmp_path / "x.html")]
@@ -139,7 +139,7 @@ def test_stored_results_are_compared_with_decks(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("flexact.cli.compare.small_picture", lambda result: None)
+    monkeypatch.setattr("flexact.apps.cli.report.small_picture", lambda result: None)
     one, other = runs
     (other / "breaks.dat").unlink()
     assert main(["analyse", str(one), "-o", str(tmp_path / "kept")]) == 0

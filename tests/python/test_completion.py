@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from flexact.cli.command import VERBS, parser_of
-from flexact.cli.main import main
+from flexact.apps.cli.command import VERBS, parser_of
+from flexact.apps.cli.main import main
 
 #: Words that stand before the cursor, and some of what can stand there; none where nothing can.
 ASKED = {

@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 from small_decks import write
 
-from flexact.base import control_groups, memory
-from flexact.engine import processors as engine_processors
+from flexact.util import machine as control_groups
+from flexact.util import memory
+from flexact.util import processors as engine_processors
 
 MB = 2.0**20
 V2 = "29 23 0:26 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw,nsdelegate\n"

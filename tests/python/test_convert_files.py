@@ -16,13 +16,13 @@ from reference_decks import NAMES, ROOT, truth_of
 from reference_decks import text_of as deck_of
 
 import flexact
-from flexact.cli.main import main
-from flexact.convert.files import bytes_of, read_any
-from flexact.convert.mesh_files import MeshError, mesh_bytes
-from flexact.convert.mesh_reading import model_of_mesh
-from flexact.convert.mesh_writing import mesh_of
-from flexact.convert.tables import TablesError, tables_of
-from flexact.convert.text import PackageError, read_tables, text_of
+from flexact.apps.cli.main import main
+from flexact.apps.convert.convert_mesh_files import MeshError, mesh_bytes
+from flexact.apps.convert.files import bytes_of, read_any
+from flexact.apps.convert.mesh_files import model_of_mesh
+from flexact.apps.convert.mesh_writing import mesh_of
+from flexact.apps.convert.tables import TablesError, tables_of
+from flexact.apps.convert.text import PackageError, read_tables, text_of
 
 BAR = "TRUSS 1 1 2 % bar\nX 2 1 0 0\nFIX 1\nFIX 2 2 3\n"
 WRONG_JSON = b"""\

@@ -16,11 +16,11 @@ from reference_decks import ROOT
 
 import flexact
 from flexact import Cost, Model, ModelError, cost
-from flexact.costing.bench import Bench, Choice
-from flexact.costing.keeping import ratios
-from flexact.costing.places import Places
-from flexact.costing.quantities import in_words
-from flexact.costing.values import Tolerance
+from flexact.costs.elastic_design import Bench, Choice
+from flexact.costs.keeping import ratios
+from flexact.costs.quantities import in_words
+from flexact.costs.resolve import Places
+from flexact.costs.values import Tolerance
 
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 

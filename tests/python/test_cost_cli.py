@@ -13,8 +13,8 @@ from json_schema import schema, strict
 from reference_decks import ROOT
 
 import flexact
-from flexact.cli.main import main
-from flexact.costing.asking import (
+from flexact.apps.cli.main import main
+from flexact.costs.asking import (
     AskedError,
     misalignment_of,
     quantity,
@@ -22,9 +22,9 @@ from flexact.costing.asking import (
     shift_of,
     stroke_of,
 )
-from flexact.costing.quantities import in_words
-from flexact.costing.rows import HEADER
-from flexact.costing.values import Number
+from flexact.costs.json import HEADER
+from flexact.costs.quantities import in_words
+from flexact.costs.values import Number
 
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 #: Two sheets that guide a stage, of case A03; with masses.

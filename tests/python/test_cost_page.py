@@ -14,8 +14,8 @@ from browser import Browser
 from cost_values import made_up_cost, without_stroke
 from test_page import Elements
 
-from flexact.costing.page import page_bytes
-from flexact.drawing import drawing_of, swing
+from flexact.costs.page import page_bytes
+from flexact.show.drawing import drawing_of, swing
 
 Keys = pytest.importorskip("selenium.webdriver").Keys
 #: Words of the charts that lie over each other, by their boxes as drawn.

@@ -7,10 +7,10 @@ import pytest
 from reference_decks import NAMES, text_of
 
 import flexact
-from flexact.advice.change import Change
+from flexact.analysis.change import Change
 from flexact.core.elements import Class, coordinate_name
-from flexact.deck.editing import edited_deck
 from flexact.model.data import ModelData
+from flexact.model.editing import edited_deck
 
 DECK = """\
 % A guide\r

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 import flexact
-from flexact.base.plain_text import harmless
-from flexact.diagnostics.diagnostic import Diagnostic, Place, Problems, Severity
-from flexact.diagnostics.rendering import render, render_problems
-from flexact.diagnostics.source import Source
+from flexact.deck.diagnostics import Diagnostic, Place, Problems, Severity
+from flexact.deck.rendering import render, render_problems
+from flexact.deck.source import Source
+from flexact.util.plain_text import harmless
 
 
 def problem(first: int, last: int, line: int = 1, **more: object) -> Diagnostic:

@@ -32,10 +32,10 @@ from reference_decks import text_of
 import flexact
 from flexact import Model, analyse, read_text
 from flexact.core.elements import Class, NodeKind
-from flexact.drawing import Form, drawing_of
 from flexact.model.names import part_name
-from flexact.page import page
-from flexact.text.spacar_log import spacar_log
+from flexact.show.drawing import Form, drawing_of
+from flexact.show.page import page
+from flexact.show.spacar_log import spacar_log
 
 SHAPES = {
     "straight": Division(),

@@ -13,8 +13,8 @@ from proofs import NEEDS_FLINT
 from wording import AsStored
 
 import flexact
-from flexact.cli.main import main
-from flexact.cli.outcome import ExitCode
+from flexact.apps.cli.main import main
+from flexact.apps.cli.outcome import ExitCode
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

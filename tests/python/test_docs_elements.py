@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import flexact
+from flexact.analysis.deformation_words import deformation_word
 from flexact.core.elements import Dual, element_kinds
-from flexact.text.deformation import deformation_word
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "elements.md").read_text("utf-8")

@@ -15,7 +15,7 @@ from test_docs import like
 from wording import AsStored
 
 from flexact.advice.spaces.families import FamilyKind
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if steps(page)]

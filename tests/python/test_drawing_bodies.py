@@ -11,10 +11,10 @@ from pictures import VIEW, Pixels
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.drawing import QUANTITIES, drawing_of, move, resultants, stations
-from flexact.mesh import to_meshio
 from flexact.model.parts.forms import Form
-from flexact.picture import draw
+from flexact.show.drawing import QUANTITIES, drawing_of, move, resultants, stations
+from flexact.show.mesh import to_meshio
+from flexact.show.picture import draw
 
 
 def guide(beams: int = 1, section: tuple[float, float] | None = None) -> flexact.Model:

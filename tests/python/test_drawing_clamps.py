@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.drawing import Drawing, Support, drawing_of
 from flexact.model.parts.parts import Parts
-from flexact.page.drawing_data import frames_of, static_data
+from flexact.show.drawing import Drawing, Support, drawing_of
+from flexact.show.page.drawing import frames_of, static_data
 
 TOP = (0.0, 0.0, 0.1)
 

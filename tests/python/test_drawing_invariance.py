@@ -14,12 +14,12 @@ from reference_decks import NAMES, text_of
 
 import flexact
 from flexact.core.elements import NodeKind, keywords_of
-from flexact.drawing import drawing_of, resultants
-from flexact.mesh import to_meshio
 from flexact.model.data import ModelData
-from flexact.page.drawing_data import frames_of
-from flexact.page.modes_data import stresses
-from flexact.picture import picture_bytes
+from flexact.show.drawing import drawing_of, resultants
+from flexact.show.mesh import to_meshio
+from flexact.show.page.drawing import frames_of
+from flexact.show.page.modes import stresses
+from flexact.show.picture import picture_bytes
 
 #: Deformations of an element whose ends have changed places.
 _SWAPPED = {"BEAM": [0, 1, 3, 2, 5, 4], "PLBEAM": [0, 2, 1, 3, 4, 5]}

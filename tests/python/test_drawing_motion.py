@@ -7,9 +7,18 @@ from reference_decks import NAMES, text_of
 
 import flexact
 from flexact.core.elements import Class, NodeKind
-from flexact.drawing import Drawing, Form, Movement, Pose, drawing_of, field_along, move, stations
-from flexact.drawing.path import moved_by_screws
-from flexact.drawing.rotations import matrix_of, vector_of
+from flexact.show.drawing import (
+    Drawing,
+    Form,
+    Movement,
+    Pose,
+    drawing_of,
+    field_along,
+    move,
+    stations,
+)
+from flexact.show.drawing.path import moved_by_screws
+from flexact.show.drawing.rotations import matrix_of, vector_of
 
 
 def moved(name: str, index: int = 0) -> tuple[flexact.Analysis, Drawing, Movement]:

@@ -14,10 +14,10 @@ import flexact
 from flexact.advice.spaces.families import Family, FamilyKind
 from flexact.advice.spaces.screw_space import ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
-from flexact.drawing import SpaceShape, dashes, shape_of_space
-from flexact.drawing.space_families import MADE_BY
-from flexact.page import page
-from flexact.picture import SubjectError, draw, has_packages, picture_bytes
+from flexact.show.drawing import SpaceShape, dashes, shape_of_space
+from flexact.show.drawing.spaces import MADE_BY
+from flexact.show.page import page
+from flexact.show.picture import SubjectError, draw, has_packages, picture_bytes
 
 DECKS = ROOT / "input_decks"
 #: With translations and parallel lines, lines that meet one, a screw, one direction.

@@ -7,7 +7,7 @@ from reference_decks import NAMES, text_of
 
 import flexact
 from flexact.core.elements import Class, Role, role_table
-from flexact.drawing import QUANTITIES, Drawing, Form, Resultants, drawing_of, resultants
+from flexact.show.drawing import QUANTITIES, Drawing, Form, Resultants, drawing_of, resultants
 
 
 def loads_of(drawing: Drawing, values: Resultants, stress: flexact.SelfStress) -> np.ndarray:

@@ -17,9 +17,9 @@ from language_client import PATIENCE, URI, Client
 from reference_decks import NAMES, ROOT, text_of
 from test_editor_words import GUIDE
 
-from flexact.cli.outcome import ExitCode
-from flexact.deck.reading import read_bytes
-from flexact.diagnostics.errors import DeckError
+from flexact.apps.cli.outcome import ExitCode
+from flexact.deck.errors import DeckError
+from flexact.model.reading import read_bytes
 
 pytest.importorskip("pygls")
 START = {"line": 0, "character": 0}
@@ -315,7 +315,9 @@ def test_an_editor_may_leave_without_a_word(start: Callable[..., Client], how: s
 
 def test_without_pygls_it_says_what_is_missing(tmp_path: Any) -> None:
     (tmp_path / "pygls.py").write_text("raise ImportError('no pygls', name='pygls')\n")
-    command = "import sys; sys.path.insert(0, sys.argv.pop(1)); from flexact.cli.main import main"
+    command = (
+        "import sys; sys.path.insert(0, sys.argv.pop(1)); from flexact.apps.cli.main import main"
+    )
     ended = subprocess.run(
         [sys.executable, "-c", f"{command}; sys.exit(main())", str(tmp_path), "lsp"],
         capture_output=True,

@@ -9,24 +9,19 @@ from editor_fuzz import ask_everything, mutated, some_positions
 from reference_decks import NAMES, text_of
 
 import flexact
-from flexact.advising import advice_of
+from flexact.advice.advising import advice_of
+from flexact.apps.editor.actions import edits_between, edits_of, mends_of, remedies_at
+from flexact.apps.editor.completion import complete_at
+from flexact.apps.editor.deck import WARPING
+from flexact.apps.editor.document import Document, Edit, Position
+from flexact.apps.editor.editor_deck import Deck
+from flexact.apps.editor.editor_problems import problems_of
+from flexact.apps.editor.hover import hover_at
+from flexact.apps.editor.navigation import RenameError, definition_at, references_at, rename_at
+from flexact.apps.editor.outline import folds_of, outline_of
+from flexact.apps.editor.problems import advice_on, opinion_on
 from flexact.core.elements import element_kinds
 from flexact.deck.keywords import Block
-from flexact.editor.actions import edits_between, edits_of, mends_of, remedies_at
-from flexact.editor.completion import complete_at
-from flexact.editor.deck import Deck
-from flexact.editor.document import Document, Edit, Position
-from flexact.editor.hover import hover_at
-from flexact.editor.index import WARPING
-from flexact.editor.navigation import (
-    RenameError,
-    definition_at,
-    references_at,
-    rename_at,
-)
-from flexact.editor.outline import folds_of, outline_of
-from flexact.editor.problems import problems_of
-from flexact.editor.verdicts import advice_on, opinion_on
 
 GUIDE = """\
 BEAM 1  1 2 3 4  0 1 0     % sheet 1

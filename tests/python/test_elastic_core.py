@@ -14,7 +14,7 @@ from flexact.core import elastic
 from flexact.core.arrays import FloatArray, PackedModel, packed
 from flexact.core.calls import assemble
 from flexact.core.elements import Class
-from flexact.deck.reading import read_bytes
+from flexact.model.reading import read_bytes
 
 NO_GRAVITY = np.zeros(3)
 

@@ -14,6 +14,7 @@ from test_drawing_stress import loads_of
 from wording import AsStored
 
 import flexact
+from flexact.analysis.deformation_words import deformation_word
 from flexact.core import calls
 from flexact.core.elements import (
     AXES,
@@ -27,12 +28,11 @@ from flexact.core.elements import (
     role_table,
 )
 from flexact.core.raw import ElementKind
+from flexact.deck.diagnostics import Severity
 from flexact.deck.keywords import ELEMENTS, form_of
-from flexact.diagnostics.diagnostic import Severity
-from flexact.drawing import Form, drawing_of, resultants
-from flexact.model.appearance import CrossSection
+from flexact.model.attributes import CrossSection
 from flexact.model.parts.forms import forms_of
-from flexact.text.deformation import deformation_word
+from flexact.show.drawing import Form, drawing_of, resultants
 
 oracle_elements: Any = importlib.import_module("oracle_elements")
 KINDS = element_kinds()

@@ -11,8 +11,8 @@ from types import ModuleType
 import pytest
 from dask_cluster import Cluster, is_alive, running_cluster
 
-from flexact.engine import dask_client
-from flexact.engine.running import Done, EngineError, results_of
+from flexact.sweeps import dask as dask_client
+from flexact.sweeps.engine_running import Done, EngineError, results_of
 
 distributed = pytest.importorskip("distributed")
 

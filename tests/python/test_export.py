@@ -12,8 +12,8 @@ from reference_decks import NAMES, ROOT
 from small_decks import DECKS, files_in, write
 
 import flexact
-from flexact.cli.main import main
-from flexact.drawing.selection import select_motion
+from flexact.apps.cli.main import main
+from flexact.show.drawing.selection import select_motion
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 #: Two bars in line: two motions in space.
@@ -246,7 +246,7 @@ def test_a_motion_that_cannot_be_found_does_not_cost_the_results(
 
     source = ROOT / "input_decks" / "linkages" / "four_bar_planar_driven.dat"
     analysis = flexact.analyse(source)
-    monkeypatch.setattr("flexact.result.freedoms.Block.motion", fail)
+    monkeypatch.setattr("flexact.analysis.freedoms.Block.motion", fail)
     assert select_motion(analysis) is None
     assert not analysis.to_meshio().point_data["displacement"].any()
     with pytest.raises(flexact.AnalysisError, match="did not converge"):

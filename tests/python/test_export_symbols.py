@@ -14,8 +14,8 @@ from test_export_values import analysis_of, written
 from vtk_files import QUAD
 
 import flexact
-from flexact.cli.main import main
-from flexact.mesh.field_data import component_names, field_data_of
+from flexact.apps.cli.main import main
+from flexact.show.mesh.field_data import component_names, field_data_of
 
 CLAMP, PIN, SLIDE, TURN, TRANSLATION, ROTATION = range(6, 12)
 SOME = ["paper/six_folded_sheets", "linkages/sarrus", "flexures/planar_parallel_guide"]

@@ -16,10 +16,10 @@ from vtk_files import LINE, QUAD, VERTEX, Read
 
 import flexact
 from flexact.core.elements import Member, Role, element_kinds
-from flexact.drawing import Moving
-from flexact.mesh import mesh_of
-from flexact.mesh.file import find_format, mesh_bytes
-from flexact.mesh.polydata import polydata_bytes
+from flexact.show.drawing import Moving
+from flexact.show.mesh import mesh_of
+from flexact.show.mesh.file import find_format, mesh_bytes
+from flexact.show.mesh.polydata import polydata_bytes
 
 KINDS = {kind.keyword: kind for kind in element_kinds()}
 BEAMS, LINKS, BARS, JOINTS = (

@@ -13,8 +13,8 @@ from wrong_use import code_of
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.base import memory
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
+from flexact.util import memory
 
 LEAST = 5e-324
 HUGE = 1.7976931348623157e308

@@ -12,10 +12,10 @@ from pathlib import Path, PureWindowsPath
 import pytest
 from small_decks import DECKS, write
 
-from flexact.cli.main import main
-from flexact.files import names, outputs
-from flexact.files.decks import DeckFile
-from flexact.files.outputs import OutputError, plan_files, write_together
+from flexact.apps.cli.main import main
+from flexact.util import names, outputs
+from flexact.util.decks import DeckFile
+from flexact.util.outputs import OutputError, plan_files, write_together
 
 RESERVED = [
     "CON",

@@ -15,9 +15,9 @@ from json_schema import assert_valid_as, schema, strict
 from sarif_schema import assert_sarif
 from small_decks import BROKEN, COLLINEAR, DECKS, json_lines, write
 
-from flexact.cli.main import main
-from flexact.findings.rules import CODES
-from flexact.result.certainty import Doubt, DoubtKind
+from flexact.analysis.certainty import Doubt, DoubtKind
+from flexact.apps.checks.sarif import CODES
+from flexact.apps.cli.main import main
 
 ROOT = Path(__file__).parents[2]
 CHECK = jsonschema.Draft202012Validator(strict(schema("check")))

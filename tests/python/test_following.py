@@ -6,8 +6,8 @@ import pytest
 from reference_decks import ROOT
 
 import flexact
-from flexact.result.following import Ending, Held, Wishes, follow, follow_both_ways, least_error
-from flexact.result.following.rotations import left_jacobian
+from flexact.motion import Ending, Held, Wishes, follow, follow_both_ways, least_error
+from flexact.motion.rotations import left_jacobian
 
 DECKS = ROOT / "input_decks"
 

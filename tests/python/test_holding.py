@@ -10,10 +10,10 @@ from reference_decks import text_of
 import flexact
 from flexact.advice.holding import Hold, holds_of
 from flexact.advice.spaces.families import FamilyKind
-from flexact.drawing import drawing_of
-from flexact.drawing.holding import shape_of_hold
-from flexact.page.drawing_data import frames_of
-from flexact.page.spaces_data import holds_data
+from flexact.show.drawing import drawing_of
+from flexact.show.drawing.holding import shape_of_hold
+from flexact.show.page.drawing import frames_of
+from flexact.show.page.viewer import holds_data
 
 
 def holds_in(name: str) -> dict[str, Hold]:
@@ -107,7 +107,7 @@ def test_what_is_not_exact_has_none(name: str) -> None:
     (frame,) = frames_of(drawing_of(analysis.given))
     assert holds_data(analysis, frame) == []
     pytest.importorskip("matplotlib")
-    from flexact.picture import SubjectError, picture_bytes
+    from flexact.show.picture import SubjectError, picture_bytes
 
     with pytest.raises(SubjectError, match="exactly constrained"):
         picture_bytes(analysis, ".png", held=True)
@@ -115,7 +115,7 @@ def test_what_is_not_exact_has_none(name: str) -> None:
 
 def test_a_picture_and_the_page_show_it() -> None:
     pytest.importorskip("matplotlib")
-    from flexact.picture import draw, picture_bytes
+    from flexact.show.picture import draw, picture_bytes
 
     analysis = flexact.analyse(flexact.read_text(text_of("flexures/six_wires")))
     words = [text.get_text() for text in draw(analysis, held=True).texts]

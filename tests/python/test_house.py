@@ -91,7 +91,7 @@ def imported(module: str, path: Path, node: ast.Import | ast.ImportFrom) -> Iter
 
 
 def loaded_by_name(path: Path) -> set[str]:
-    """Modules that stand in a text, such as "flexact.cli.result_files"."""
+    """Modules that stand in a text, such as "flexact.apps.cli.result_files"."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     docs = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     texts = (
@@ -118,12 +118,12 @@ def arrows() -> dict[str, set[str]]:
     import flexact
 
     found["flexact"] |= {f"flexact.{home}" for home in flexact._HOMES}
-    found["flexact.cli.command"] |= {f"flexact.cli.{verb}" for verb in verbs()}
+    found["flexact.apps.cli.command"] |= {f"flexact.apps.cli.{verb}" for verb in verbs()}
     return found
 
 
 def verbs() -> tuple[str, ...]:
-    from flexact.cli.command import VERBS
+    from flexact.apps.cli.command import VERBS
 
     return tuple(VERBS)
 

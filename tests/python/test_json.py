@@ -23,7 +23,7 @@ from test_wording import RESULTS
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 
 INPUT = ROOT / "input_decks"
 PATHS = sorted(path for path in INPUT.rglob("*.dat") if path.parent.name != "broken")
@@ -303,7 +303,7 @@ def test_a_freedom_that_cannot_move_says_so() -> None:
 def test_freedoms_of_a_very_large_model_are_listed_without_their_motions(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("flexact.text.json_parts._MOST_ELEMENTS", 2)
+    monkeypatch.setattr("flexact.analysis.json._MOST_ELEMENTS", 2)
     (freedom,) = analyse(guide()).to_dict()["freedoms"]
     assert (freedom["label"], freedom["moves"], freedom["largest"]) == (
         "the stage along y",
@@ -315,7 +315,7 @@ def test_freedoms_of_a_very_large_model_are_listed_without_their_motions(
 def test_advice_is_made_when_it_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     """By `to_dict`, not by `analyse`; each piece of it is as in the text."""
     asked = []
-    from flexact.text import json_parts
+    from flexact.analysis import json as json_parts
 
     plain = json_parts.on_self_stresses
     monkeypatch.setattr(json_parts, "on_self_stresses", lambda of: asked.append(of) or plain(of))

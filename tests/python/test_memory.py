@@ -16,9 +16,9 @@ from test_cli_process import process_environment
 from verdicts import counts
 
 import flexact
-from flexact.base import memory
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 from flexact.core import _core
+from flexact.util import memory
 
 PAGE = mmap.PAGESIZE
 MB = 2**20
@@ -305,7 +305,7 @@ def test_a_deck_that_does_not_fit_is_not_the_deck_s_fault(
     def full(*_: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr(f"flexact.deck.reading.{where}", full)
+    monkeypatch.setattr(f"flexact.model.reading.{where}", full)
     deck = write(tmp_path / "x.dat", "TRUSS 1 1 2\nX 2 1 0 0\n")
     for verb in ("analyse", "check", "advise"):
         assert main([verb, str(deck)]) == 2

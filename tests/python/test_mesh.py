@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.files.outputs import OutputError
-from flexact.mesh import mesh_of, to_meshio
-from flexact.mesh.file import MeshFormatError, find_format, mesh_bytes
+from flexact.show.mesh import mesh_of, to_meshio
+from flexact.show.mesh.file import MeshFormatError, find_format, mesh_bytes
+from flexact.util.outputs import OutputError
 
 meshio: Any = pytest.importorskip("meshio")
 

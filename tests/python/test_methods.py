@@ -14,11 +14,11 @@ from verdicts import DENSE
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.base import memory
+from flexact.advice.describe import describe
 from flexact.core import calls
 from flexact.core.arrays import FloatArray
-from flexact.text.describe import describe
-from flexact.text.log import log_text
+from flexact.show.log import log_text
+from flexact.util import memory
 
 
 @pytest.mark.parametrize("method", DENSE)

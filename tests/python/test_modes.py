@@ -12,9 +12,10 @@ from known_models import folded_sheet, twelve_trusses
 from large_results import changed, first_of
 
 import flexact
-from flexact import Motion, analyse, mesh
-from flexact.text.describe import MOST_MODES, describe
-from flexact.text.log import log_text
+from flexact import Motion, analyse
+from flexact.advice.describe import MOST_MODES, describe
+from flexact.show import mesh
+from flexact.show.log import log_text
 
 
 def test_modes_are_like_a_tuple() -> None:

@@ -19,7 +19,7 @@ from browser import Browser, browsing
 from notebook_outputs import VIEWER, write
 from reference_decks import ROOT
 
-from flexact.notebook.bundle import tag
+from flexact.show.notebook.output import tag
 
 # It is large, and no part of what set-up brings.
 if any(find_spec(each) is None for each in ("jupyterlab", "ipykernel", "nbconvert")):

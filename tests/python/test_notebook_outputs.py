@@ -14,9 +14,9 @@ from notebook_outputs import ELEMENT, GALLERY, VIEWER, gallery, notebook, shown,
 from pictures import deck
 
 import flexact
-from flexact.notebook import given
-from flexact.notebook.bundle import script, style, tag
-from flexact.page import content_of
+from flexact.show.notebook import given
+from flexact.show.notebook.output import script, style, tag
+from flexact.show.page import content_of
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
@@ -178,7 +178,7 @@ def test_motions_and_self_stresses_are_tables_with_pictures() -> None:
     assert html.count("data:image/png") == stressed.over_constrained
     assert "No motions" in (stressed.motions._repr_html_())
     # A result alone makes no pictures.
-    from flexact.result.result import result_of
+    from flexact.analysis.result import result_of
 
     alone = result_of(trusses.given, trusses.asked)
     assert alone.motions._repr_html_() is None and alone.motions[0]._repr_html_() is None
@@ -225,7 +225,7 @@ def test_names_stay_text() -> None:
 
 
 def test_without_packages_for_pictures_the_words_are_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    from flexact.notebook import models, stills
+    from flexact.show.notebook import models, stills
 
     for module in (stills, models):
         monkeypatch.setattr(module, "has_packages", lambda: False)

@@ -15,9 +15,9 @@ from pictures import deck
 from reference_decks import ROOT
 
 import flexact
-from flexact.notebook import given
-from flexact.notebook.bundle import script, tag
-from flexact.page import page
+from flexact.show.notebook import given
+from flexact.show.notebook.output import script, tag
+from flexact.show.page import page
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from flexact.cli.command import parser_of
-from flexact.cli.main import main
-from flexact.cli.verbs import VERBS
+from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.main import main
+from flexact.apps.cli.verbs import VERBS
 
 DECK = "input_decks/flexures/notch_guide.dat"
 #: Values of options that take no choices, by what help calls them.

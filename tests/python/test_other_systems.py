@@ -21,13 +21,13 @@ from small_decks import DECKS, write
 from test_cli_process import process_environment
 
 import flexact
-from flexact.base import interruption, memory, plain_text, windows
-from flexact.cli import terminal
-from flexact.cli.command import run
-from flexact.cli.main import main
-from flexact.engine import local_pool
-from flexact.variants.batches import journal
-from flexact.watching import crew
+from flexact.apps.cli import terminal
+from flexact.apps.cli.command import run
+from flexact.apps.cli.main import main
+from flexact.apps.watch import worker_pool as crew
+from flexact.sweeps import journal
+from flexact.sweeps import pool as local_pool
+from flexact.util import interruption, memory, plain_text, windows
 
 HERE = Path(__file__).parent
 #: Characters of every kind that our words, or a deck, may hold.

@@ -13,11 +13,11 @@ from typing import Any
 import pytest
 from small_decks import files_in, write
 
-from flexact.base.errors import BatchError
-from flexact.cli.outcome import ExitCode, Outcome, exit_code
-from flexact.files.decks import DeckFile, FolderError, find_decks
-from flexact.files.outputs import OutputError, plan_files, write_together, written_whole
-from flexact.files.temporary import remove_left, temporary_name
+from flexact.apps.cli.outcome import ExitCode, Outcome, exit_code
+from flexact.util.decks import DeckFile, FolderError, find_decks
+from flexact.util.errors import BatchError
+from flexact.util.outputs import OutputError, plan_files, write_together, written_whole
+from flexact.util.temporary import remove_left, temporary_name
 
 
 def test_a_folder_stands_for_its_decks_in_order(tmp_path: Path) -> None:
@@ -160,7 +160,7 @@ def test_an_interruption_leaves_nothing(tmp_path: Path, monkeypatch: pytest.Monk
         path.write_bytes(b"fir")
         return Interrupted()
 
-    monkeypatch.setattr("flexact.files.outputs.new_file", begun)
+    monkeypatch.setattr("flexact.util.outputs.new_file", begun)
     with pytest.raises(KeyboardInterrupt):
         write_together({tmp_path / "x.json": b"first"})
     assert list(tmp_path.iterdir()) == []
@@ -171,7 +171,7 @@ def test_what_a_killed_process_left_is_removed(tmp_path: Path) -> None:
     code = """
 import os, signal, sys
 from pathlib import Path
-from flexact.files.outputs import write_together
+from flexact.util.outputs import write_together
 os.replace = lambda *places: os.kill(os.getpid(), signal.SIGKILL)
 write_together({Path(sys.argv[1]) / "x.json": b"1", Path(sys.argv[1]) / "x.log": b"2"})
 """
@@ -245,7 +245,7 @@ def test_a_write_that_fails_half_way_leaves_nothing(
                 raise OSError(28, "No space left on device")
             return super().write(content)
 
-    monkeypatch.setattr("flexact.files.outputs.new_file", lambda path, _: Full(path, "x"))
+    monkeypatch.setattr("flexact.util.outputs.new_file", lambda path, _: Full(path, "x"))
     with pytest.raises(OutputError, match=r"x\.log"):
         write_together({tmp_path / "x.json": b"first", tmp_path / "x.log": b"second"})
     assert files_in(tmp_path) == []
@@ -273,7 +273,7 @@ def test_what_is_laid_where_a_temporary_file_goes_is_not_touched(
         write(laid, "theirs")
     else:
         laid.symlink_to(target if kind == "link" else tmp_path / "none")
-    monkeypatch.setattr("flexact.files.outputs.temporary_name", lambda: "laid")
+    monkeypatch.setattr("flexact.util.outputs.temporary_name", lambda: "laid")
     with pytest.raises(OutputError, match="cannot write"):
         if whole:
             with written_whole(tmp_path / "x.json") as file:

@@ -20,10 +20,12 @@ from proofs import NEEDS_FLINT
 from reference_decks import ROOT
 
 import flexact
-from flexact.page import Entry, broken_page, content, index_page, modes_data, page
-from flexact.page.assets import SCRIPTS, asset, script
-from flexact.page.packing import json_for_script
-from flexact.text.describe import verdict_in_words
+from flexact.advice.describe import verdict_in_words
+from flexact.show.page import Entry, broken_page, content, page
+from flexact.show.page import index as index_page
+from flexact.show.page import modes as modes_data
+from flexact.show.page.assets import SCRIPTS, asset, script
+from flexact.show.page.packing import json_for_script
 
 PAGE = ROOT / "python" / "flexact" / "page"
 CLAMPED = ROOT / "input_decks" / "paper" / "folded_sheet_clamped.dat"
@@ -334,7 +336,7 @@ def test_a_failed_analysis_has_a_page_that_says_why() -> None:
 
 def test_what_does_not_fit_is_left_out_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in ("drawing_data", "modes_data", "viewer_data", "tracks"):
-        monkeypatch.setattr(import_module(f"flexact.page.{module}"), "MOST_MEMBERS", 7)
+        monkeypatch.setattr(import_module(f"flexact.show.page.{module}"), "MOST_MEMBERS", 7)
     analysis = flexact.analyse(twelve_trusses())
     text = page(analysis)
     assert "Of 12 members the first 7 are drawn." in words_of(text)

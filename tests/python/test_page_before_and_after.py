@@ -13,9 +13,9 @@ from reference_decks import ROOT
 from test_page import Elements
 
 import flexact
-from flexact.page import before_and_after
-from flexact.text.describe import verdict_in_words
-from flexact.text.sentences import Named, sentence
+from flexact.advice.describe import verdict_in_words
+from flexact.analysis.sentences import Named, sentence
+from flexact.show.page import before_and_after
 
 Keys = pytest.importorskip("selenium.webdriver").Keys
 PAPER = ROOT / "input_decks" / "paper"

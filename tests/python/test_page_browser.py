@@ -11,8 +11,8 @@ from known_models import folded_sheet, twelve_trusses
 from reference_decks import NAMES, ROOT
 
 import flexact
-from flexact.page import broken_page, page
-from flexact.text.describe import verdict_in_words
+from flexact.advice.describe import verdict_in_words
+from flexact.show.page import broken_page, page
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 SHARED = "input_decks/paper/folded_sheet_clamped.dat"
@@ -460,7 +460,7 @@ def test_paper_page_is_small_and_ready_at_once(browser: Browser, tmp_path: Path)
 
 
 def test_without_webgl_the_still_picture_stays(tmp_path: Path) -> None:
-    from flexact.picture import has_packages, picture_bytes
+    from flexact.show.picture import has_packages, picture_bytes
 
     if not has_packages():
         pytest.skip("needs matplotlib")

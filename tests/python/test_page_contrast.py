@@ -6,7 +6,7 @@ from importlib import resources
 
 import pytest
 
-STYLE = resources.files("flexact.page").joinpath("style.css").read_text(encoding="utf-8")
+STYLE = resources.files("flexact.show.page").joinpath("style.css").read_text(encoding="utf-8")
 THEMES = {"light": ":root {", "dark": ':root[data-theme="dark"] {'}
 TEXTS = ("ink", "soft", "accent", "node", "axis-x", "axis-y", "axis-z")
 VERDICTS = ("exact", "marginal", "under", "over", "both", "broken")

@@ -22,7 +22,7 @@ _RENEW = """
 
 @pytest.fixture
 def body(browser: Browser, tmp_path: Path) -> str:
-    from flexact.page import content_of
+    from flexact.show.page import content_of
 
     return content_of(browser.show(DECK, tmp_path)).body
 

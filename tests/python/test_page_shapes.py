@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The viewer's own shapes of members against those of `flexact.drawing`, in a browser."""
+"""The viewer's own shapes of members against those of `flexact.show.drawing`, in a browser."""
 
 from pathlib import Path
 from typing import Any
@@ -11,8 +11,8 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.drawing import QUANTITIES, Drawing, drawing_of, move, resultants, solid, stations
-from flexact.drawing.freedoms import way_of
+from flexact.show.drawing import QUANTITIES, Drawing, drawing_of, move, resultants, solid, stations
+from flexact.show.drawing.freedoms import way_of
 
 #: Sheets, wires, bars, rigid links, hinges; in space and in the plane; on paths and on screws.
 DECKS = (

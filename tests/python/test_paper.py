@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import flexact
-from flexact.regress.comparison import differences
-from flexact.regress.stored_answer import answer_of, read_answer
+from flexact.apps.checks.regress_comparison import differences
+from flexact.apps.checks.stored_answer import answer_of, read_answer
 
 ROOT = Path(__file__).resolve().parents[2]
 DECKS = ROOT / "input_decks"

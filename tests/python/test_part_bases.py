@@ -28,11 +28,12 @@ from reference_decks import NAMES, ROOT
 
 import flexact
 from flexact import Analysis, Model, analyse
+from flexact.analysis import result_spaces as spaces
+from flexact.analysis import sparse_basis as group_sparse
+from flexact.analysis.sparse_basis import columns_of, pieces_of
+from flexact.analysis.weights import column_weights, row_duals, row_factors, row_weights
 from flexact.core.basis import Basis
 from flexact.core.elements import Dual
-from flexact.result import group_sparse, spaces
-from flexact.result.group_sparse import columns_of, pieces_of
-from flexact.result.weights import column_weights, row_duals, row_factors, row_weights
 
 _KNOWN: dict[str, Analysis] = {}
 
@@ -121,7 +122,7 @@ def test_analyse_makes_no_basis(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_large_spaces_are_those_of_the_core_scaled(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(flexact.result.mode_basis, "_MOST_VECTORS", 1)
+    monkeypatch.setattr(flexact.analysis.mode_basis, "_MOST_VECTORS", 1)
     analysis = analyse(frame(1.0))
     raw, basis = analysis.raw.stresses.toarray(), analysis.stress_basis.toarray()
     scale = basis[np.abs(raw).argmax(axis=0), range(6)] / np.abs(raw).max(axis=0)

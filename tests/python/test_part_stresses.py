@@ -13,9 +13,9 @@ from part_models import CROSSING, EX, EY, EZ, HERE, PLACES, Placed, cross_hinge,
 from reference_decks import NAMES, ROOT
 
 from flexact import Analysis, Model, ModelError, SelfStress, analyse
+from flexact.analysis.part_stresses import Load
+from flexact.analysis.wrenches import Wrench, WrenchKind
 from flexact.model.parts.parts import PartKind, natural
-from flexact.result.part_stresses import Load
-from flexact.result.wrenches import Wrench, WrenchKind
 
 DECKS = [name for name in NAMES if not name.startswith("broken")]
 _KNOWN: dict[str, Analysis] = {}

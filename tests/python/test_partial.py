@@ -9,13 +9,13 @@ import pytest
 from small_decks import write
 
 from flexact import analyse
-from flexact.base.errors import FlexactError
-from flexact.base.partial import STRICT, attempted
-from flexact.cli import verbs
-from flexact.cli.command import parser_of
-from flexact.cli.main import main
-from flexact.watching.answering import answer_of
-from flexact.watching.messages import Job, Shown
+from flexact.apps.cli import verbs
+from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.main import main
+from flexact.apps.watch.answering import answer_of
+from flexact.apps.watch.watching_messages import Job, Shown
+from flexact.util.errors import FlexactError
+from flexact.util.partial import STRICT, attempted
 
 
 def _fails(error: Exception) -> int:

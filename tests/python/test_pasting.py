@@ -20,15 +20,15 @@ from reference_decks import NAMES, ROOT, text_of
 
 import flexact
 from flexact import FlexactError, Model
-from flexact.advice.ways import Coordinate, on_motions
-from flexact.advising.describe import describe as advised
-from flexact.cli.main import main
-from flexact.result.screws import ScrewKind
-from flexact.text.describe import describe
-from flexact.text.motions import group_in_words
-from flexact.text.naming import part_in_words
-from flexact.text.places import part_words
-from flexact.text.sentences import plain
+from flexact.advice.describe import describe
+from flexact.advice.words import describe as advised
+from flexact.analysis.advice_ways import Coordinate, on_motions
+from flexact.analysis.motions import group_in_words
+from flexact.analysis.naming import part_in_words
+from flexact.analysis.places import part_words
+from flexact.analysis.screws import ScrewKind
+from flexact.analysis.sentences import plain
+from flexact.apps.cli.main import main
 
 DECK = "BEAM 1 1 2 3 4 0 1 0\nX 3 0.1 0 0\nFIX 1\nFIX 2\nRLSE 1 2 5 6\nEND\nHALT\n"
 

@@ -16,17 +16,17 @@ from pictures import SWINGING, VIEW, Pixels, collection, deck, hue, of_text
 from small_decks import COLLINEAR, DECKS, TRIANGLE
 
 import flexact
-from flexact.drawing import BENDING, QUANTITIES, Resultants, drawing_of
-from flexact.drawing.colours import ARROW, FREEDOM
-from flexact.drawing.diagrams import diagrams_of
-from flexact.drawing.selection import NotThereError
-from flexact.drawing.view import view_of
+from flexact.show.drawing import BENDING, QUANTITIES, Resultants, drawing_of
+from flexact.show.drawing.colours import ARROW, FREEDOM
+from flexact.show.drawing.diagrams import diagrams_of
+from flexact.show.drawing.selection import NotThereError
+from flexact.show.drawing.view import view_of
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 
-from flexact.page import page
-from flexact.picture import PictureError, SubjectError, ViewError, draw, picture_bytes
+from flexact.show.page import page
+from flexact.show.picture import PictureError, SubjectError, ViewError, draw, picture_bytes
 
 #: What stands before the statements of the picture block.
 BLOCKS = "END\nHALT\n\nEND\n\nVISUALIZATION\n"
@@ -253,7 +253,7 @@ def test_a_sliding_support_goes_with_its_node(tmp_path: Path) -> None:
     rod = "PLTRUSS 1 1 2\nX 1 0 0\nX 2 0.6 0.8\nFIX 1 2\nFIX 2 1\n"
     analysis = of_text(tmp_path, rod)
     drawing = drawing_of(analysis.given)
-    from flexact.drawing import move
+    from flexact.show.drawing import move
 
     moved = move(drawing, analysis.motions[0]).pose(1.0).position
     assert abs(moved[0, 0]) > 0.05
@@ -502,7 +502,7 @@ def test_named_views_look_along_the_axes() -> None:
         "top": 2.0 / 2.0,
         "bottom": 2.0 / 2.0,
     }
-    from flexact.drawing.view import view_of
+    from flexact.show.drawing.view import view_of
 
     drawing = drawing_of(analysis.given)
     for name, quotient in expected.items():
@@ -521,7 +521,7 @@ def test_named_views_look_along_the_axes() -> None:
 
 def test_the_view_that_is_chosen_shows_sheets_from_no_edge() -> None:
     """Two sheets at right angles, one of them edge-on from any side along the axes."""
-    from flexact.drawing.view import view_of
+    from flexact.show.drawing.view import view_of
 
     for name in ("paper/folded_sheet_clamped", "paper/six_folded_sheets", "flexures/cross_hinge"):
         drawing = drawing_of(deck(name).given)

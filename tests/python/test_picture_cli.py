@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from small_decks import BROKEN, DECKS, files_in, write
 
-from flexact.base.errors import BatchError
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
+from flexact.util.errors import BatchError
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
@@ -38,7 +38,7 @@ def test_no_backend_is_needed(backend: str, decks: Path, tmp_path: Path) -> None
     """Matplotlib refuses to be imported where it does not know the backend."""
     code = f"""
 import os, sys
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 folder = {str(tmp_path)!r}
 for verb, suffix in (("picture", "png"), ("picture", "svg"), ("report", "html")):
     assert main([verb, {str(decks / "both.dat")!r}, "-o", f"{{folder}}/x.{{suffix}}"]) == 0
@@ -167,7 +167,7 @@ def test_an_existing_picture_stays_until_the_new_one_is_complete(
         raise BatchError("in the middle")
 
     with monkeypatch.context() as patch:
-        patch.setattr("flexact.picture.make.still_bytes", fail)
+        patch.setattr("flexact.show.picture.make.still_bytes", fail)
         assert main(["picture", str(decks / "both.dat"), "-o", str(target)]) == 1
     assert target.read_text() == "old"
     assert files_in(target.parent) == ["x.png"]
@@ -179,16 +179,16 @@ def test_an_existing_picture_stays_until_the_new_one_is_complete(
 def test_a_missing_package_is_told_before_anything_is_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("flexact.picture.make.find_spec", lambda name: None)
+    monkeypatch.setattr("flexact.show.picture.make.find_spec", lambda name: None)
     assert main(["picture", str(tmp_path / "missing.dat"), "-o", str(tmp_path / "x.png")]) == 2
     assert "pip install matplotlib pillow" in capsys.readouterr().err
 
 
 def test_other_verbs_do_not_load_what_draws(decks: Path) -> None:
     code = (
-        "import sys; from flexact.cli.main import main; "
+        "import sys; from flexact.apps.cli.main import main; "
         f"main(['analyse', {str(decks / 'both.dat')!r}]); "
-        "sys.exit(bool({'matplotlib', 'PIL', 'flexact.picture'} & set(sys.modules)))"
+        "sys.exit(bool({'matplotlib', 'PIL', 'flexact.show.picture'} & set(sys.modules)))"
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
     assert result.returncode == 0, result.stderr
@@ -203,7 +203,7 @@ def test_no_display_is_needed(
     monkeypatch.setenv("MPLBACKEND", "TkAgg")
     arguments = ["picture", str(decks / "both.dat"), "-o", str(tmp_path / f"x.{suffix}")]
     code = (
-        "import sys; from flexact.cli.main import main; "
+        "import sys; from flexact.apps.cli.main import main; "
         f"code = main({arguments!r}); "
         "sys.exit(code or 10 * bool({'matplotlib.pyplot', 'tkinter'} & set(sys.modules)))"
     )
@@ -215,7 +215,7 @@ def test_a_cache_that_cannot_be_written_is_not_told(decks: Path, tmp_path: Path)
     """Matplotlib warns of it where its folder cannot be made."""
     file = write(tmp_path / "file", "")
     arguments = ["picture", str(decks / "exact.dat"), "-o", str(tmp_path / "x.png")]
-    code = f"import sys; from flexact.cli.main import main; sys.exit(main({arguments!r}))"
+    code = f"import sys; from flexact.apps.cli.main import main; sys.exit(main({arguments!r}))"
     result = subprocess.run(
         [sys.executable, "-c", code],
         capture_output=True,

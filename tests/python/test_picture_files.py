@@ -22,7 +22,7 @@ pytest.importorskip("PIL")
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from flexact.picture import SUFFIXES, PictureError, picture_bytes
+from flexact.show.picture import SUFFIXES, PictureError, picture_bytes
 
 PAPER = [name for name in NAMES if name.startswith("paper/")]
 SVG = "{http://www.w3.org/2000/svg}"
@@ -166,7 +166,7 @@ def test_names_are_text_whatever_they_contain(name: str) -> None:
     tags = {element.tag.rpartition("}")[2] for element in root.iter()}
     assert "script" not in tags
     assert not any("onload" in element.attrib for element in root.iter())
-    from flexact.base.plain_text import harmless
+    from flexact.util.plain_text import harmless
 
     told = [element.text for element in root.iter(f"{SVG}text")]
     assert harmless(name) in told
@@ -175,7 +175,7 @@ def test_names_are_text_whatever_they_contain(name: str) -> None:
 
 @pytest.mark.parametrize("letter", ["a", "W", "\u0416"])
 def test_a_long_name_ends_within_the_picture(letter: str) -> None:
-    from flexact.picture import draw
+    from flexact.show.picture import draw
 
     figure = draw(flexact.analyse(deck_model(), name=250 * letter))
     FigureCanvasAgg(figure).draw()
@@ -218,7 +218,7 @@ def test_a_missing_package_is_told(
     analysis = of_text(tmp_path, COLLINEAR)
     find = importlib.util.find_spec
     monkeypatch.setattr(
-        "flexact.picture.make.find_spec", lambda name: None if name == package else find(name)
+        "flexact.show.picture.make.find_spec", lambda name: None if name == package else find(name)
     )
     with pytest.raises(PictureError, match=rf"package {told}: pip install .*{told}"):
         picture_bytes(analysis, ".png")

@@ -16,7 +16,7 @@ pytest.importorskip("PIL")
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from flexact.advice.holding import holds_of
-from flexact.picture import draw
+from flexact.show.picture import draw
 
 GALLERY = sorted((Path(__file__).resolve().parents[2] / "docs" / "gallery").glob("*.py"))
 #: Of a box of words so much may be a line that leads to them.

@@ -16,13 +16,13 @@ from reference_decks import ROOT
 from small_decks import COLLINEAR
 
 import flexact
-from flexact.base.plain_text import harmless
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
+from flexact.util.plain_text import harmless
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")
 
-from flexact.picture import picture_bytes
+from flexact.show.picture import picture_bytes
 
 INPUT = ROOT / "input_decks"
 

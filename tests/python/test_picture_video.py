@@ -17,9 +17,9 @@ from reference_decks import ROOT
 from small_decks import COLLINEAR, files_in
 
 import flexact
-from flexact.cli.main import main
-from flexact.picture import VideoError, picture_bytes
-from flexact.picture import video as module
+from flexact.apps.cli.main import main
+from flexact.show.picture import VideoError, picture_bytes
+from flexact.show.picture import animation as module
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")

@@ -12,8 +12,8 @@ from known_models import ring
 from test_cli_process import process_environment
 
 import flexact
-from flexact.cli import bar
-from flexact.cli.main import main
+from flexact.apps.cli import bar
+from flexact.apps.cli.main import main
 from flexact.core.arrays import IntArray
 from flexact.core.calls import STAGES
 from flexact.core.progress import reported
@@ -86,9 +86,9 @@ def test_an_analysis_tells_its_stages_and_gives_the_same() -> None:
 
 WATCHED = """\
 import sys
-from flexact.cli import bar
+from flexact.apps.cli import bar
 bar.LARGE_FILE = bar.LARGE_MODEL = {large}
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 sys.exit(main())
 """
 

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 import flexact
-from flexact.base.quantities import _KINDS, QuantityError, measured, quantity
-from flexact.cli.command import parser_of
-from flexact.cli.main import main
-from flexact.cli.verbs import VERBS
+from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.main import main
+from flexact.apps.cli.verbs import VERBS
+from flexact.util.quantities import _KINDS, QuantityError, measured, quantity
 
 GUIDE = "input_decks/flexures/notch_guide.dat"
 

@@ -15,11 +15,10 @@ from large_results import changed, first_of
 from small_decks import COLLINEAR
 
 import flexact
-from flexact.cli.main import main
-from flexact.regress import stored_answer
-from flexact.regress.comparison import Tolerances, differences
-from flexact.regress.projections import VECTORS, Images, fixed_vectors
-from flexact.regress.stored_answer import (
+from flexact.apps.checks import stored_answer
+from flexact.apps.checks.projections import VECTORS, Images, fixed_vectors
+from flexact.apps.checks.regress_comparison import Tolerances, differences
+from flexact.apps.checks.stored_answer import (
     Projector,
     StoredAnswer,
     StoredAnswerError,
@@ -27,6 +26,7 @@ from flexact.regress.stored_answer import (
     read_answer,
     text_of,
 )
+from flexact.apps.cli.main import main
 
 # The right-hand bar raised: its elongation now depends on the joint's y, and nothing is left over.
 RAISED = COLLINEAR.replace("X 3 1 0", "X 3 1 1")

@@ -14,9 +14,9 @@ from dask_cluster import running_cluster
 from junit_schema import read_junit
 from small_decks import COLLINEAR
 
-from flexact.cli.main import main
-from flexact.engine import local_pool
-from flexact.regress.one_deck import Case, Finding, Question
+from flexact.apps.checks.comparison import Case, Finding, Question
+from flexact.apps.cli.main import main
+from flexact.sweeps import pool as local_pool
 
 RAISED = COLLINEAR.replace("X 3 1 0", "X 3 1 1")
 #: Of the decks that are stored, what they become before they are compared.
@@ -153,7 +153,7 @@ def test_a_deck_that_kills_its_worker_fails_alone(
 def test_a_scheduler_that_is_not_there_is_said_in_words(
     folder: Path, capsys: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    client = pytest.importorskip("flexact.engine.dask_client")
+    client = pytest.importorskip("flexact.sweeps.dask")
     monkeypatch.setattr(client, "_ANSWER", 0.5)
     out, err = compared("--dask", "tcp://127.0.0.1:9", code=2, out=capsys)
     assert out == "" and "dask scheduler" in err and "Traceback" not in err
@@ -162,7 +162,7 @@ def test_a_scheduler_that_is_not_there_is_said_in_words(
 def test_of_one_deck_no_pool_is_loaded(folder: Path) -> None:
     """It starts as quickly as ever."""
     script = (
-        "import sys; from flexact.cli.main import main;"
+        "import sys; from flexact.apps.cli.main import main;"
         "main(['regress', 'decks/d/same.dat', '--against', 'answers/d']);"
         "sys.exit('multiprocessing.connection' in sys.modules or 'xml.etree' in sys.modules)"
     )

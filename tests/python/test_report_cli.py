@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from small_decks import BROKEN, DECKS, VERDICTS, files_in, write
 
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 
 
 def test_a_page_of_a_deck(decks: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -51,7 +51,7 @@ def test_without_matplotlib_pages_are_made_and_it_is_said(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("flexact.picture.make._missing", lambda: ["matplotlib"])
+    monkeypatch.setattr("flexact.show.picture.make._missing", lambda: ["matplotlib"])
     out = tmp_path / "out"
     assert main(["report", str(decks / "over.dat"), "-o", str(out)]) == 0
     assert "pip install matplotlib pillow" in capsys.readouterr().err
@@ -124,7 +124,7 @@ def test_an_existing_page_is_replaced_only_by_a_whole_one(
     def full(*_: Any) -> int:
         raise OSError(28, os.strerror(28))
 
-    monkeypatch.setattr("flexact.files.outputs.new_file", full)
+    monkeypatch.setattr("flexact.util.outputs.new_file", full)
     assert main(["report", str(decks / f"{verdict}.dat"), "-o", str(page)]) == 2
     assert page.read_text(encoding="utf-8") == "old"
     assert files_in(tmp_path / "out") == ["page.html"]

@@ -26,7 +26,7 @@ from part_models import (
 )
 
 from flexact import Model, analyse
-from flexact.result.screws import Screw, ScrewKind, screw_of
+from flexact.analysis.screws import Screw, ScrewKind, screw_of
 
 TOLERANCE = 1e-9
 

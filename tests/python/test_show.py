@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 import flexact
-from flexact.cli.main import main
-from flexact.cli.outcome import ExitCode
+from flexact.apps.cli.main import main
+from flexact.apps.cli.outcome import ExitCode
 
 ROOT = Path(__file__).resolve().parents[2]
 DECK = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"

@@ -10,7 +10,7 @@ import pytest
 from reference_decks import NAMES, ROOT, text_of
 
 import flexact
-from flexact.diagnostics.diagnostic import Diagnostic, Severity
+from flexact.deck.diagnostics import Diagnostic, Severity
 
 #: Sample decks that mean what they are warned of, and codes.
 MEANT = {"frameworks/third_order_finite": ["coincident-nodes"]}

@@ -19,12 +19,12 @@ from reference_decks import NAMES, text_of
 from small_decks import DECKS, write
 
 import flexact
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 from flexact.core.elements import NodeKind
-from flexact.text import spacar_matrix
-from flexact.text.spacar_log import spacar_log
-from flexact.text.spacar_matrix import dcc
-from flexact.text.spacar_numbering import SpacarNumbering
+from flexact.show import spacar_matrix
+from flexact.show.spacar_log import spacar_log
+from flexact.show.spacar_matrix import dcc
+from flexact.show.spacar_numbering import SpacarNumbering
 
 oracle_deck: Any = importlib.import_module("oracle_deck")
 oracle_analysis: Any = importlib.import_module("oracle_analysis")

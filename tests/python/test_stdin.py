@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
 
-from flexact.cli.main import main
+from flexact.apps.cli.main import main
 
 ROOT = Path(__file__).parents[2]
 SIX = ROOT / "input_decks/paper/six_folded_sheets.dat"

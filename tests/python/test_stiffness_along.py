@@ -247,7 +247,7 @@ def test_strokes_from_rest_and_far_from_it() -> None:
     there = model.along(9, "x", [0.025, 0.028])
     found = model.along(9, "x", [0, "3 mm"], from_rest=True)
     assert [s.stroke for s in found] == pytest.approx([s.stroke for s in there], abs=1e-15)
-    with pytest.warns(flexact.stiffness.StrokeWarning, match=r"rests at 0.025.*from_rest=True"):
+    with pytest.warns(flexact.elasticity.StrokeWarning, match=r"rests at 0.025.*from_rest=True"):
         model.along(9, "x", [0, 0.003])
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -14,13 +14,13 @@ from known_models import guide
 from reference_decks import NAMES, ROOT
 
 import flexact
+from flexact.apps.watch.calls import Calls
+from flexact.apps.watch.editable_model import Board
+from flexact.apps.watch.places import Edit, Place, states_of
+from flexact.apps.watch.statements import EditedDeck, edited
+from flexact.apps.watch.switches import Session, answered
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
-from flexact.switches import Session, answered
-from flexact.switches.board import Board
-from flexact.switches.calls import Calls
-from flexact.switches.places import Edit, Place, states_of
-from flexact.switches.statements import EditedDeck, edited
 
 #: How many places of a deck are switched.
 MOST = 6

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from flexact.files.outputs import OutputError
-from flexact.variants.columns import COLUMNS, Column
-from flexact.variants.writing import Cell, require_table, write_table
+from flexact.sweeps.columns import COLUMNS, Column
+from flexact.sweeps.writing import Cell, require_table, write_table
+from flexact.util.outputs import OutputError
 
 NAMES = (
     Column("angle", float, "", ""),
@@ -114,7 +114,7 @@ def test_a_full_disk_leaves_what_was_there(
     """The temporary file is a device that takes nothing."""
     path = tmp_path / f"table{suffix}"
     path.write_text("before")
-    monkeypatch.setattr("flexact.files.outputs.new_file", lambda *_: io.FileIO("/dev/full", "wb"))
+    monkeypatch.setattr("flexact.util.outputs.new_file", lambda *_: io.FileIO("/dev/full", "wb"))
     with pytest.raises(OutputError, match="no space left"):
         write_table(path, NAMES, ROWS * 20_000)
     assert path.read_text() == "before"
@@ -148,7 +148,7 @@ def test_names_that_are_no_unicode_are_spelled_out(tmp_path: Path) -> None:
 
 def test_parquet_is_written_in_groups(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
-    monkeypatch.setattr("flexact.variants.writing._GROUP", 3)
+    monkeypatch.setattr("flexact.sweeps.writing._GROUP", 3)
     write_table(tmp_path / "table.parquet", NAMES[1:2], ([k] for k in range(8)))
     assert parquet.ParquetFile(tmp_path / "table.parquet").num_row_groups == 3
     assert read(tmp_path / "table.parquet")[1:] == [[k] for k in range(8)]

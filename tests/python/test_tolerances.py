@@ -11,8 +11,8 @@ from test_sweep import platform
 
 import flexact
 from flexact import Model, Verdict, analyse, tolerances
-from flexact.variants.sweeps.misaligned import misaligned, spread_given
-from flexact.variants.tolerances import Share
+from flexact.sweeps.misaligned import misaligned, spread_given
+from flexact.sweeps.tolerances import Share
 
 
 def guide(beams: int = 1) -> Model:

@@ -11,7 +11,7 @@ from reference_decks import ROOT, transform
 
 import flexact
 from flexact import Trace, trace
-from flexact.result.following import Ending
+from flexact.motion import Ending
 
 DECKS = ROOT / "input_decks"
 

@@ -11,9 +11,9 @@ import vtk_files
 from reference_decks import ROOT
 
 import flexact
-from flexact.cli.main import main
-from flexact.drawing.rotations import vector_of
-from flexact.tracing.plot import plot_bytes
+from flexact.apps.cli.main import main
+from flexact.show.drawing.rotations import vector_of
+from flexact.tracing.output import plot_bytes
 
 DECKS = ROOT / "input_decks"
 TRUSSES, WIRES = DECKS / "paper" / "twelve_trusses.dat", DECKS / "paper" / "five_wires.dat"

@@ -10,9 +10,9 @@ import pytest
 import flexact
 from flexact.core.elements import Class
 from flexact.model.variation import positions_given
-from flexact.variants.columns import WANTS
-from flexact.variants.row import row_of
-from flexact.variants.sweeps.positions import swept
+from flexact.sweeps.columns import WANTS
+from flexact.sweeps.evaluate import swept
+from flexact.sweeps.row import row_of
 
 DECKS = Path(__file__).resolve().parents[2] / "input_decks"
 SAMPLES = (

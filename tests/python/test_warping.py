@@ -16,7 +16,7 @@ import pytest
 from reference_decks import REFERENCE
 
 import flexact
-from flexact.text.spacar_log import spacar_log
+from flexact.show.spacar_log import spacar_log
 
 assert REFERENCE
 oracle_deck: Any = importlib.import_module("oracle_deck")

@@ -13,9 +13,9 @@ import pytest
 from windows_doubles import Function, Kernel
 
 import flexact
-from flexact.base import memory, windows
-from flexact.engine import processors as engine_processors
 from flexact.model.model import Model
+from flexact.util import memory, windows
+from flexact.util import processors as engine_processors
 
 GB = 2**30
 SIZES = {

@@ -35,18 +35,18 @@ from wrong_use import APPEARANCE, BUILDER, Call, each, two_nodes_and_a_bar
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.base import memory
-from flexact.cli.main import main
+from flexact.advice.describe import describe
+from flexact.analysis.decomposition import Asked
+from flexact.apps.checks.regress_comparison import differences
+from flexact.apps.checks.stored_answer import StoredAnswerError, answer_of, read_answer
+from flexact.apps.cli.main import main
 from flexact.core import calls
 from flexact.core.arrays import model_arrays
-from flexact.files.decks import DeckFile
-from flexact.files.outputs import OutputError, plan_files, write_together
-from flexact.regress.comparison import differences
-from flexact.regress.stored_answer import StoredAnswerError, answer_of, read_answer
-from flexact.result.outcome import Asked
-from flexact.text.describe import describe
-from flexact.text.log import log_text
-from flexact.text.spacar_log import spacar_log
+from flexact.show.log import log_text
+from flexact.show.spacar_log import spacar_log
+from flexact.util import memory
+from flexact.util.decks import DeckFile
+from flexact.util.outputs import OutputError, plan_files, write_together
 
 INPUT = ROOT / "input_decks"
 TURN = transform.about("x", 0.7) @ transform.about("y", -1.1) @ transform.about("z", 2.3)

@@ -21,13 +21,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.frozen import Frozen
+from ..analysis.result import Result
+from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind
 from ..model.parts.bodies import groups_of
 from ..model.parts.parts import Part, PartKind
-from ..result.result import Result
-from ..result.verdict import Verdict
+from ..util.records import Frozen
 from .spaces.screw_space import ScrewSpace
 
 #: Rates below this part of the largest are rounding.

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
-from ..base.frozen import Frozen
-from ..result.outcome import Asked
-from ..result.result import Result, result_of
-from ..result.verdict import Verdict
-from .change import Change
+from ..analysis.change import Change
+from ..analysis.decomposition import Asked
+from ..analysis.result import Result, result_of
+from ..analysis.verdict import Verdict
+from ..util.records import Frozen
 
 
 class Purpose(str, Enum):

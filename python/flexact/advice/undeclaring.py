@@ -8,12 +8,12 @@ from functools import partial
 
 import numpy as np
 
-from ..base.errors import FlexactError
+from ..analysis import ways as leverage
+from ..analysis.change import Change
+from ..analysis.order import row_key
+from ..analysis.result import Result
 from ..core.elements import Class, coordinate_name
-from ..result.order import row_key
-from ..result.result import Result
-from . import leverage
-from .change import Change
+from ..util.errors import FlexactError
 from .proposal import Proposal, Purpose, tried
 
 #: Of more self-stresses no sets are looked for; so many proposals there are at most.

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..base.plain_text import in_short
+from ..util.plain_text import in_short
 
 IntArray = NDArray[np.int32]
 FloatArray = NDArray[np.float64]

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..base.memory import address_space
+from ..util.memory import address_space
 from . import _core
 from .arrays import FloatArray, IntArray, PackedModel, room_for, unpacked
 from .basis import Basis

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..base.errors import FlexactError
+from ..util.errors import FlexactError
 from . import _core
 from .arrays import FloatArray, PackedModel
 from .calls import names_of, require_room_for

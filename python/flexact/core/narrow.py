@@ -8,8 +8,8 @@ import os
 import sys
 from mmap import mmap
 
-from ..base.loading import load
-from ..base.memory import address_space
+from ..util.loading import load
+from ..util.memory import address_space
 
 #: Below this the threads of BLAS, and their buffers, are a burden [bytes].
 _NARROW = 2.0**31

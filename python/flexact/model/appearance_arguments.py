@@ -8,18 +8,18 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..base.plain_text import in_short
-from ..base.quantities import Quantity, QuantityError
 from ..core.elements import kind_of
-from ..diagnostics.errors import model_error
-from .appearance import CrossSection
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
+from ..util.quantities import Quantity, QuantityError
 from .appearance_draft import Colour, Said, Shape
 from .arguments import UNORDERED, real, several
+from .attributes import CrossSection
 from .draft import Draft
 from .handles import Assembly, FoldedSheet, Node, Sheet
 from .part_arguments import indices_of as indices_of_part
 from .part_arguments import part
-from .point_arguments import require_own
+from .selection import require_own
 
 #: A diameter, or two sizes [m].
 Section = Quantity | Sequence[Quantity]

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .appearance import Appearance
+from .attributes import Appearance
 
 Colour = tuple[float, float, float]
 

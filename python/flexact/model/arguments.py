@@ -7,9 +7,9 @@ import math
 from collections.abc import Sequence
 from operator import index as whole_number
 
-from ..base.plain_text import in_short
-from ..base.quantities import Quantity, QuantityError, measured
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
+from ..util.quantities import Quantity, QuantityError, measured
 from .draft import NO_VECTOR, Draft, Vector
 
 #: What gives three parts and still is no vector.

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..base.plain_text import in_short
-from ..base.quantities import Quantity
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
+from ..util.quantities import Quantity
 from . import arguments
-from . import point_arguments as points
+from . import selection as points
 from .appearance_arguments import Section, numbers_of_size, shape_of
 from .draft import Draft
 from .flexures import FlexureMethods
@@ -17,9 +17,9 @@ from .handles import Body, Element, Node
 from .making import call
 from .names import part_name
 from .part_arguments import named as named_part
-from .point_arguments import Point
 from .rigid_components import RigidComponents
 from .sections import Make
+from .selection import Point
 
 
 class BodyMethods(FlexureMethods):

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
+from .coordinates import LoadMethods
 from .copies import CopyMethods
 from .edits import EditMethods
-from .loading import LoadMethods
 from .showing import ShowMethods
 
 

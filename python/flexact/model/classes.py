@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
-from ..base.plain_text import in_short
 from ..core.elements import Class
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
 from . import coordinate_arguments as coordinates
-from . import deformation_arguments as deformations
+from . import deformations
 from .handles import FoldedSheet
 from .making import Making, call
 from .names import is_coordinate, nearest
 from .part_arguments import PartLike
-from .point_arguments import Point
+from .selection import Point
 
 
 class ClassMethods(Making):

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..base.frozen import Frozen
 from ..core.arrays import FloatArray, IntArray, floats
 from ..core.elements import NodeKind
+from ..util.records import Frozen
 
 #: Kinds of nodes; a search among all of them would take as long as all else that is done here.
 _FIRST, _LAST = min(NodeKind), max(NodeKind)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..base.plain_text import in_short
 from ..core.elements import (
     AXES,
     POSITION_NAMES,
@@ -14,10 +13,11 @@ from ..core.elements import (
     coordinate_name,
     is_position,
 )
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
 from .draft import Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Part
-from .point_arguments import existing, node_number
+from .selection import existing, node_number
 
 
 def nodes_of(draft: Draft, target: object) -> list[int]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ..base.plain_text import in_short
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
 from .arguments import text
 from .copying import Copy
 from .draft import Draft
 from .names import part_name
-from .point_arguments import is_rigid
+from .selection import is_rigid
 
 #: How names of copies are made: "upper {}" or "{} {}", with the number of the copy as the second;
 #: words that are replaced; or a function.

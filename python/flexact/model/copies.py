@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..base.plain_text import in_short
-from ..base.quantities import Quantity
 from ..core.elements import AXES, Class, is_position
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
+from ..util.quantities import Quantity
 from . import arguments
 from .appearance_arguments import indices_of, numbers_of_size
 from .arguments import Direction
@@ -18,10 +18,10 @@ from .draft import Draft, Vector
 from .handles import Assembly, Body, Element, FoldedSheet, Named, Node, Part
 from .hexapods import HexapodMethods
 from .making import Making, all_or_nothing
+from .model_places import ROUNDING, size_of
 from .names import part_name
 from .part_arguments import PartLike, of_indices
-from .places import ROUNDING, size_of
-from .point_arguments import Point, existing, place, whole_point
+from .selection import Point, existing, place, whole_point
 from .transform import Transform, reflection, rotation, translation
 
 _ORIGIN = (0.0, 0.0, 0.0)

@@ -11,8 +11,8 @@ from itertools import zip_longest
 from ..core.elements import AXES, NodeKind, is_position
 from .draft import Draft, Vector
 from .loads_draft import LoadsDraft
-from .places import Places
-from .point_arguments import pivot, whole_point
+from .model_places import Places
+from .selection import pivot, whole_point
 from .transform import Transform
 from .turning import axes_of, check_axes, check_classes, vector
 

@@ -9,16 +9,16 @@ from typing import overload
 
 import numpy as np
 
-from ..base.cached import cached_property
-from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray, IntArray, ModelArrays, PackedModel, packed
 from ..core.elements import NodeKind
 from ..core.raw import RawCount, RawFrames
-from ..diagnostics.diagnostic import Diagnostic, Problems, Severity, problems_of
-from ..diagnostics.errors import DeckError, ModelError
-from ..diagnostics.source import Source, decode
-from .appearance import Appearance
+from ..deck.diagnostics import Diagnostic, Problems, Severity, problems_of
+from ..deck.errors import DeckError, ModelError
+from ..deck.source import Source, decode
+from ..util.cached import cached_property
+from ..util.records import Frozen
+from .attributes import Appearance
 from .loads import Loads
 from .parts.chains import Chain, chains_of
 from .parts.directions import directions_across

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..base.plain_text import in_short
 from ..core.elements import Class
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
 from .draft import Draft
 from .handles import Node
 from .names import part_name

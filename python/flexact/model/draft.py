@@ -7,18 +7,18 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from ..base.plain_text import in_short
 from ..core.arrays import IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
-from ..diagnostics.diagnostic import Diagnostic, Problems, Severity
-from ..diagnostics.errors import ModelError, model_error
-from ..diagnostics.source import Source
+from ..deck.diagnostics import Diagnostic, Problems, Severity
+from ..deck.errors import ModelError, model_error
+from ..deck.source import Source
+from ..util.plain_text import in_short
 from .appearance_draft import AppearanceDraft, Shape
 from .data import ModelData
 from .handles import Owner
 from .loads_draft import LoadsDraft
-from .lookup import Lookup
+from .places import Lookup
 from .properties_draft import PropertiesDraft
 
 Vector = tuple[float, float, float]

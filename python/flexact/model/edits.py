@@ -6,12 +6,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ..base.quantities import Quantity
 from ..core.elements import element_kinds
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.quantities import Quantity
 from . import appearance_arguments as appearance
 from . import arguments, deletion, sections
-from . import point_arguments as points
+from . import selection as points
 from .appearance_arguments import Section
 from .draft import Draft
 from .handles import Assembly, Element, FoldedSheet, Node, Part, Sheet
@@ -19,7 +19,7 @@ from .making import Making, call
 from .material import MaterialLike
 from .names import renamed
 from .part_arguments import PartLike, indices_of, part
-from .point_arguments import Point
+from .selection import Point
 
 
 class EditMethods(Making):

@@ -5,21 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..base.quantities import Quantity
 from ..core.elements import Class
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.quantities import Quantity
 from . import arguments, sections
-from . import point_arguments as points
+from . import selection as points
 from .appearance_arguments import Section, numbers_of_size, shape_of
 from .arguments import Direction
-from .deformation_arguments import deformations
+from .deformations import deformations
 from .draft import NO_VECTOR
 from .handles import Element, Node, Notch
 from .making import call
 from .material import MaterialLike
-from .point_arguments import Point
 from .points import PointMethods
 from .sections import Make
+from .selection import Point
 
 
 class ElementMethods(PointMethods):

@@ -6,9 +6,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ..base.quantities import Quantity
+from ..util.quantities import Quantity
 from . import arguments, sections
-from . import point_arguments as points
+from . import selection as points
 from .appearance_arguments import Section
 from .arguments import Direction
 from .division import declare_inner
@@ -16,8 +16,8 @@ from .elements import ElementMethods
 from .handles import Element, Node, Sheet, Wire
 from .making import call
 from .material import MaterialLike
-from .point_arguments import Point
 from .sections import Make
+from .selection import Point
 from .sheet_geometry import between, sheet_normal, span
 
 

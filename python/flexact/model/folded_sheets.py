@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..base.quantities import Quantity
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.quantities import Quantity
 from . import arguments
-from . import point_arguments as points
+from . import selection as points
 from .arguments import Direction
 from .bodies import BodyMethods
 from .classes import ClassMethods
@@ -16,7 +16,7 @@ from .draft import NO_VECTOR, Vector
 from .handles import FoldedSheet
 from .making import call
 from .material import MaterialLike
-from .point_arguments import Point
+from .selection import Point
 from .sheet_geometry import normal_to, span
 
 

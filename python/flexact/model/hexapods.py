@@ -5,18 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..base.quantities import Quantity
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.quantities import Quantity
 from . import arguments
-from . import point_arguments as points
+from . import selection as points
 from .appearance_arguments import numbers_of_size
+from .assemblies import SheetAssemblyMethods
 from .assembly_names import AssemblyNames
 from .draft import Draft
 from .handles import Assembly
 from .making import call
 from .material import MaterialLike
-from .point_arguments import Point
-from .sheet_assemblies import SheetAssemblyMethods
+from .selection import Point
 from .transform import on_circle
 
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..base.cached import cached_property
-from ..base.errors import require_kind
-from ..base.frozen import Frozen
 from ..core import calls
 from ..core.arrays import FloatArray, IntArray, ModelArrays, floats
 from ..core.elements import Class
 from ..core.raw import RawAssembly
+from ..util.cached import cached_property
+from ..util.errors import require_kind
+from ..util.records import Frozen
 from .configuration import Configuration
 from .labels import Labels, column_labels, row_labels
 from .model import Model

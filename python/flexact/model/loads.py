@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.raw import RawLoads
+from ..util.records import Frozen
 
 
 @dataclass(frozen=True, eq=False)

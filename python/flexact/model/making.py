@@ -8,11 +8,11 @@ from contextlib import contextmanager
 from copy import copy
 from dataclasses import replace
 
-from ..base.plain_text import in_short
 from ..core.elements import kind_of
 from ..core.raw import ElementKind
-from ..diagnostics.diagnostic import Problems
-from ..diagnostics.errors import ModelError
+from ..deck.diagnostics import Problems
+from ..deck.errors import ModelError
+from ..util.plain_text import in_short
 from . import arguments
 from .data import ModelData
 from .draft import Draft

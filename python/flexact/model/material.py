@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..base.plain_text import in_short
-from ..base.quantities import Quantity, QuantityError
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
+from ..util.quantities import Quantity, QuantityError
 from .arguments import real
 from .names import nearest
 

@@ -8,22 +8,22 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..base.errors import require_kind
-from ..base.plain_text import in_short
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import NodeKind, keywords_of
-from ..diagnostics.diagnostic import Diagnostic
-from ..diagnostics.errors import model_error
+from ..deck.diagnostics import Diagnostic
+from ..deck.errors import model_error
+from ..util.errors import require_kind
+from ..util.plain_text import in_short
 from .arguments import whole
 from .builder import Builder
 from .configuration import Configuration
 from .data import ModelData
-from .deck_text import deck_of
 from .handles import Body, Element, Node, Part
 from .part_arguments import PartLike
 from .parts.declaring import surplus_of
-from .point_arguments import Point
+from .selection import Point
 from .variation import held_given, positions_given, with_held, with_positions
+from .writing import deck_of
 
 
 class Model(Builder):

@@ -6,10 +6,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ..base.loading import load
-from ..base.plain_text import in_short
 from ..core.elements import POSITION_NAMES, ROTATION_NAMES
-from ..diagnostics.errors import ModelError, model_error
+from ..deck.errors import ModelError, model_error
+from ..util.loading import load
+from ..util.plain_text import in_short
 
 #: Names of coordinates, which no point can have.
 COORDINATES = frozenset((*POSITION_NAMES, *ROTATION_NAMES))

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import itertools
 
-from ..base.plain_text import in_short
 from ..core.elements import Class, Member, member_table
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
 from .arguments import whole
 from .draft import NO_VECTOR, Draft
 from .handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Part, Sheet, Wire
 from .names import ambiguous, unknown
-from .point_arguments import in_order, is_rigid, require_own, whole_point
+from .selection import in_order, is_rigid, require_own, whole_point
 from .words import SIDE_VIEW, WIDE_Y, WIDE_Z, Planes
 
 #: A part: its handle, its name, or the number of an element.

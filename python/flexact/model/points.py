@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..base.quantities import Quantity
-from . import point_arguments as points
+from ..util.quantities import Quantity
+from . import selection as points
 from .handles import Node
 from .making import Making, call
-from .point_arguments import Point
+from .selection import Point
 
 
 class PointMethods(Making):

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.arrays import BoolArray, IntArray
 from ..core.elements import Class, NodeKind
 from .data import ModelData
-from .deck_text import FIRST_COMPONENT
+from .writing import FIRST_COMPONENT
 
 #: The end of the kinematics, and a statement of a class up to its comment.
 _END = re.compile(rb"^[ \t\r\f\v]*END(?=[\s%#]|\Z)", re.MULTILINE | re.IGNORECASE)

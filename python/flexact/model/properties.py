@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..core.raw import RawProperties
+from ..util.records import Frozen
 
 #: How many numbers an element or a node has at most of each.
 NUMBERS = {"stiffness": 6, "mass": 5, "node_mass": 6}

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
 from .properties import NUMBERS, Properties
 
 _Numbers = tuple[float, ...]

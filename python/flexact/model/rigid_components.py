@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from .draft import Draft
 from .handles import Node
-from .point_arguments import is_rigid
+from .selection import is_rigid
 
 
 class RigidComponents:

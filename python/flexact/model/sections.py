@@ -7,13 +7,13 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ..base.quantities import Quantity
 from ..core.elements import Member, NodeKind
 from ..core.raw import ElementKind
-from ..diagnostics.errors import model_error
-from .appearance import CrossSection
+from ..deck.errors import model_error
+from ..util.quantities import Quantity
 from .appearance_arguments import Section, numbers_of_size, shape_of, sheet_shape, size_of
 from .appearance_draft import Shape
+from .attributes import CrossSection
 from .material import Material, MaterialLike, material_of
 
 #: Sum of 1/n^5 over odd n, 31/32 of zeta(5).

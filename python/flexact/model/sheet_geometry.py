@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import math
 
-from ..base.plain_text import in_short
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
+from ..util.plain_text import in_short
 from .arguments import Direction, cross, direction, unit, whole
 from .draft import LARGEST, NO_VECTOR, Draft, Vector
 from .handles import Node

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Member, NodeKind, member_table
-from ..diagnostics.diagnostic import Diagnostic, Severity
-from .appearance import CrossSection
+from ..deck.diagnostics import Diagnostic, Severity
+from .attributes import CrossSection
 from .names import part_name
 from .parts.forms import Form, forms_of
 

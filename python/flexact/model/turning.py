@@ -8,11 +8,11 @@ from collections.abc import Iterable
 
 from ..core.elements import AXES, Class, Role, element_kinds
 from ..core.elements import Vector as StatedVector
-from ..diagnostics.errors import model_error
+from ..deck.errors import model_error
 from .arguments import cross, unit
 from .draft import NO_VECTOR, Draft, Vector
-from .places import ROUNDING
-from .point_arguments import is_rigid
+from .model_places import ROUNDING
+from .selection import is_rigid
 from .transform import Transform
 
 

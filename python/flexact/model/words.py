@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import NamedTuple
 
-from ..base.plain_text import in_short
 from ..core.elements import Role
 from ..core.raw import ElementKind
-from ..diagnostics.errors import ModelError, model_error
+from ..deck.errors import ModelError, model_error
+from ..util.plain_text import in_short
 from .names import nearest
 
 _XZ = (Role.BENDING_XZ_P, Role.BENDING_XZ_Q)

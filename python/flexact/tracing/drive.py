@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.freedoms import Freedom
 from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, dual_table
-from ..drawing.pose import Pose
-from ..drawing.rotations import vector_of
-from ..drawing.selection import Selection
 from ..model.configuration import Configuration
-from ..result.following import Held
-from ..result.freedoms import Freedom
+from ..motion import Held
+from ..show.drawing.drawing_pose import Pose
+from ..show.drawing.rotations import vector_of
+from ..show.drawing.selection import Selection
 
 
 class Drive(NamedTuple):

@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from ..base.cached import cached_property
-from ..base.frozen import Frozen
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
-from ..result.following import Held, Station
-from ..result.following.chart import Near
-from ..result.following.passing import passing
-from ..result.following.station import Between
+from ..motion import Held, Station
+from ..motion.chart import Near
+from ..motion.passing import passing
+from ..motion.station import Between
+from ..util.cached import cached_property
+from ..util.records import Frozen
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..base.cached import cached_property
+from ..analysis.result import Result
 from ..core.elements import NodeKind
 from ..model.parts.parts import natural
-from ..result.result import Result
+from ..util.cached import cached_property
 
 #: Before the name of a body that only turns back in its rotation.
 ROTATION = "rotation of "

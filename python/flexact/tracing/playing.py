@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..mesh.collection import Collection, folder_of, moved_mesh
-from ..mesh.content import Meshes
-from ..mesh.file import find_format, mesh_bytes
+from ..show.mesh.collection import Collection, folder_of, moved_mesh
+from ..show.mesh.file import find_format, mesh_bytes
+from ..show.mesh.mesh_content import Meshes
 from .values import Traced
 
 #: Names of the meshes: this, and a number each. Of more steps than so many some are left out,

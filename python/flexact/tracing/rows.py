@@ -8,7 +8,7 @@ import io
 import math
 from collections.abc import Iterator
 
-from ..drawing.rotations import vector_of
+from ..show.drawing.rotations import vector_of
 from .drive import drive_unit
 from .names import Names
 from .values import Traced

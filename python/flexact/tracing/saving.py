@@ -6,13 +6,13 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..files.outputs import OutputError, write_together
-from ..mesh.collection import SUFFIX, write_collection
-from ..mesh.file import find_format
-from ..picture.files import STILLS
-from ..picture.make import check_packages
+from ..show.mesh.collection import SUFFIX, write_collection
+from ..show.mesh.file import find_format
+from ..show.picture.files import STILLS
+from ..show.picture.make import check_packages
+from ..util.outputs import OutputError, write_together
+from .output import plot_bytes
 from .playing import Played
-from .plot import plot_bytes
 from .rows import csv_bytes
 from .values import Traced
 

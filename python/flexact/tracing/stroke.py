@@ -9,13 +9,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..analysis.result import Result
 from ..core.arrays import FloatArray
-from ..drawing.inner_nodes import poses_with_inner_nodes
-from ..drawing.path import pose_in
-from ..drawing.selection import Selection
 from ..model.configuration import Configuration
-from ..result.following import Followed, Held, Station
-from ..result.result import Result
+from ..motion import Followed, Held, Station
+from ..show.drawing.inner_nodes import poses_with_inner_nodes
+from ..show.drawing.path import pose_in
+from ..show.drawing.selection import Selection
 from .drive import Drive, drive_of
 from .found import Found, WayBetween, merged
 from .names import ROTATION, Names

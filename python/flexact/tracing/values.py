@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.frozen import Frozen
+from ..analysis.locate import position_of
+from ..analysis.result import Result
+from ..analysis.verdict import Verdict
 from ..core.arrays import FloatArray
-from ..drawing.pose import Pose
-from ..drawing.selection import Selection
 from ..model.configuration import Configuration
-from ..result.following import Stop
-from ..result.handles import position_of
-from ..result.result import Result
-from ..result.verdict import Verdict
+from ..motion import Stop
+from ..show.drawing.drawing_pose import Pose
+from ..show.drawing.selection import Selection
+from ..util.records import Frozen
 
 
 @dataclass(frozen=True, eq=False)

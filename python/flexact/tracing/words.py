@@ -6,8 +6,7 @@ from __future__ import annotations
 import math
 from itertools import groupby
 
-from ..result.following import Ending, Stop
-from ..text.naming import (
+from ..analysis.naming import (
     counted,
     counts_in_words,
     freedom_in_words,
@@ -15,8 +14,9 @@ from ..text.naming import (
     motion_in_words,
     named_element,
 )
-from ..text.places import listed, with_article
-from ..text.sentences import plain
+from ..analysis.places import listed, with_article
+from ..analysis.sentences import plain
+from ..motion import Ending, Stop
 from .drive import drive_unit
 from .names import ROTATION
 from .values import DeadPoint, Step, Traced, Way

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ...analysis.order import without_sense
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part, PartKind
-from ...result.order import without_sense
-from ...result.result import Result
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Figure, are_one, half_turned
 from .in_common import Common, in_common

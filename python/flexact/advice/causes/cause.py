@@ -8,9 +8,9 @@ from enum import Enum
 
 import numpy as np
 
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
+from ...util.records import Frozen
 from ..proposal import Proposal
 
 

@@ -8,10 +8,10 @@ from itertools import chain
 
 import numpy as np
 
-from ...base.cached import cached_property
+from ...analysis.modes import Motion
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
-from ...result.modes import Motion
-from ...result.result import Result
+from ...util.cached import cached_property
 from ..proposal import Proposal
 from .cause import Cause, CauseKind, Causes, Relation
 from .generic import generic_rank

@@ -7,9 +7,9 @@ from itertools import combinations
 
 import numpy as np
 
+from ...analysis.result import Result
 from ...core.elements import Class
 from ...model.parts.parts import PartKind, natural
-from ...result.result import Result
 
 
 def clusters_of(result: Result) -> tuple[frozenset[int], ...]:

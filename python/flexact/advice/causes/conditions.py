@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.result import Result
 from ...core.arrays import BoolArray, FloatArray
 from ...model.parts.parts import Part, PartKind
-from ...result.result import Result
 from .cause import LineKind, Relation, RelationKind
 from .generic import Geometry
 from .limbs import Limbs, position_of_hinge

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ...analysis.result import Result
 from ...core.elements import Class
 from ...model.parts.parts import Part
-from ...result.result import Result
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Figures
 

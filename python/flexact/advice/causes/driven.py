@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.order import coordinate_key, row_key
+from ...analysis.result import Result
 from ...core.elements import AXES, Class, coordinate_name
-from ...result.order import coordinate_key, row_key
-from ...result.result import Result
 
 #: What is below this part of the largest, or of what is added up, is none.
 _REST = 1.0e-7

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.modes import SelfStress
+from ...analysis.order import without_sense
+from ...analysis.result import Result
+from ...analysis.wrenches import Wrench, WrenchKind
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind
-from ...result.modes import SelfStress
-from ...result.order import without_sense
-from ...result.result import Result
-from ...result.wrenches import Wrench, WrenchKind
 from .cause import LineKind, Relation
 from .in_common import in_common
 from .limbs import Limb, Limbs

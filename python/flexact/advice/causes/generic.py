@@ -11,16 +11,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...base.cached import cached_property
-from ...base.errors import FlexactError
-from ...base.frozen import Frozen
+from ...analysis.decomposition import Asked
+from ...analysis.result import Result
+from ...analysis.spaces import decompose
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind, Vector, element_kinds, length_table
 from ...model.data import ModelData
 from ...model.parts.bodies import groups_of
-from ...result.decompose import decompose
-from ...result.outcome import Asked
-from ...result.result import Result
+from ...util.cached import cached_property
+from ...util.errors import FlexactError
+from ...util.records import Frozen
 
 #: How far nodes are moved beside the members that meet there, and vectors beside their length.
 _MOVED, _TURNED = 0.4, 0.7

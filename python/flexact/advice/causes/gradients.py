@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...base.frozen import Frozen
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.basis import Basis
-from ...result.result import Result
+from ...util.records import Frozen
 from .exploded import Exploded
 from .generic import Geometry
 

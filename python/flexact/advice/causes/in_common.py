@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.order import without_sense
+from ...analysis.screws import ScrewKind
 from ...core.arrays import FloatArray
-from ...result.order import without_sense
-from ...result.screws import ScrewKind
 from .cause import RelationKind
 from .lines import Lines
 

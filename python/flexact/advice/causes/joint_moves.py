@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...base.errors import FlexactError
+from ...analysis.change import Change
+from ...analysis.order import without_sense
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind
-from ...result.order import without_sense
-from ...result.result import Result
-from ..change import Change
+from ...util.errors import FlexactError
 from ..proposal import Proposal, Purpose, tried
 from .gradients import Gradients
 from .lifts import node_key

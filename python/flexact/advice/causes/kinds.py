@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
 from ...model.parts.bodies import groups_of
+from ...util.records import Frozen
 from .gradients import Gradients
 
 #: What is below this part of the largest is none: differences are good to some 1e-8.

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...analysis.margin import NOTHING
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind, natural
-from ...result.margin import NOTHING
-from ...result.result import Result
 from .cause import Lift
 from .gradients import Gradients
 

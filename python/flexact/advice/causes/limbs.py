@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...base.cached import cached_property
+from ...analysis.decomposition import Outcome
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
-from ...result.outcome import Outcome
+from ...util.cached import cached_property
 
 
 class Limb(NamedTuple):

@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.screws import Screw, screw_of
 from ...core.arrays import FloatArray
-from ...result.screws import Screw, screw_of
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
 _SAME = 1.0e-6

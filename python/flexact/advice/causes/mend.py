@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...analysis.screws import Screw
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
-from ...result.screws import Screw
 from ..proposal import Proposal
 
 

@@ -11,16 +11,16 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ...analysis.change import Change
+from ...analysis.decomposition import Asked
+from ...analysis.modes import Motion
+from ...analysis.result import Result, result_of
+from ...analysis.screws import Screw
 from ...core.arrays import FloatArray
-from ...result.modes import Motion
-from ...result.outcome import Asked
-from ...result.result import Result, result_of
-from ...result.screws import Screw
-from ..change import Change
 from ..proposal import After, Purpose
 from .cause import Relation
 from .mend import Mend
-from .turn_search import Tried, TurnSearch
+from .realignment import Tried, TurnSearch
 
 #: How many mends are given, and out of how many: first those that stop what is special.
 _MOST, _MOST_LOOKED_AT = 3, 8

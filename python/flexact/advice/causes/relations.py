@@ -14,12 +14,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...analysis.modes import Motion, SelfStress
+from ...analysis.order import without_sense
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.parts.parts import Part, PartKind, natural
-from ...result.modes import Motion, SelfStress
-from ...result.order import without_sense
-from ...result.result import Result
 from .axes import of_axes
 from .cause import LineKind, Relation, RelationKind
 from .clusters import clusters_of

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...base.cached import cached_property
-from ...base.frozen import Frozen
+from ...analysis.modes import Motion, SelfStress
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
-from ...result.modes import Motion, SelfStress
-from ...result.result import Result
+from ...util.cached import cached_property
+from ...util.records import Frozen
 from .gradients import Gradients
 
 #: A told vector of which less than this lies in the space of the undivided mechanism is not there.

@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.modes import Motion, SelfStress
+from ...analysis.order import without_sense
+from ...analysis.result import Result
+from ...analysis.screws import Screw, ScrewKind
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part, PartKind
-from ...result.modes import Motion, SelfStress
-from ...result.order import without_sense
-from ...result.result import Result
-from ...result.screws import Screw, ScrewKind
 from .cause import LineKind, Relation, RelationKind
 from .force_lines import pushes_on
 from .limbs import Limb, Limbs

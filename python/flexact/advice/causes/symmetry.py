@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.order import without_sense
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
-from ...result.order import without_sense
-from ...result.result import Result
 from .cause import LineKind, Relation, RelationKind
 
 #: Of more joints no symmetry is looked for.

@@ -12,11 +12,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...base.cached import cached_property
-from ...base.frozen import Frozen
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
-from ...result.result import Result
+from ...util.cached import cached_property
+from ...util.records import Frozen
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
 from .generic import Geometry, rank_at

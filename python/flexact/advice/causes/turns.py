@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.change import Change
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import PartKind
-from ...result.result import Result
-from ..change import Change
 from .limbs import Limb, Limbs
 
 #: Components below this part of the size of the mechanism are zero.

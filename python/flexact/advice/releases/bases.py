@@ -15,7 +15,7 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...model.parts.bodies import groups_of
 from .echelon import echelon_of
-from .minors import (
+from .matroid import (
     CLEAR,
     FAIR,
     LARGE,

@@ -19,12 +19,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ...analysis.result import Result
+from ...analysis.weights import row_duals
 from ...core.arrays import FloatArray
 from ...core.elements import Dual, Role, dual_table, role_table
 from ...model.parts.parts import PartKind
-from ...result.result import Result
-from ...result.weights import row_duals
-from .reach import Places, Reach
+from .candidates import Places, Reach
 
 #: Stresses below this part of the largest of a self-stress are none.
 _NOTHING = 1.0e-7

@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...base.errors import FlexactError
-from ...result.result import Result
-from ...result.verdict import Alternative
-from ..change import Change
+from ...analysis.change import Change
+from ...analysis.result import Result
+from ...analysis.verdict import Alternative
+from ...util.errors import FlexactError
 from .bases import count_bases
-from .minors import Judge, Rows, TooManyError
-from .reach import Reach
+from .candidates import Reach
+from .matroid import Judge, Rows, TooManyError
 from .stands import changed
 
 #: Larger counts are not given: readers of JSON may take them for other numbers.

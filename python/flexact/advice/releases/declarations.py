@@ -7,19 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.frozen import Frozen
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
-from ...result.result import Result
+from ...util.records import Frozen
 from ..proposal import Proposal, Purpose, nothing
-from . import reach as reaches
-from .candidates import Candidate, candidates
+from . import candidates as reaches
+from .candidates import Places, Reach
 from .counting import counted
 from .kinds import LINK, tier_of_node
-from .reach import Places, Reach
+from .releases_candidates import Candidate, candidates
 from .stands import as_it_stands, complete
 from .steps import by_steps
-from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
+from .verify import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many sets of released deformations that may be held are listed.
 _MOST_HELD = 4

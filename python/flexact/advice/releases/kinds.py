@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...analysis.change import Change
+from ...analysis.result import Result
 from ...core.elements import NodeKind, Role, role_table
 from ...model.parts.parts import PartKind
-from ...result.result import Result
-from ..change import Change
 
 #: What is changed first, last and in between.
 FLEXURE, BODY, LINK = 0, 1, 2

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.frozen import Frozen
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
-from ...result.result import Result
+from ...util.records import Frozen
 from ..proposal import Proposal, Purpose, nothing
-from . import reach as reaches
-from .candidates import candidates
+from . import candidates as reaches
+from .candidates import Places, Reach
 from .cost import cost_of
 from .counting import counted
 from .kinds import BODY, LINK, tier_of_element
-from .reach import Places, Reach
+from .releases_candidates import candidates
 from .stands import as_it_stands, complete
 from .steps import by_steps
-from .trying import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
+from .verify import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
 
 #: How many supports that may be freed are listed.
 _MOST_SUPPORTS = 4

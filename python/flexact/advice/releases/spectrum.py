@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...analysis.result import Result
+from ...analysis.result_sparse_basis import index_of
 from ...core.arrays import FloatArray
 from ...model.parts.parts import PartKind
-from ...result.result import Result
-from ...result.sparse_basis import index_of
 
 #: Rows and columns of D(c) up to which bodies are taken as what they are.
 _MOST = 250

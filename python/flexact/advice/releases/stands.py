@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...analysis.change import Change
+from ...analysis.decomposition import Asked
+from ...analysis.failing import AnalysisError
+from ...analysis.result import Result
+from ...analysis.spaces import decompose
 from ...model.data import ModelData
 from ...model.parts.condensing import as_given
-from ...result.decompose import decompose
-from ...result.failing import AnalysisError
-from ...result.outcome import Asked
-from ...result.result import Result
-from ..change import Change
 from ..proposal import analysed
 
 #: Rows and columns of D(c) up to which null vectors are computed that were left out.

@@ -11,16 +11,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...base.errors import FlexactError
+from ...analysis.change import Change
+from ...analysis.result import Result
+from ...analysis.result_sparse_basis import groups_of
 from ...core.arrays import FloatArray
 from ...core.basis import Basis
-from ...result.result import Result
-from ...result.sparse_basis import groups_of
-from ..change import Change
+from ...util.errors import FlexactError
 from ..proposal import Proposal, Purpose, after
+from .candidates import Places, Reach
 from .counting import joined
 from .echelon import echelon_of
-from .reach import Places, Reach
 from .stands import changed
 
 #: Rows of D(c) of all analyses that are made.

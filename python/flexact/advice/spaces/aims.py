@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
+from ...util.records import Frozen
 from .families import SAME
 from .screw_space import ScrewSpace, complement
 

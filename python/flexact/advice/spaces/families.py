@@ -12,8 +12,8 @@ from enum import Enum
 
 import numpy as np
 
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray
+from ...util.records import Frozen
 
 #: Directions off by so little [rad], or lines by this part of the characteristic length, are one.
 SAME = 1.0e-4

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
-from ...result.screws import sense_of
 from .families import Family, FamilyKind
 
 

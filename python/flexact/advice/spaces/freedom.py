@@ -15,18 +15,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...base.cached import cached_property
+from ...analysis.decomposition import Asked
+from ...analysis.result import Result
+from ...analysis.spaces import decompose
+from ...analysis.weights import column_weights
 from ...core.arrays import FloatArray
 from ...core.elements import Class
 from ...core.raw import RawAnalysis
-from ...diagnostics.errors import model_error
+from ...deck.errors import model_error
 from ...model.data import ModelData
-from ...result.decompose import decompose
-from ...result.outcome import Asked
-from ...result.result import Result
-from ...result.weights import column_weights
+from ...util.cached import cached_property
 from .screw_space import ScrewSpace, canonical
-from .subjects import Subject
+from .spaces_subjects import Subject
 
 
 class _Rows(NamedTuple):

@@ -7,18 +7,18 @@ import math
 
 import numpy as np
 
+from ...analysis.change import Change
+from ...analysis.freedoms import Freedom
+from ...analysis.result import Result
+from ...analysis.screws import ScrewKind, screw_of
 from ...core.arrays import FloatArray
 from ...core.elements import Class
-from ...result.freedoms import Freedom
-from ...result.result import Result
-from ...result.screws import ScrewKind, screw_of
-from ..change import Change
 from .aims import Aim
 from .freedom import Freed
 from .screw_space import ScrewSpace
-from .subjects import Subject
+from .spaces_subjects import Subject
 from .wanted import Wanted, wanted_of
-from .written import Written
+from .wanted_motion import Written
 
 #: A body whose part in a motion is less stands still.
 _STILL = 1.0e-6

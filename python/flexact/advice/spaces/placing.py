@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 
+from ...analysis.change import AddedSheet, AddedWire
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
-from ...result.result import Result
-from ..change import AddedSheet, AddedWire
-from .attachments import Attachment, Site
-from .subjects import Subject
+from .spaces_subjects import Subject
+from .subjects import Attachment, Site
 
 #: Of the characteristic length, places of new nodes have so many digits.
 _DIGITS = 12

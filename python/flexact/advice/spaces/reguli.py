@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
-from ...result.screws import sense_of
 from .families import SAME, Family, FamilyKind
 from .flat_families import line_of
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...base.cached import cached_property
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, floats
+from ...util.cached import cached_property
+from ...util.records import Frozen
 from .families import SAME, Family
-from .screw_system import families_of, parted, span_of_lines
+from .screws import families_of, parted, span_of_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class ScrewSpace(Frozen):
 
     @cached_property
     def families(self) -> tuple[Family, ...]:
-        """The lines, directions and screws in it (`flexact.advice.spaces.screw_system`)."""
+        """The lines, directions and screws in it (`flexact.advice.spaces.screws`)."""
         return families_of(self.scaled, self.about, self.length)
 
     @property

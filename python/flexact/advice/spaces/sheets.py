@@ -14,16 +14,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.change import Change
 from ...core.arrays import FloatArray
-from ..change import Change
 from ..proposal import Proposal
 from .aims import Aim
-from .attachments import Attachment, Site
 from .families import SAME, Family, FamilyKind
+from .flexures import LINK
 from .freedom import Freed
-from .lines import LINK
 from .placing import sheet_at
 from .screw_space import ScrewSpace
+from .subjects import Attachment, Site
 from .trials import proposed
 
 #: How many sheets are proposed, and tried until so many are found.

@@ -8,26 +8,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.frozen import Frozen
-from ...base.plain_text import in_short
+from ...analysis.carriers import Joint
+from ...analysis.change import Change
+from ...analysis.result import Result
 from ...core.arrays import FloatArray
-from ...diagnostics.errors import model_error
+from ...deck.errors import model_error
 from ...model.parts.parts import Part
-from ...result.carriers import Joint
-from ...result.result import Result
-from ..change import Change
+from ...util.plain_text import in_short
+from ...util.records import Frozen
 from ..proposal import Proposal
 from .aims import Aim
-from .attachments import Site
 from .families import Family
 from .freedom import Freed
 from .intent import declared_of, not_wanted
 from .screw_space import ScrewSpace
 from .sheets import sheets_for
-from .subjects import Subject, rank_of, subject_named, subjects_of
+from .spaces_subjects import Subject, rank_of, subject_named, subjects_of
+from .subjects import Site
 from .wanted import Wanted, wanted_of
+from .wanted_motion import read
 from .wires import wires_for
-from .written import read
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ def spaces_of(
             moves in most independent ways, then the largest; joints with an orientation serve
             where no body is declared or there is none, that at which most parts meet first.
         wanted: What it is meant to do, such as "stage: translation z"
-            (`flexact.advice.spaces.written`).
+            (`flexact.advice.spaces.wanted_motion`).
         wires: Whether wires and sheets are tried; each takes an analysis.
 
     Returns:

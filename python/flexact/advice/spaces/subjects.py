@@ -1,158 +1,192 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Of which body a freedom space is asked: by its name, or the one that a designer means."""
+"""Where on a body, and along which lines, wires may be put."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from ...base.plain_text import in_short
+from ...analysis.result import Result
+from ...analysis.screws import ROUNDING
 from ...core.arrays import FloatArray
-from ...core.elements import Class, NodeKind
-from ...diagnostics.errors import ModelError, model_error
-from ...model.names import nearest
-from ...model.parts.parts import Part, natural
-from ...result.carriers import Joint
-from ...result.result import Result
+from ...model.parts.parts import PartKind, natural
+from ...util.cached import cached_property
+from .families import Family, FamilyKind
+from .screw_space import ScrewSpace
+from .spaces_subjects import Subject
 
-#: Where so many parts meet they may be the two leaves of a folded sheet.
-_OF_A_FOLD = 2
+#: Places nearer than this part of the characteristic length are one.
+_SAME_PLACE = 1.0e-6
+#: A wire is so long, in characteristic lengths, where there is no flexure to take it from.
+_LENGTH = 0.5
+#: Directions of members that are looked at.
+_MOST_DIRECTIONS, _MOST_CROSSED = 24, 6
 
 
-class Subject(NamedTuple):
-    """A body, or a joint with an orientation, and its nodes in the model as given."""
+class Attachment(NamedTuple):
+    """A point of a body, or one that a link may carry."""
 
-    body: Part | Joint
-    positions: tuple[int, ...]
-    """Indices of the position nodes that it carries."""
-    orientations: tuple[int, ...]
-    """Indices of the orientation nodes that turn with it."""
+    place: FloatArray
+    """(3,) [m]."""
+    position: int
+    """Index of a position node of the body: that at the place, or the nearest."""
+    orientation: int
+    """Index of an orientation node of the body, of those that stand there if there is one."""
+    is_there: bool
+    """Whether the body has a node at the place."""
+    key: tuple[object, ...]
+    """By name and place, to decide between equals."""
+
+
+class Site:
+    """A body and what is around it; each answer is found when it is asked for."""
+
+    def __init__(self, result: Result, subject: Subject) -> None:
+        """Keep the result and the body."""
+        self.result = result
+        self.subject = subject
+        self.middle = subject.middle(result)
+        self._values = result.given.arrays.node_value[:3].T
 
     @property
-    def name(self) -> str:
-        """What it is called."""
-        return str(self.body)
+    def near(self) -> float:
+        """Points nearer than this are one [m]."""
+        return _SAME_PLACE * self.result.characteristic_length
+
+    @cached_property
+    def own(self) -> tuple[Attachment, ...]:
+        """The points of the body, each place once, those with names first."""
+        made: list[Attachment] = []
+        for node in sorted(self.subject.positions, key=self._key):
+            place = self._values[node]
+            if all(np.linalg.norm(place - other.place) > self.near for other in made):
+                made.append(Attachment(place, node, self._turning(node), True, self._key(node)))
+        return tuple(made)
+
+    def carried(self, spaces: Sequence[ScrewSpace]) -> tuple[Attachment, ...]:
+        """Points that a link would carry: where lines of these spaces come near to the body."""
+        places = [self.middle]
+        for family in (each for space in spaces for each in space.lines):
+            places += [self._nearest(family, near) for near in (self.middle, *self._own_places)]
+            places += list(self._feet(family, self.middle)) if len(family.points) > 2 else []
+        return self._carried(places)
 
     @property
-    def is_body(self) -> bool:
-        """Whether it is a body, not a joint."""
-        return isinstance(self.body, Part)
+    def reached(self) -> tuple[Attachment, ...]:
+        """Points that a longer link would carry, along and across flexures from the middle."""
+        arm = _LENGTH * self.result.characteristic_length
+        ways = (*self.directions, *np.eye(3)[: 2 if self.result.given.planar else 3])
+        return self._carried(
+            [self.middle + side * arm * each for each in ways for side in (1.0, -1.0)]
+        )
 
-    def middle(self, result: Result) -> FloatArray:
-        """(3,) the mean of its points [m]."""
-        values = result.given.arrays.node_value[:3, list(self.positions)]
-        made: FloatArray = values.mean(axis=1)
+    def _carried(self, places: Sequence[FloatArray]) -> tuple[Attachment, ...]:
+        made: list[Attachment] = []
+        for place in places:
+            there = [each.place for each in (*self.own, *made)]
+            if all(np.linalg.norm(place - other) > self.near for other in there):
+                base = min(self.own, key=lambda each: self._far(each, place))
+                key = ((True,), (), (len(made),))
+                made.append(Attachment(place, base.position, base.orientation, False, key))
+        return tuple(made)
+
+    @property
+    def _own_places(self) -> list[FloatArray]:
+        return [each.place for each in self.own]
+
+    def _far(self, one: Attachment, place: FloatArray) -> tuple[object, ...]:
+        return round(float(np.linalg.norm(one.place - place)) / self.near), one.key
+
+    def _key(self, node: int) -> tuple[object, ...]:
+        """Named points first, then those where named parts end, then by place."""
+        parts = self.result.parts
+        name = parts.name_of_point(node)
+        here = [part.name for part in parts.at(node) if part.kind is not PartKind.BODY]
+        place = tuple((np.round(self._values[node] / self.near) + 0.0).tolist())
+        return (not name,), natural(name or next(iter(here), "")), place
+
+    def _turning(self, position: int) -> int:
+        stands = self.result.parts.position_of
+        own = self.subject.orientations
+        return next((node for node in own if stands.get(node) == position), own[0])
+
+    def _nearest(self, family: Family, place: FloatArray) -> FloatArray:
+        """The point nearest to a place through which lines of a family go."""
+        arm = place - family.point
+        if family.kind in (FamilyKind.LINE, FamilyKind.MEETING):
+            return family.point + (arm @ family.direction) * family.direction
+        if family.kind in (FamilyKind.PENCIL, FamilyKind.BUNDLE):
+            return family.point
+        if family.kind in (FamilyKind.PLANE, FamilyKind.PARALLELS_IN_PLANE):
+            return place - (arm @ family.normal) * family.normal
+        if len(family.points):
+            feet = self._feet(family, place)
+            made: FloatArray = feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))]
+            return made
+        return place
+
+    @staticmethod
+    def _feet(family: Family, place: FloatArray) -> FloatArray:
+        """(n, 3) the point of each line of a family that is nearest to a place."""
+        arms = place - family.points
+        along = np.sum(arms * family.directions, axis=1)[:, None]
+        made: FloatArray = family.points + along * family.directions
+        return made
+
+    @cached_property
+    def directions(self) -> FloatArray:
+        """(n, 3) unit vectors that a designer uses already, by the names of their parts.
+
+        Along flexures and hinges, across sheets, and across any two of the first of these.
+        """
+        parts, frames = self.result.parts, self.result.given.frames.frame
+        made: list[FloatArray] = []
+        for part in sorted(parts.all, key=lambda one: natural(one.name)):
+            if part.kind is PartKind.BODY or len(made) >= _MOST_DIRECTIONS:
+                continue
+            axes = frames[part.elements[0]].T
+            if len(part.ends) == 2:
+                _add(np.diff(self._values[list(part.ends)], axis=0)[0], made)
+            # Across a wire or about a hinge no direction is different from others.
+            used = axes[1:] if part.kind is PartKind.SHEET else axes[:1]
+            for axis in used if part.kind in (PartKind.SHEET, PartKind.HINGE) else ():
+                _add(axis, made)
+        for one, other in itertools.combinations(made[:_MOST_CROSSED], 2):
+            _add(np.cross(one, other), made)
+        return np.array(made).reshape(-1, 3)
+
+    @cached_property
+    def length(self) -> float:
+        """How long a new wire is: as the flexures are, the median [m]."""
+        sizes = [
+            float(np.linalg.norm(np.diff(self._values[list(part.ends)], axis=0)))
+            for part in self.result.parts.all
+            if part.kind in (PartKind.WIRE, PartKind.SHEET, PartKind.BAR) and len(part.ends) == 2
+        ]
+        return float(np.median(sizes)) if sizes else _LENGTH * self.result.characteristic_length
+
+    def ground(self, place: FloatArray, direction: FloatArray) -> FloatArray:
+        """(3,) the other end of a wire from a place: on the side where there is most room [m]."""
+        used = self.result.parts.data.arrays.node_kind <= 2
+        nodes = self._values[used]
+        mean = nodes.mean(axis=0)
+        sides = []
+        for sense in (1.0, -1.0):
+            end = place + sense * self.length * direction
+            room = float(np.min(np.linalg.norm(nodes - end, axis=1))) / self.length
+            outward = sense * float((place - mean) @ direction) / self.length
+            sides.append((round(outward, 6), round(room, 6), sense, end))
+        # Outward, unless something is there already.
+        sides.sort(key=lambda side: (side[1] > 1.0e-3, *side[:3]), reverse=True)
+        made: FloatArray = sides[0][3]
         return made
 
 
-def subjects_of(result: Result) -> tuple[Subject, ...]:
-    """All bodies, then all joints that have an orientation, without those that are ground."""
-    return tuple(each for each in _all(result) if not is_ground(result, each))
-
-
-def _all(result: Result) -> Iterator[Subject]:
-    parts = result.parts
-    for k, body in enumerate(parts.bodies):
-        yield Subject(parts.of_body(k), body.positions, body.orientations)
-    for joint in result.carriers.joints:
-        if joint.position is not None and joint.orientation is not None:
-            yield Subject(joint, (joint.position,), (joint.orientation,))
-
-
-def is_ground(result: Result, subject: Subject) -> bool:
-    """Whether a support holds it in all that it has."""
-    held = result.parts.is_held
-    fixed = [position for position in subject.positions if held(position)]
-    return bool(fixed) and any(map(held, subject.orientations))
-
-
-def subject_named(result: Result, name: str) -> Subject:
-    """The body or joint of a name; of a point on a body the body.
-
-    Raises:
-        ModelError: there is none, it is no body, or there are several.
-    """
-    every = tuple(_all(result))
-    for spelling in (name, f"the {name}", name.removeprefix("the ")) if name.strip() else ():
-        bodies = [each for each in every if each.is_body and each.name == spelling]
-        found = bodies or _of_point(result, every, spelling)
-        if not found:
-            found = [each for each in every if each.name == spelling]
-        if len(found) > 1:
-            raise model_error(
-                "ambiguous-part",
-                f"{len(found)} bodies are called {in_short(name)}",
-                "give each a name of its own",
-            )
-        if found:
-            return found[0]
-    raise _no_body(result, every, name)
-
-
-def _of_point(result: Result, every: tuple[Subject, ...], name: str) -> list[Subject]:
-    parts = result.parts
-    kinds = result.given.arrays.node_kind
-    places = [
-        node
-        for node in np.flatnonzero(kinds <= NodeKind.POSITION).tolist()
-        if parts.name_of_point(node) == name
-    ]
-    return [each for each in every if any(node in each.positions for node in places)]
-
-
-def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelError:
-    others = [part for part in result.parts.all if part.name == name]
-    if others:
-        what = f"{in_short(name)} is no body but a {others[0].kind}"
-    elif name.strip() and any(
-        result.parts.name_of_point(k) == name for k in range(len(result.given.node_names))
-    ):
-        what = f"the point {in_short(name)} has no orientation: nothing there can turn"
-    else:
-        what = f"there is no body called {in_short(name)}"
-    names = list(dict.fromkeys(each.name for each in every if each.is_body))
-    names += [each.name for each in every if not each.is_body and _is_named(each)]
-    near = nearest(name, names) or sorted(names, key=natural)[:3]
-    are = "is" if len(near) == 1 else "are"
-    hint = f"there {are} {', '.join(map(in_short, near))}" if near else "this mechanism has no body"
-    return model_error("no-body", what, hint)
-
-
-def _is_named(subject: Subject) -> bool:
-    return isinstance(subject.body, Joint) and bool(subject.body.name)
-
-
-class Rank(NamedTuple):
-    """By what the body that a designer means is found; the first that differs decides."""
-
-    declared: int
-    """Less how many coordinates of it are declared independent."""
-    is_joint: bool
-    attached: int
-    """Of joints less how many parts meet there, if more than at a fold."""
-    freedom: int
-    """Less in how many independent ways it moves."""
-    size: float
-    """Less its extent, in parts of the characteristic length."""
-    name: tuple[tuple[bool, int, str, str], ...]
-    place: tuple[float, ...]
-
-
-def rank_of(result: Result, subject: Subject, freedom: int) -> Rank:
-    """The body with the least rank is the one that is meant when none is named."""
-    arrays, length = result.given.arrays, result.characteristic_length
-    nodes = [*subject.positions, *subject.orientations]
-    declared = int(np.sum(arrays.coordinate_class[:, nodes] == Class.INDEPENDENT))
-    places = arrays.node_value[:3, list(subject.positions)].T / length
-    size = float(np.linalg.norm(np.ptp(places, axis=0)))
-    parts = 0 if isinstance(subject.body, Part) else len(subject.body.parts)
-    parts = parts if parts > _OF_A_FOLD else 0
-    name = subject.body.name
-    if isinstance(subject.body, Part) and not subject.body.is_named:
-        name = ""
-    middle = tuple((np.round(places.mean(axis=0), 9) + 0.0).tolist())
-    return Rank(
-        -declared, not subject.is_body, -parts, -freedom, -round(size, 9), natural(name), middle
-    )
+def _add(axis: FloatArray, made: list[FloatArray]) -> None:
+    """Keep a direction that is none of those."""
+    size = float(np.linalg.norm(axis))
+    if size > 0.0 and all(abs(axis @ other) < (1.0 - ROUNDING) * size for other in made):
+        made.append(axis / size)

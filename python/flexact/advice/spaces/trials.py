@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...base.errors import FlexactError
-from ...result.outcome import Asked
-from ...result.result import Result, result_of
-from ..change import Change
+from ...analysis.change import Change
+from ...analysis.decomposition import Asked
+from ...analysis.result import Result, result_of
+from ...util.errors import FlexactError
 from ..proposal import After, Proposal, Purpose
 from .aims import Aim
 from .freedom import Freed
-from .subjects import Subject
+from .spaces_subjects import Subject
 
 
 def proposed(

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.frozen import Frozen
-from ...base.plain_text import in_short
+from ...analysis.result import Result
+from ...analysis.screws import ScrewKind
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
-from ...diagnostics.errors import model_error
+from ...deck.errors import model_error
 from ...model.names import nearest
-from ...result.result import Result
-from ...result.screws import ScrewKind
+from ...util.plain_text import in_short
+from ...util.records import Frozen
 from .screw_space import ScrewSpace
-from .written import Written, numbers, unreadable
+from .wanted_motion import Written, numbers, unreadable
 
 #: A motion as it is typed, with few digits, is one of the body where so little of it is not.
 _AS_TYPED = 1.0e-3

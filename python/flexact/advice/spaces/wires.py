@@ -9,13 +9,13 @@ from itertools import islice
 
 import numpy as np
 
-from ..change import Change
+from ...analysis.change import Change
 from ..proposal import Proposal
 from .aims import Aim
-from .attachments import Site
+from .flexures import Line, lines_for
 from .freedom import Freed
-from .lines import Line, lines_for
 from .placing import wire_at
+from .subjects import Site
 from .trials import proposed
 
 #: How many wires, or sets of wires, are proposed.

@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...base.cached import cached_property
-from ...base.frozen import Frozen
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ...core.elements import Class
-from ..appearance import Appearance
+from ...util.cached import cached_property
+from ...util.records import Frozen
+from ..attributes import Appearance
 from ..data import ModelData
 from ..names import part_name
 from .chains import Chain

@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...base.cached import cached_property
-from ...base.plain_text import harmless, in_short
 from ...core.arrays import IntArray
 from ...core.elements import Class, Member, NodeKind
-from ...diagnostics.errors import model_error
+from ...deck.errors import model_error
+from ...util.cached import cached_property
+from ...util.plain_text import harmless, in_short
 from ..data import ModelData
 from ..names import own_number, part_name
 from .bodies import Body, bodies_of

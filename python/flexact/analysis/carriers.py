@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What moves in a mechanism: bodies, joints between parts, and what is inside a part."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..core.elements import NodeKind
+from ..model.parts.parts import Part, PartKind, Parts, natural
+from ..util.cached import cached_property
+
+#: How many of the parts that meet at a joint its name names.
+_MOST_NAMED = 3
+_FLEXURES = (PartKind.SHEET, PartKind.WIRE)
+
+
+class Joint(NamedTuple):
+    """A point that belongs to no body: where parts meet, or where one ends."""
+
+    position: int | None
+    """Index of its position node in the model as given; None where its place is not known."""
+    orientation: int | None
+    """Index of its orientation node; None where it has none."""
+    parts: tuple[Part, ...]
+    """The parts that meet there, by name."""
+    name: str
+    """Its name in the model; empty without one."""
+
+    @property
+    def is_read_only(self) -> bool:
+        """It holds no arrays, and where many parts meet many results hold it."""
+        return True
+
+    @property
+    def is_fold(self) -> bool:
+        """Whether two sheets or wires meet there, and nothing else.
+
+        Where more meet it is what they carry: a body that is a point.
+        """
+        return len(self.parts) == 2 and all(part.kind in _FLEXURES for part in self.parts)
+
+    def __str__(self) -> str:
+        """Its name, or what meets there."""
+        if self.name:
+            return self.name
+        names = [part.name for part in self.parts]
+        if not names:
+            return "a joint"
+        if len(names) > _MOST_NAMED:
+            names[_MOST_NAMED - 1 :] = [f"{len(names) - _MOST_NAMED + 1} more"]
+        if not names:
+            return "a free joint"
+        return f"the joint of {' and '.join(names)}" if len(names) > 1 else f"the end of {names[0]}"
+
+
+class Inside(NamedTuple):
+    """Nodes that belong to one sheet or wire alone."""
+
+    part: Part
+    nodes: tuple[int, ...]
+    """Indices of position and orientation nodes in the model as given."""
+
+
+class Carriers:
+    """The bodies, joints and insides of a model; each is found when it is asked for.
+
+    An inside is the inner nodes of a row of beams, or an orientation that is one part's alone
+    where it ends at others: the end of a wire that can spin.
+    """
+
+    def __init__(self, parts: Parts) -> None:
+        """Keep the parts of the model as given."""
+        self.parts = parts
+        self.data = parts.data
+
+    @cached_property
+    def bodies(self) -> tuple[Part, ...]:
+        """The part of each of `parts.bodies`."""
+        return tuple(self.parts.of_body(k) for k in range(len(self.parts.bodies)))
+
+    @cached_property
+    def inner(self) -> frozenset[int]:
+        """The nodes of all insides."""
+        return frozenset(node for inside in self.insides for node in inside.nodes)
+
+    @cached_property
+    def between_ends(self) -> frozenset[int]:
+        """The nodes that lie between the ends of flexures: those of insides and of folds."""
+        folds = (joint for joint in self.joints if joint.is_fold)
+        nodes = (node for joint in folds for node in (joint.position, joint.orientation))
+        return self.inner.union(node for node in nodes if node is not None)
+
+    @cached_property
+    def joints(self) -> tuple[Joint, ...]:
+        """By name, then by place."""
+        arrays = self.data.arrays
+        taken = {node for body in self.parts.bodies for node in body.orientations} | self.inner
+        made = []
+        with_orientation = set()
+        for node in range(arrays.node_number.size):
+            if arrays.node_kind[node] <= NodeKind.POSITION:
+                continue
+            place = self.parts.place_of(node)
+            if place is not None and node not in taken:
+                with_orientation.add(place)
+            if node not in taken:
+                made.append(self.joint(place, node))
+        carried = {node for body in self.parts.bodies for node in body.positions}
+        known = taken | carried | with_orientation
+        for node in range(arrays.node_number.size):
+            if arrays.node_kind[node] <= NodeKind.POSITION and node not in known:
+                made.append(self.joint(node, None))
+        return tuple(sorted(made, key=self._key))
+
+    @cached_property
+    def insides(self) -> tuple[Inside, ...]:
+        """By part."""
+        made: dict[Part, list[int]] = {}
+        for chain in self.data.chains:
+            part = self.parts.of_element(chain.elements[0])
+            made.setdefault(part, []).extend((*chain.positions[1:-1], *chain.orientations[1:-1]))
+        for node, part in self.own_ends:
+            made.setdefault(part, []).append(node)
+        found = (Inside(part, tuple(sorted(set(nodes)))) for part, nodes in made.items())
+        return tuple(sorted(found, key=lambda inside: (natural(inside.part.name), inside.nodes)))
+
+    @cached_property
+    def own_ends(self) -> list[tuple[int, Part]]:
+        """Orientations that one part alone has, where other parts or a support hold its place."""
+        slots = self.data.arrays.element_node - 1
+        users: dict[int, set[int]] = {}
+        for k in (1, 3):
+            for element in np.flatnonzero(slots[k] >= 0).tolist():
+                users.setdefault(int(slots[k, element]), set()).add(element)
+        made = []
+        for node, elements in sorted(users.items()):
+            place = self.parts.place_of(node)
+            if len(elements) > 1 or place is None:
+                continue
+            part = self.parts.of_element(*elements)
+            if part.kind in (PartKind.BODY, PartKind.HINGE):
+                continue
+            if self.parts.is_held(place) or any(other != part for other in self.parts.at(place)):
+                made.append((node, part))
+        return made
+
+    def place_of(self, joint: Joint) -> FloatArray | None:
+        """(3,) where a joint is [m]."""
+        return None if joint.position is None else self.place(joint.position)
+
+    def place(self, position: int) -> FloatArray:
+        """(3,) where a position node is [m]."""
+        value: FloatArray = self.data.arrays.node_value[:3, position]
+        return value
+
+    def joint(self, position: int | None, orientation: int | None) -> Joint:
+        """What is at a position node and turns with an orientation node."""
+        here = () if position is None else self.parts.at(position)
+        name = "" if position is None else self.parts.name_of_point(position)
+        return Joint(position, orientation, here, name)
+
+    def _key(self, joint: Joint) -> tuple[object, ...]:
+        place = self.place_of(joint)
+        rounded = () if place is None else tuple(np.round(place / self._step, 9).tolist())
+        here = next((part.name for part in joint.parts if part.is_named), "")
+        return natural(joint.name or here), rounded, joint.orientation or -1
+
+    @cached_property
+    def _step(self) -> float:
+        """A length by which places are compared."""
+        sizes = np.abs(self.data.arrays.node_value[:3, self._is_position])
+        return float(sizes.max(initial=0.0)) or 1.0
+
+    @cached_property
+    def _is_position(self) -> np.ndarray:
+        return np.asarray(self.data.arrays.node_kind <= NodeKind.POSITION)

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How certain the rank of D(c) is, and what else could be true: theory.md (22) to (28)."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from enum import Enum
+from typing import NamedTuple
+
+import numpy as np
+
+from .alternatives import alternatives_of
+from .decomposition import Outcome
+from .rank_evidence import STORED, Evidence
+from .verdict import Alternative, Certainty
+
+#: Values up to this multiple of the noise are looked at.
+NEAR = 100.0
+#: Of those, the ones up to this multiple of what storing the geometry makes of them are in doubt:
+#: a geometry that was itself computed has lost some bits more, and does not say so.
+CLEARLY = 30.0
+_EPSILON = float(np.finfo(np.float64).eps)
+#: Where motions and self-stresses of sound mechanisms both fade it is by 4 powers of ten at most;
+#: where a tiny value counts as zero, by 10 and more.
+_FADED = 7.0
+#: Values up to this multiple of what half a unit of the last digits makes are in doubt: digits
+#: may have been cut off, zeros at the end leave no trace, and the change is of first order.
+CUT_OFF = 2.0
+#: A unit of a third digit moves a singular value by less than this; see `sensitivity`.
+REACH_OF_DIGITS = 0.1
+
+
+class DoubtKind(str, Enum):
+    """Why a decision is not certain."""
+
+    UNCONFIRMED = "unconfirmed"
+    """No second route confirmed the rank."""
+    CLOSE_TO_NOISE = "close to noise"
+    """Values count as non-zero that storing the geometry may have made; `size`: the largest."""
+    DIGITS_EXPLAIN = "digits explain"
+    """Values count as non-zero that missing digits explain; `size`: what those may make."""
+    COORDINATES_ROUNDED = "coordinates rounded"
+    """Values up to `size` count as zero because the coordinates have few digits."""
+    TOLERANCE_GIVEN = "tolerance given"
+    """Values up to `size` count as zero because of the tolerance that was given."""
+    UNSEEN = "unseen"
+    """`values` are not zero in exact arithmetic, but too small for any digits that are computed."""
+    UNDECIDED = "undecided"
+    """`values` that count as zero are not zero for the numbers as they are, but may be meant."""
+    ZERO_ABOVE_STORING = "zero above storing"
+    """Values up to `size` count as zero, which storing the geometry does not explain."""
+    REMAINDER = "remainder"
+    """Of a motion and a self-stress `size` is left, of which rounding makes `explained`."""
+    FADING = "fading"
+    """Motions and self-stresses fade through `size` powers of ten."""
+
+
+_CODES = {
+    DoubtKind.UNCONFIRMED: "unconfirmed-rank",
+    DoubtKind.DIGITS_EXPLAIN: "rounded-geometry",
+    DoubtKind.COORDINATES_ROUNDED: "rounded-coordinates",
+    DoubtKind.TOLERANCE_GIVEN: "given-tolerance",
+}
+
+
+class Doubt(NamedTuple):
+    """A reason why the decision is not certain."""
+
+    kind: DoubtKind
+    values: int = 0
+    """How many of the smallest singular values that count as non-zero may be zero."""
+    zeros: int = 0
+    """How many of the largest that count as zero may not be."""
+    size: float = 0.0
+    explained: float = 0.0
+
+    @property
+    def code(self) -> str:
+        """Code of the warning that reports it."""
+        return _CODES.get(self.kind, "close-decision")
+
+
+class Assessment(NamedTuple):
+    """What is to be thought of a decision."""
+
+    certainty: Certainty
+    alternatives: tuple[Alternative, ...]
+    doubts: tuple[Doubt, ...]
+
+
+def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
+    """Whether the decision is certain.
+
+    It is in doubt where a value that counts as non-zero is within reach of how the geometry
+    was stored or typed, so that a change within the last digit would lower the rank; where
+    one that counts as zero is above the noise, or is not zero for the numbers as they are;
+    and where neither exact arithmetic nor the method has confirmed the rank. Of a certain one
+    whose rank is not that of the numbers to the last digit, (22), the latter has the alternative.
+    """
+    found = tuple(_doubts(outcome, evidence))
+    if not found:
+        return Assessment(Certainty.CERTAIN, alternatives_of(outcome, evidence, 0, 0)[:1], ())
+    lower = max(doubt.values for doubt in found)
+    higher = max(doubt.zeros for doubt in found)
+    return Assessment(Certainty.NEARLY, alternatives_of(outcome, evidence, lower, higher), found)
+
+
+def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+    raw = outcome.raw
+    is_proven = raw.proven_rank == outcome.rank
+    if not (raw.confirmed or is_proven):
+        yield Doubt(DoubtKind.UNCONFIRMED, values=1)
+    yield from _close_to_noise(outcome, evidence)
+    yield from _explained_by_digits(outcome, evidence)
+    if raw.unseen:
+        yield Doubt(DoubtKind.UNSEEN, values=raw.unseen)
+    if raw.undecided:
+        yield Doubt(
+            DoubtKind.UNDECIDED, zeros=raw.undecided, size=raw.left, explained=raw.explained
+        )
+    if not is_proven:
+        yield from _zeros_above_noise(outcome)
+        if raw.unjudged:
+            yield from _zeros_below_noise(outcome, evidence)
+
+
+def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+    near = _nonzeros_up_to(outcome, NEAR * outcome.raw.noise)
+    if not near:
+        return
+    looked_at = evidence.pairs[:near]
+    close = [pair for pair in looked_at if pair.value <= CLEARLY * pair.lift_of_storing]
+    count = looked_at.index(close[-1]) + 1 if close else 0
+    if near > len(looked_at) and count == len(looked_at):
+        count = near
+    if count:
+        size = max((pair.lift_of_storing for pair in close), default=outcome.raw.noise)
+        yield Doubt(DoubtKind.CLOSE_TO_NOISE, values=count, size=size)
+
+
+def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+    reach = min(REACH_OF_DIGITS, CUT_OFF * outcome.raw.reach_of_digits)
+    if not any(outcome.raw.pair_value <= reach):
+        return
+    every = evidence.pairs
+    lifted = [pair for pair in every if pair.value <= CUT_OFF * pair.lift_of_digits]
+    if not lifted:
+        return
+    # Of more values than have vectors, those within the same reach are in doubt as well.
+    reach = CUT_OFF * max(pair.lift_of_digits for pair in lifted)
+    count = max(every.index(lifted[-1]) + 1, len(lifted))
+    if len(lifted) == len(every):
+        count = max(count, _nonzeros_up_to(outcome, reach))
+    yield Doubt(DoubtKind.DIGITS_EXPLAIN, values=count, size=reach)
+
+
+def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
+    zero = outcome.gap.largest_zero
+    if zero is None or zero <= outcome.raw.noise:
+        return
+    is_given = outcome.asked.tolerance is not None
+    kind = DoubtKind.TOLERANCE_GIVEN if is_given else DoubtKind.COORDINATES_ROUNDED
+    values = outcome.scaled_singular_values
+    above = int(np.count_nonzero(values > outcome.raw.noise))
+    rank = max(above + min(outcome.rows, outcome.columns) - values.size, outcome.raw.proven_rank)
+    yield Doubt(kind, zeros=max(1, rank - outcome.rank), size=zero)
+
+
+def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+    """Zeros that may be tiny, where nothing but the decomposition has seen them."""
+    zero = outcome.gap.largest_zero
+    if zero is None or not zero <= outcome.raw.noise:
+        return
+    if outcome.under_constrained and outcome.over_constrained:
+        yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero), 1)
+
+
+def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator[Doubt]:
+    """Reasons to take a zero for a tiny value, the plainest first."""
+    zeros = min(outcome.under_constrained, outcome.over_constrained)
+    largest = max(outcome.scaled_singular_values[:1].max(initial=0.0), 1.0)
+    computed = _EPSILON * max(outcome.rows, outcome.columns) * largest
+    if zero > computed and zero > computed + _stored(evidence):
+        yield Doubt(DoubtKind.ZERO_ABOVE_STORING, zeros=zeros, size=zero)
+    left = evidence.largest_remainder
+    if left and left.value > left.explained:
+        yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left.value, explained=left.explained)
+    if evidence.powers_faded >= _FADED:
+        yield Doubt(DoubtKind.FADING, zeros=zeros, size=evidence.powers_faded)
+
+
+def _stored(evidence: Evidence) -> float:
+    """What storing the geometry may make of the zeros."""
+    lifts = (pair.lift_of_bits for group in evidence.zero_pairs for pair in group)
+    return STORED * len(evidence.zero_pairs) * max(lifts, default=0.0)
+
+
+def _nonzeros_up_to(outcome: Outcome, limit: float) -> int:
+    """How many values that count as non-zero are not above a limit."""
+    values = outcome.scaled_singular_values
+    zeros = min(outcome.rows, outcome.columns) - outcome.rank
+    return int(np.count_nonzero(values[: values.size - zeros] <= limit))

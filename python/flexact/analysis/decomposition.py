@@ -1,0 +1,277 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an analysis found, as it came from the core, under the paper's names."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core import calls
+from ..core.arrays import FloatArray
+from ..core.raw import RawAnalysis, RawAssembly
+from ..model.data import ModelData
+from ..model.labels import Labels, column_labels, row_labels
+from ..model.parts.condensing import Condensed
+from ..model.parts.parts import Parts
+from ..util import memory
+from ..util.cached import cached_property
+from ..util.records import Frozen
+from .accuracy import Accuracy
+from .carriers import Carriers
+from .failing import completed
+from .screws import ROUNDING
+from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
+
+#: More than this of a null vector is not taken for rounding.
+_LARGEST_ROUNDING = 1.0e-3
+
+
+class Asked(NamedTuple):
+    """How an analysis was asked to be done."""
+
+    method: str = "auto"
+    """One of `flexact.core.calls.METHODS`."""
+    tolerance: float | None = None
+    """None: it follows from the data and the arithmetic."""
+    prove: bool | None = None
+    """Whether the rank is to be proven in exact arithmetic; None: where it costs little."""
+    accuracy: Accuracy | None = None
+    """To what the parts are made and put together; None: nothing is known of it."""
+
+
+_PLAIN = Asked()
+
+#: Nodes or elements, and modes, beyond which bodies and parts are not told one by one.
+_MOST_TOLD, _MOST_MODES = 2_000, 400
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Outcome(Frozen):
+    """The decomposition of D(c) and the decision on its rank.
+
+    Attributes:
+        name: What the deck or model is called.
+        condensed: The model at the time of the analysis, and as it was analysed.
+        raw: The results as the core gives them.
+        asked: The method and the tolerance that were asked for.
+    """
+
+    name: str
+    condensed: Condensed
+    raw: RawAnalysis
+    asked: Asked = _PLAIN
+
+    @property
+    def data(self) -> ModelData:
+        """The model as it was analysed: a divided sheet or wire that is declared is one beam."""
+        return self.condensed.data
+
+    @property
+    def given(self) -> ModelData:
+        """The model as it was given, with the nodes inside its sheets and wires."""
+        return self.condensed.given
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Sheets, wires, bodies, hinges and bars of the model as it was given."""
+        return Parts(self.given)
+
+    @cached_property
+    def carriers(self) -> Carriers:
+        """What moves in the model as given: bodies, joints, and what is inside of parts."""
+        return Carriers(self.parts)
+
+    @property
+    def is_told_by_parts(self) -> bool:
+        """Whether bodies and parts are looked at one by one: in models that are not large."""
+        arrays = self.given.arrays
+        most = max(arrays.node_number.size, arrays.element_number.size)
+        modes = self.under_constrained + self.over_constrained
+        return most <= _MOST_TOLD and modes <= _MOST_MODES
+
+    @property
+    def rank(self) -> int:
+        """Rank of D(c), decided on a scaled matrix so that units do not matter."""
+        return self.raw.rank
+
+    @property
+    def rows(self) -> int:
+        """Rows m of D(c): fixed and independent deformations, eq. (11)."""
+        return self.raw.row_scale.size
+
+    @property
+    def columns(self) -> int:
+        """Columns n of D(c): dependent coordinates, eq. (11)."""
+        return self.raw.column_scale.size
+
+    @property
+    def under_constrained(self) -> int:
+        """Number of kinematically indeterminate motions, n - rank (Table 1)."""
+        return self.columns - self.rank
+
+    @property
+    def over_constrained(self) -> int:
+        """Number of statically indeterminate stresses, m - rank (Table 1)."""
+        return self.rows - self.rank
+
+    @property
+    def verdict(self) -> Verdict:
+        """Table 1 of the paper in words."""
+        if self.under_constrained:
+            return Verdict.BOTH if self.over_constrained else Verdict.UNDER
+        return Verdict.OVER if self.over_constrained else Verdict.EXACT
+
+    @cached_property
+    def singular_values(self) -> FloatArray:
+        """Singular values of D(c) in the model's units, descending, eq. (16).
+
+        All min(m, n) of them, computed when they are first asked for; after the method sparse
+        the smallest, or none where lengths that are far from one hide them in these units. See
+        `singular_values_given`.
+
+        Raises:
+            AnalysisError: there is no longer the memory for them.
+        """
+        room = memory.allowance(memory.dense_needed(self.rows, self.columns))
+
+        def work() -> RawAnalysis:
+            return calls.analyse_model(
+                self.data.packed, self.method, memory=room, only_plain_values=True
+            )
+
+        forgiven = ("convergence",) if self.method == "sparse" else ()
+        values = completed(self.data, work, forgiven).scaled_values
+        values.flags.writeable = False
+        return values
+
+    @property
+    def scaled_singular_values(self) -> FloatArray:
+        """Likewise those of the scaled D(c), on which the rank is decided."""
+        return self.raw.scaled_values
+
+    @property
+    def singular_values_given(self) -> str:
+        """Which singular values there are: "all" or the "smallest"."""
+        given = min(self.singular_values.size, self.scaled_singular_values.size)
+        return "all" if given == min(self.rows, self.columns) else "smallest"
+
+    @property
+    def method(self) -> str:
+        """How D(c) was decomposed: svd, jacobi or sparse."""
+        return self.raw.method
+
+    @property
+    def proof(self) -> Proof | None:
+        """The rank in exact arithmetic; None where it was not computed."""
+        raw = self.raw
+        if raw.proven_rank < 0:
+            return None
+        of = "decimals" if raw.as_typed else "doubles"
+        return Proof(of, raw.proven_rank, raw.primes, raw.failure)
+
+    @property
+    def components(self) -> int:
+        """Number of connected components of D(c), which are decomposed one by one."""
+        return self.raw.components
+
+    @property
+    def tolerance(self) -> float:
+        """Scaled singular values up to this one count as zero."""
+        return self.raw.tolerance
+
+    @property
+    def bound(self) -> float:
+        """Below this no more scaled singular values lie than the method sparse has pinned.
+
+        Its factorisation shows it, rounding included (theory.md (31)); by the other methods it
+        is the noise.
+        """
+        return self.raw.bound
+
+    @property
+    def accuracy(self) -> Accuracy | None:
+        """To what the parts are made and put together, as it was given; None without."""
+        return self.asked.accuracy
+
+    @property
+    def characteristic_length(self) -> float:
+        """The length [m] by which rotations and moments compare with the rest.
+
+        One where the mechanism has no extent.
+        """
+        return self.raw.characteristic_length
+
+    @cached_property
+    def gap(self) -> Gap:
+        """Smallest non-zero and largest zero of the scaled singular values."""
+        values, pairs = self.scaled_singular_values, self.raw.pair_value
+        left_out = min(self.rows, self.columns) - values.size
+        rank = max(self.rank - left_out, 0)
+        # Where only zeros are given, the core may know the value above them all the same.
+        above = values[rank - 1] if rank > 0 else next(iter(pairs), None) if self.rank else None
+        return Gap(
+            None if above is None else float(above),
+            float(values[rank]) if rank < values.size else None,
+        )
+
+    @cached_property
+    def rounding(self) -> float:
+        """What part of a motion or a self-stress may be rounding, theory.md (42).
+
+        A null vector is off by the noise over the gap, at most.
+        """
+        above = self.gap.smallest_nonzero
+        if not above:
+            return ROUNDING
+        return max(ROUNDING, min(_LARGEST_ROUNDING, 10.0 * self.raw.noise / above))
+
+    @cached_property
+    def condition_number(self) -> float | None:
+        """Largest over smallest singular value of D(c), in the model's units.
+
+        None where D(c) is rank-deficient or empty, the quotient is not finite, the largest is
+        not given, or the smallest is below rounding.
+        """
+        values, small = self.singular_values, self.gap.smallest_nonzero
+        if small is not None and small <= self.raw.noise:
+            return None
+        full = self.rank == min(self.rows, self.columns) == values.size > 0
+        if not full or not values[-1] > 0.0:
+            return None
+        quotient = float(values[0]) / float(values[-1])
+        return quotient if math.isfinite(quotient) else None
+
+    @cached_property
+    def counts(self) -> Counts:
+        """Coordinates and deformations by class, eqs. (13) to (15), of the model as given.
+
+        D(c) has fewer rows and columns where what is inside of divided sheets is declared.
+        """
+        coordinates, deformations = self.given.count.counts.tolist()
+        return Counts(ClassCounts(*coordinates), ClassCounts(*deformations))
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Number of independent coordinates and deformations, eq. (6), of the model as given."""
+        return self.counts.coordinates.independent + self.counts.deformations.independent
+
+    @cached_property
+    def row_labels(self) -> tuple[tuple[int, int], ...]:
+        """Element number and deformation (from 1) of each row of D(c)."""
+        return row_labels(self.data.arrays, self.raw.row_label - 1)
+
+    @cached_property
+    def column_labels(self) -> Labels:
+        """Node number and coordinate name of each column of D(c)."""
+        return column_labels(self.data.arrays, self.raw.column_label - 1)
+
+    @cached_property
+    def assembly(self) -> RawAssembly:
+        """The whole Jacobian in the reference configuration, as the core numbers it."""
+        arrays = self.data.arrays
+        return calls.assemble(
+            self.data.packed, arrays.node_value, np.zeros(arrays.element_number.size)
+        )

@@ -1,0 +1,402 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The basis in which motions and self-stresses are told: sparse over parts, largest entry one.
+
+It follows from names and places alone, not from numbers, ends p and q, or the sense of a width.
+Motions: as few bodies as can be, then joints, then folds, then insides of sheets and wires; of
+those of one set of bodies the translations first, then the rotations across them, about as few
+axes as can be.
+Self-stresses: as few flexible parts as can be; of those of one set as few deformations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.arrays import BoolArray, FloatArray, IntArray
+from ..core.basis import Basis
+from ..core.elements import NodeKind, Role, role_table
+from ..model.parts.parts import Part, PartKind
+from .decomposition import Outcome
+from .order import column_key, ranked, row_key
+from .result_sparse_basis import index_of, support_of
+from .sparse_basis import (
+    MOST_DIMENSIONS,
+    Cost,
+    Groups,
+    Piece,
+    classes_of_rows,
+    columns_of,
+    null_of,
+    pieces_of,
+    rest_of,
+)
+from .weights import column_weights, row_factors, row_weights
+
+#: Larger spaces are given as the core has them: rows that are not zero, entries, and vectors.
+_MOST_ROWS = 4_000
+_MOST_ENTRIES = 400_000
+_MOST_VECTORS = 200
+#: A component of a direction below this says nothing of its sense.
+_NO_SENSE = 1.0e-6
+#: An entry below this part of the largest is none.
+_UNSEEN = 1.0e-9
+
+Sense = Callable[[int], float]
+Key = Callable[[int], Hashable]
+
+
+def is_large(raw: Basis) -> bool:
+    """Whether a space is so large that its vectors are told as the core gives them."""
+    rows = support_of(raw).size
+    many = rows > _MOST_ROWS or raw.vectors > _MOST_VECTORS
+    return many or rows * raw.vectors > _MOST_ENTRIES
+
+
+def scaled_motions(outcome: Outcome) -> Basis:
+    """The core's motions with the largest entry of each one."""
+    weights = column_weights(outcome)
+    return _scaled_as_they_are(outcome.raw.motions, weights, np.ones(weights.size))
+
+
+def scaled_stresses(outcome: Outcome) -> Basis:
+    """The core's self-stresses with the largest force or moment of each one."""
+    return _scaled_as_they_are(outcome.raw.stresses, row_weights(outcome), row_factors(outcome))
+
+
+def motion_basis(outcome: Outcome, space: Basis) -> Basis:
+    """A basis of the motions, in metres and radians.
+
+    Args:
+        outcome: The analysis.
+        space: An orthonormal basis of them, rotations in lengths.
+    """
+    key = _kept(partial(column_key, outcome, numbered=False))
+    support, dense = _held(space, key)
+    groups = _MotionGroups(outcome, support)
+    found = groups.basis(dense)
+    if found is None:
+        return scaled_motions(outcome)
+    return _scaled(
+        found,
+        _Rows(support, column_weights(outcome), np.ones(space.size), groups.owner, groups.outside),
+        key,
+        lambda row: 1.0,
+    )
+
+
+def stress_basis(outcome: Outcome, space: Basis) -> Basis:
+    """A basis of the self-stresses, dual to the deformations.
+
+    Args:
+        outcome: The analysis.
+        space: An orthonormal basis of them, moments in forces.
+    """
+    key = _kept(partial(row_key, outcome, numbered=False))
+    support, dense = _held(space, key)
+    each, every = np.arange(support.size), np.ones(support.size, bool)
+    found = _StressGroups(outcome, support).basis(dense)
+    if found is None:
+        return scaled_stresses(outcome)
+    return _scaled(
+        found,
+        _Rows(support, row_weights(outcome), row_factors(outcome), each, every),
+        key,
+        partial(_sense_of_row, outcome),
+    )
+
+
+def internal_motions(outcome: Outcome, basis: Basis) -> int:
+    """How many vectors of a basis of the motions move nothing but insides of sheets and wires.
+
+    In that of `motion_basis` they are a basis of all such motions: insides of different parts
+    have no element in common, so that what is inside of each moves alone.
+    """
+    if not basis.vectors:
+        return 0
+    return int(np.count_nonzero(moves_within(outcome, basis, outcome.carriers.inner)))
+
+
+def moves_within(outcome: Outcome, basis: Basis, nodes: Collection[int]) -> BoolArray:
+    """(vectors,) whether each vector of a basis of the motions moves nothing but some nodes.
+
+    Args:
+        outcome: The analysis.
+        basis: The motions [m, rad].
+        nodes: Indices in the model as given.
+    """
+    if not nodes:
+        return np.zeros(basis.vectors, bool)
+    node = outcome.condensed.nodes[outcome.raw.column_label[0] - 1]
+    outside = ~np.isin(node, list(nodes))[basis.place]
+    largest = np.zeros(basis.vectors)
+    weighted = np.abs(basis.value * column_weights(outcome)[basis.place])
+    np.maximum.at(largest, basis.of_entries(), np.where(outside, weighted, 0.0))
+    made: BoolArray = largest <= outcome.rounding
+    return made
+
+
+def _kept(key: Key) -> Key:
+    known: dict[int, Hashable] = {}
+
+    def of(index: int) -> Hashable:
+        if index not in known:
+            known[index] = key(index)
+        return known[index]
+
+    return of
+
+
+def _held(space: Basis, key: Key) -> tuple[NDArray[np.integer], FloatArray]:
+    """The places that the vectors reach, in canonical order, and these rows in full."""
+    support = support_of(space)
+    order = sorted(support.tolist(), key=key)  # type: ignore[arg-type]
+    places = index_of(support, space.size)[space.place].astype(np.int32)
+    within = space._replace(size=support.size, place=places).toarray()
+    return np.array(order, np.int64), within[np.searchsorted(support, order)]
+
+
+# Scale and sign -------------------------------------------------------------
+
+
+class _Rows(NamedTuple):
+    """Rows in which vectors are given."""
+
+    support: NDArray[np.integer]
+    """Their places."""
+    weights: FloatArray
+    """(size,) what makes entries comparable."""
+    units: FloatArray
+    """(size,) what makes displacements, rotations, forces and moments of them."""
+    owner: NDArray[np.integer]
+    """What each is a component of, from 0."""
+    outside: BoolArray
+    """Whether the largest entry is to be sought there, if there is any."""
+
+
+def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
+    """Weighted vectors as a basis without the weights; of each the largest is one in its unit.
+
+    The largest displacement, rotation, force or moment, of equal ones the first by the key; its
+    first component is positive by its sense.
+    """
+    made = np.zeros_like(vectors)
+    support = rows.support
+    for k, vector in enumerate(vectors.T):
+        outside = np.where(rows.outside, vector, 0.0)
+        seen = outside if np.abs(outside).max() > _UNSEEN * np.abs(vector).max() else vector
+        sizes = np.sqrt(np.bincount(rows.owner, seen**2))
+        (largest,) = ranked(sizes, 1, lambda i: key(int(support[np.argmax(rows.owner == i)])))
+        mine = np.flatnonzero(rows.owner == largest)
+        first = mine[np.argmax(np.abs(vector[mine]) > _NO_SENSE * sizes[largest])]
+        plain = vector / rows.weights[support]
+        size = float(np.linalg.norm(plain[mine] * rows.units[support[mine]]))
+        made[:, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
+    order = np.argsort(support)
+    basis = Basis.of_dense(made[order])
+    places = support[order][basis.place].astype(np.int32)
+    return basis._replace(size=rows.weights.size, place=places)
+
+
+def _scaled_as_they_are(raw: Basis, weights: FloatArray, units: FloatArray) -> Basis:
+    """The core's vectors with the largest entry of each one; of equal ones the first positive."""
+    if not raw.value.size:
+        return raw
+    weighted = np.abs(raw.value * weights[raw.place])
+    start = raw.start[:-1].astype(np.int64)
+    counts = np.diff(raw.start)
+    largest = np.repeat(np.maximum.reduceat(weighted, start), counts)
+    able = np.flatnonzero(weighted >= (1.0 - 1.0e-9) * largest)
+    first = able[np.unique(raw.of_entries()[able], return_index=True)[1]]
+    scale = units[raw.place[first]] * raw.value[first]
+    return raw._replace(value=raw.value / np.repeat(scale, counts))
+
+
+def _sense_of_row(outcome: Outcome, row: int) -> float:
+    """1 or -1: the sense of a stress resultant that does not depend on how its element is given.
+
+    Tension and a torsion are positive as they are; of others the force or moment that the
+    element exerts where it ends points along the first axis that it is not across.
+    """
+    element, deformation = (outcome.raw.row_label[:, row] - 1).tolist()
+    role = int(role_table()[outcome.data.arrays.element_kind[element], deformation])
+    if role in (Role.ELONGATION, Role.TORSION):
+        return 1.0
+    slots = (outcome.data.arrays.element_node[:, element] - 1).tolist()
+    at_p = role in (Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P)
+    order = (slots[1], slots[0]) if at_p else (slots[3], slots[2])
+    whole = outcome.assembly
+    mine = whole.row_of == 6 * element + deformation
+    for node in order:
+        here = mine & (whole.column_of // 3 == node) if node >= 0 else mine & False
+        direction = np.zeros(3)
+        np.add.at(direction, whole.column_of[here] % 3, -whole.value[here])
+        size = np.abs(direction).max()
+        if size > 0.0:
+            first = int(np.argmax(np.abs(direction) > _NO_SENSE * size))
+            return float(np.sign(direction[first]))
+    return 1.0
+
+
+# Groups ---------------------------------------------------------------------
+
+
+def _entries(space: FloatArray) -> FloatArray:
+    """A basis with as few entries as can be; rows in canonical order."""
+    if space.shape[1] < 2:
+        return space
+    classes = classes_of_rows(space)
+    costs: list[Cost] = [(rows.size,) for rows in classes]
+    return columns_of(pieces_of(space, classes, costs, lambda left: left), space.shape[0])
+
+
+def _is_undivided(pieces: Sequence[Piece]) -> bool:
+    """Whether many vectors of many groups were left as they are."""
+    return any(
+        len(piece.support) > 1 and piece.vectors.shape[1] > MOST_DIMENSIONS for piece in pieces
+    )
+
+
+def _place_in_order(piece: Piece) -> tuple[object, ...]:
+    """Few bodies first, then few joints, folds among them; insides of parts last."""
+    bodies, joints, folds, insides = piece.cost
+    joints += folds
+    return not bodies + joints, bodies, joints, insides, piece.support
+
+
+class _MotionGroups:
+    """Rows of the motions, columns of D(c), by what they belong to."""
+
+    def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
+        node, self.axis = outcome.raw.column_label[:, support] - 1
+        self.node = outcome.condensed.nodes[node]
+        self.owner = np.unique(self.node, return_inverse=True)[1]
+        kinds = outcome.given.arrays.node_kind[self.node]
+        self.turns = kinds > NodeKind.POSITION
+        self.carriers = outcome.carriers
+        self.outside: BoolArray = ~np.isin(self.node, list(self.carriers.inner))
+
+    def basis(self, space: FloatArray) -> FloatArray | None:
+        """All vectors: bodies and joints before the insides of parts; None of a large space."""
+        if space.shape[1] < 2:
+            return space
+        groups, costs, _ = self._groups(one_by_one=False)
+        pieces = pieces_of(space, groups, costs, self._by_points)
+        if _is_undivided(pieces):
+            return None
+        pieces.sort(key=_place_in_order)
+        return columns_of(pieces, space.shape[0])
+
+    def _groups(self, *, one_by_one: bool) -> tuple[Groups, list[Cost], bool]:
+        """Rows and costs of bodies, joints and insides, and whether there are insides.
+
+        Args:
+            one_by_one: Whether each node of an inside is a group.
+        """
+        place: dict[int, list[int]] = {}
+        for row, node in enumerate(self.node.tolist()):
+            place.setdefault(node, []).append(row)
+        parts = self.carriers.parts
+        bodies = [(body.positions + body.orientations) for body in parts.bodies]
+        taken = {node for nodes in bodies for node in nodes}
+        folds, joints = (
+            [
+                [n for n in (j.position, j.orientation) if n is not None and n not in taken]
+                for j in self.carriers.joints
+                if j.is_fold == is_fold
+            ]
+            for is_fold in (True, False)
+        )
+        insides = [
+            nodes
+            for inside in self.carriers.insides
+            for nodes in (self._points_of(inside.nodes) if one_by_one else [inside.nodes])
+        ]
+        made: list[IntArray] = []
+        costs: list[Cost] = []
+        for kinds in (
+            ((bodies, (1, 0, 0, 0)),),
+            ((joints, (0, 1, 0, 0)), (folds, (0, 0, 1, 0))),
+            ((insides, (0, 0, 0, 1)),),
+        ):
+            found = (
+                (sorted(row for node in nodes for row in place.get(node, ())), cost)
+                for kind, cost in kinds
+                for nodes in kind
+            )
+            # Rows are in canonical order, so that this orders bodies by it, too.
+            for rows, cost in sorted(each for each in found if each[0]):
+                made.append(np.array(rows, np.int32))
+                costs.append(cost)
+        return made, costs, any(cost[-1] for cost in costs)
+
+    def _points_of(self, nodes: Iterable[int]) -> list[tuple[int, ...]]:
+        """Nodes by the place where they are."""
+        made: dict[int | None, list[int]] = {}
+        for node in nodes:
+            made.setdefault(self.carriers.parts.place_of(node), []).append(node)
+        return [tuple(each) for each in made.values()]
+
+    def _by_points(self, space: FloatArray) -> FloatArray:
+        """A basis that moves as few inner points of sheets and wires as can be."""
+        if space.shape[1] < 2:
+            return space
+        groups, costs, any_inside = self._groups(one_by_one=True)
+        if not any_inside:
+            return self._by_rotation(space)
+        return columns_of(pieces_of(space, groups, costs, self._by_rotation), space.shape[0])
+
+    def _by_rotation(self, space: FloatArray) -> FloatArray:
+        """Translations, then what is across them: rotations about the middle of the points."""
+        if space.shape[1] < 2:
+            return space
+        orthonormal = np.linalg.qr(space)[0]
+        still = null_of(orthonormal[self.turns])
+        return np.concatenate(
+            [
+                self._along_axes(orthonormal @ still, ~self.turns),
+                self._along_axes(orthonormal @ rest_of(still), self.turns),
+            ],
+            axis=1,
+        )
+
+    def _along_axes(self, space: FloatArray, rows: NDArray[np.bool_]) -> FloatArray:
+        if space.shape[1] < 2:
+            return space
+        axes = [np.flatnonzero(rows & (self.axis == axis)) for axis in range(3)]
+        return columns_of(pieces_of(space, axes, [(1,)] * 3, _entries), space.shape[0])
+
+
+class _StressGroups:
+    """Rows of the self-stresses, rows of D(c), by the part that they belong to."""
+
+    def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
+        element = outcome.condensed.elements[outcome.raw.row_label[0, support] - 1]
+        parts: dict[Part, list[int]] = {}
+        for row, index in enumerate(element.tolist()):
+            parts.setdefault(outcome.parts.of_element(index), []).append(row)
+        # Rows are in canonical order, by names first.
+        self.flexible = [
+            np.array(rows) for part, rows in parts.items() if part.kind is not PartKind.BODY
+        ]
+        self.bodies = [np.array(rows) for part, rows in parts.items() if part.kind is PartKind.BODY]
+
+    def basis(self, space: FloatArray) -> FloatArray | None:
+        """All vectors: of flexible parts, then inside of bodies; None of a large space."""
+        if space.shape[1] < 2:
+            return space
+        pieces = pieces_of(space, self.flexible, [(1,)] * len(self.flexible), self._by_bodies)
+        if _is_undivided(pieces):
+            return None
+        pieces.sort(key=lambda piece: not piece.support)
+        return columns_of(pieces, space.shape[0])
+
+    def _by_bodies(self, space: FloatArray) -> FloatArray:
+        if space.shape[1] < 2 or not self.bodies:
+            return _entries(space)
+        pieces = pieces_of(space, self.bodies, [(1,)] * len(self.bodies), _entries)
+        return columns_of(pieces, space.shape[0])

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Self-stresses in words: which parts press on each other, and what each of them carries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..model.parts.parts import Part, PartKind
+from .carriers import Joint
+from .decomposition import Outcome
+from .modes import SelfStress
+from .motions import line_words
+from .naming import deformation_in_words, named_element, named_node, unit_of
+from .part_stresses import Conflict, PartStress
+from .places import axis_words, joint_node, listed, part_words, place_words
+from .resultants import QUANTITIES, shared_resultants
+from .screws import ROUNDING
+from .sentences import Pieces
+from .wrenches import Wrench, WrenchKind
+
+#: What is below this part of a part's largest force or moment is not told.
+_REST = 1.0e2 * ROUNDING
+#: How many parts that fight are named.
+_MOST_NAMES = 3
+_MOMENTS = ("in-plane moment", "out-of-plane moment")
+
+
+def stress_in_parts(stress: SelfStress, most: int) -> tuple[Pieces, ...]:
+    """What parts carry, the largest first, one more than `most` where there are more.
+
+    Of a large model these are deformations.
+    """
+    outcome = stress.analysis
+    if not outcome.is_told_by_parts:
+        return tuple(
+            (
+                *deformation_in_words(outcome, element, number),
+                f" {value:.4g} {unit_of(outcome, element, number)}",
+            )
+            for element, number, value in stress.largest(most + 1)
+        )
+    numbers = outcome.given.arrays.element_number
+    return tuple(
+        (
+            named_element(outcome, int(numbers[one.part.elements[0]])),
+            f": {listed(list(_carried(outcome, stress, one))) or 'nothing'}",
+        )
+        for one in stress.parts[: most + 1]
+    )
+
+
+def conflict_in_words(stress: SelfStress) -> Pieces:
+    """Which parts fight over what; nothing where that cannot be said in short."""
+    outcome = stress.analysis
+    if not outcome.is_told_by_parts:
+        return ()
+    chosen = _clearest(stress)
+    if chosen is None:
+        return ()
+    names = [part_words(load.part) for load in chosen.loads if load.part is not None]
+    on = _on(outcome, chosen.on)
+    over = chosen.over
+    if over is None or len(names) > _MOST_NAMES:
+        return (f"{len(names)} parts press on ", *on, ", in balance")
+    both = "both" if len(names) == 2 else "all"
+    return (f"{listed(names)} {both} hold ", *_held(outcome, on, over), f", {_against(over)}")
+
+
+def pressing_in_words(stress: SelfStress) -> tuple[str, ...]:
+    """Names of the parts that press on a body, where they are so many that they are counted."""
+    chosen = _clearest(stress) if stress.analysis.is_told_by_parts else None
+    if chosen is None:
+        return ()
+    names = tuple(part_words(load.part) for load in chosen.loads if load.part is not None)
+    return names if chosen.over is None or len(names) > _MOST_NAMES else ()
+
+
+def _clearest(stress: SelfStress) -> Conflict | None:
+    """A body on which few parts fight over one thing, else one on which many press.
+
+    A joint is told where nothing else can be and no more than three parts are stressed.
+    """
+    bodies = [conflict for conflict in stress.on_bodies if _is_between_parts(conflict)]
+    few = [one for one in bodies if one.over is not None and len(one.loads) <= _MOST_NAMES]
+    if few:
+        return few[0]
+    if bodies:
+        return max(bodies, key=lambda one: len(one.loads))
+    if len(stress.parts) > _MOST_NAMES:
+        return None
+    joints = (one for one in stress.conflicts if _is_between_parts(one))
+    return next((one for one in joints if one.over is not None), None)
+
+
+def _is_between_parts(conflict: Conflict) -> bool:
+    return all(load.part is not None for load in conflict.loads) and len(conflict.loads) > 1
+
+
+def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
+    if isinstance(on, Joint):
+        node = joint_node(outcome.parts, on)
+        return (named_node(outcome, int(outcome.given.arrays.node_number[node])),)
+    number = int(outcome.given.arrays.element_number[on.elements[0]])
+    return (named_element(outcome, number),)
+
+
+def _held(outcome: Outcome, on: Pieces, over: Wrench) -> Pieces:
+    """What of a body several parts hold: a rotation, or a displacement along a line."""
+    if over.kind is WrenchKind.COUPLE:
+        return (*on, f" against rotation about {axis_words(over.direction)}")
+    return (*on, f" along {line_words(outcome, over.point, over.direction)}")
+
+
+def _against(over: Wrench) -> str:
+    return {
+        WrenchKind.COUPLE: "with opposite moments",
+        WrenchKind.FORCE: "with opposite forces",
+    }.get(over.kind, "with opposite forces and moments")
+
+
+def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[str]:
+    """Tension, shear, twist and bending of a part."""
+    ends = [end.wrench for end in one.ends]
+    rest = _REST * max(wrench.size for wrench in ends)
+    length = ends[-1].length
+    if abs(one.normal_force) * length > rest:
+        kind = "tension" if one.normal_force > 0.0 else "compression"
+        yield f"{kind} {abs(one.normal_force):.4g} N"
+    if abs(one.twist_moment) > rest:
+        yield f"twist moment {one.twist_moment:.4g} N m"
+    bending = list(_bending(outcome, stress, one, rest))
+    yield from bending
+    if not bending and float(np.linalg.norm(one.shear_force)) * length > rest:
+        yield f"shear force {_vector(one.shear_force, 'N along')}"
+
+
+def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
+    """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
+    if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
+        moments = moments_at_ends(stress, one).values()
+        for quantity, at_ends in zip(_MOMENTS, moments, strict=True):
+            if max(map(abs, at_ends)) > rest:
+                yield _along(outcome, one, quantity, at_ends, rest)
+        return
+    told = list(zip(one.ends, one.moments, strict=True))
+    if not one.direction.any():
+        # What a hinge passes on is the same on both sides.
+        told = told[-1:]
+    for end, moment in told:
+        if float(np.linalg.norm(moment)) > rest:
+            where = "" if end.position is None else f" at {_end(outcome, one.part, end.position)}"
+            yield f"moment {_vector(moment, 'N m about')}{where}"
+
+
+def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[float, float]]:
+    """Moments at both ends of a sheet, with the signs that pictures give them.
+
+    In its plane and out of it, by `QUANTITIES` with underscores.
+    """
+    outcome = stress.analysis
+    elements = np.array([one.part.elements[0], one.part.elements[-1]])
+    known = outcome.condensed.elements
+    # Of a row of beams that is one beam that one.
+    both_ends = [e for e in (one.part.elements[0], one.part.elements[-1]) if e in known]
+    elements = np.searchsorted(known, np.array(both_ends))
+    moments, forces = stress.analysed
+    values = shared_resultants(outcome.data, elements, (moments + forces)[elements])
+    nodes = outcome.data.arrays.element_node[[0, 2]][:, elements].T - 1
+    positions = outcome.condensed.nodes[nodes]
+    made = {}
+    for quantity in _MOMENTS:
+        at_nodes = values[:, QUANTITIES.index(quantity)]
+        found = dict(zip(positions.ravel().tolist(), at_nodes.ravel().tolist(), strict=True))
+        first, last = (found[end.position] for end in one.ends if end.position is not None)
+        made[f"{quantity.replace('-', '_').replace(' ', '_')}s"] = (first, last)
+    return made
+
+
+def _along(
+    outcome: Outcome, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
+) -> str:
+    first, last = at_ends
+    if abs(first - last) <= rest:
+        return f"constant {word} {first:.4g} N m"
+    told = [
+        f"{value:.4g} N m at {_end(outcome, one.part, end.position or 0)}"
+        for value, end in zip(at_ends, one.ends, strict=True)
+        if abs(value) > rest
+    ]
+    return f"{word} {' and '.join(told)}"
+
+
+def _end(outcome: Outcome, part: Part, position: int) -> str:
+    return place_words(outcome.parts, position, part)
+
+
+def _vector(vector: FloatArray, unit: str) -> str:
+    """Size and axis where it is along one, else the components; `unit` ends with a preposition."""
+    size = float(np.abs(vector).max())
+    parts = np.where(np.abs(vector) > _REST * size, vector, 0.0) + 0.0
+    if np.count_nonzero(parts) == 1:
+        axis = int(np.argmax(np.abs(parts)))
+        return f"{parts[axis]:.4g} {unit} {'xyz'[axis]}"
+    return f"({', '.join(f'{part:.4g}' for part in parts)}) {unit.rpartition(' ')[0]}"

@@ -1,0 +1,468 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A self-stress as its designer sees it: what parts press on each other.
+
+What an element exerts at its nodes is -D'sigma: the force at a position and the moment at an
+orientation that do the work of its stress resultants. Of one element they are in balance, and of
+all elements together at each coordinate that is neither fixed nor independent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..core.elements import Class, NodeKind
+from ..deck.errors import ModelError
+from ..model.parts.parts import Part, PartKind, natural
+from ..util.cached import cached_property
+from ..util.records import Frozen
+from .carriers import Joint
+from .decomposition import Outcome
+from .locate import part_of, position_of
+from .screws import ROUNDING, in_words, sense_of
+from .weights import row_weights
+from .wrenches import Wrench
+
+#: What is below this part of the largest force or moment of a self-stress is rounding.
+_REST = ROUNDING
+
+#: Resultants below this part of the largest are none.
+_ROUNDED = 1.0e-12
+
+#: Position and orientation node, -1 where there is none.
+_End = tuple[int, int]
+
+
+class EndLoad(NamedTuple):
+    """What a part exerts where it ends."""
+
+    position: int | None
+    """Index of the position node in the model as given."""
+    on: Part | Joint | None
+    """The body or joint that it ends at; None of a support alone."""
+    wrench: Wrench
+    """On what is there, about the end."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PartStress(Frozen):
+    """The stress resultants of a part.
+
+    Attributes:
+        part: The part.
+        ends: What it exerts at its ends; of two ends in the order of their coordinates.
+        share: Its largest force or moment beside the largest of all parts, at most 1.
+        direction: (3,) unit vector from the first end to the second; zero where there are not
+            two at different places.
+        normal: (3,) unit vector across a sheet, about which its in-plane moments turn, the first
+            component positive; zero of other parts.
+    """
+
+    part: Part
+    ends: tuple[EndLoad, ...]
+    share: float
+    direction: FloatArray
+    normal: FloatArray
+
+    @property
+    def normal_force(self) -> float:
+        """Tension is positive [N]."""
+        return -float(self._last.force @ self.direction)
+
+    @property
+    def twist_moment(self) -> float:
+        """Positive where it resists a right-handed twist [N m]."""
+        return -float(self._last.moment @ self.direction)
+
+    @property
+    def shear_force(self) -> FloatArray:
+        """(3,) that it exerts at the second end, across the line between the ends [N]."""
+        return self._across(self._last.force)
+
+    @property
+    def moments(self) -> tuple[FloatArray, ...]:
+        """(3,) bending moments that it exerts at its ends [N m]."""
+        return tuple(self._across(end.wrench.moment) for end in self.ends)
+
+    @property
+    def in_plane_moments(self) -> tuple[float, ...]:
+        """Of a sheet those about `normal` [N m]; opposite and equal where it is constant."""
+        return tuple(float(end.wrench.moment @ self.normal) for end in self.ends)
+
+    @property
+    def is_constant_bending(self) -> bool:
+        """Whether it carries one bending moment from end to end and nothing else."""
+        if len(self.ends) != 2 or not self.direction.any():
+            return False
+        first, last = self.moments
+        scale = self.ends[0].wrench.length
+        others = abs(self.normal_force), float(np.linalg.norm(self.shear_force))
+        limit = 1.0e2 * _REST * float(np.linalg.norm(first))
+        return bool(
+            limit > 0.0
+            and max(others) * scale <= limit
+            and abs(self.twist_moment) <= limit
+            and np.linalg.norm(first + last) <= limit
+        )
+
+    @property
+    def _last(self) -> Wrench:
+        return self.ends[-1].wrench
+
+    def _across(self, vector: FloatArray) -> FloatArray:
+        made: FloatArray = vector - (vector @ self.direction) * self.direction
+        return made
+
+    def __str__(self) -> str:
+        """In words."""
+        told = []
+        length, rest = self._last.length, 1.0e2 * self._last.rest
+        if abs(self.normal_force) * length > rest:
+            kind = "tension" if self.normal_force > 0.0 else "compression"
+            told.append(f"{kind} {abs(self.normal_force):.4g} N")
+        if np.linalg.norm(self.shear_force) * length > rest:
+            told.append(f"shear force {in_words(self.shear_force)} N")
+        if abs(self.twist_moment) > rest:
+            told.append(f"twist moment {self.twist_moment:.4g} N m")
+        for end, moment in zip(self.ends, self.moments, strict=True):
+            if np.linalg.norm(moment) > rest:
+                at = f" on {end.on}" if end.on is not None else " on its support"
+                told.append(f"moment {in_words(moment)} N m{at}")
+        return f"{self.part}: {', '.join(told) or 'nothing'}"
+
+    def __repr__(self) -> str:
+        """Likewise."""
+        return f"<PartStress {self}>"
+
+
+class Load(NamedTuple):
+    """What a part, or a support, exerts on a body or joint."""
+
+    part: Part | None
+    """None of a support or a drive."""
+    wrench: Wrench
+
+    def __str__(self) -> str:
+        """In words."""
+        return f"{self.part or 'the support'} exerts {self.wrench}"
+
+
+class Conflict(NamedTuple):
+    """What parts do to one body or joint between them: in balance."""
+
+    on: Part | Joint
+    loads: tuple[Load, ...]
+    """By name of the part; the support last. Their sum is zero."""
+
+    @property
+    def over(self) -> Wrench | None:
+        """What they fight over: of the first part, if that of each is a multiple of it."""
+        first = self.loads[0].wrench
+        vectors = [_vector(load.wrench.at(first.about)) for load in self.loads]
+        unit = vectors[0] / np.linalg.norm(vectors[0])
+        off = max(float(np.linalg.norm(v - (v @ unit) * unit)) for v in vectors)
+        largest = max(float(np.linalg.norm(v)) for v in vectors)
+        return first if off <= 1.0e3 * _REST * largest else None
+
+    @property
+    def shares(self) -> tuple[float, ...] | None:
+        """How many times `over` each part exerts; None where they are no multiples."""
+        over = self.over
+        if over is None:
+            return None
+        unit = _vector(over)
+        return tuple(
+            float(_vector(load.wrench.at(over.about)) @ unit / (unit @ unit)) for load in self.loads
+        )
+
+    def __str__(self) -> str:
+        """In words."""
+        return f"{self.on}: {'; '.join(map(str, self.loads))}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Pressing(Frozen):
+    """What parts press on each other in a self-stress; each answer is found when asked for.
+
+    Attributes:
+        outcome: The analysis.
+        vector: (m,) stress resultants dual to the deformations.
+    """
+
+    outcome: Outcome
+    vector: FloatArray
+
+    @cached_property
+    def parts(self) -> tuple[PartStress, ...]:
+        """The flexible parts that carry something: the largest first, of equal ones by name.
+
+        Where bodies alone carry, they are given.
+        """
+        made = [self._part_stress(part) for part in self._ends]
+        flexible = [one for one in made if one.part.kind is not PartKind.BODY]
+        carrying = [one for one in flexible if one.share > _REST] or made
+        return tuple(sorted(carrying, key=lambda one: (-round(one.share, 9), *self._key(one.part))))
+
+    def of(self, part: object) -> PartStress:
+        """The stress resultants of a part; of a body what its members exert where they end.
+
+        Args:
+            part: Its name, the part, or what the model handed out.
+
+        Raises:
+            ModelError: there is no such part.
+        """
+        return self._part_stress(part_of(self.outcome.parts, part))
+
+    def on(self, body: object) -> tuple[Load, ...]:
+        """What each part exerts on a body, or on a point, and the support last; in balance.
+
+        Args:
+            body: Its name, the part, or what the model handed out; or so a point.
+
+        Raises:
+            ModelError: there is no such body or point.
+        """
+        if hasattr(body, "position"):
+            return self._on_point(body)
+        try:
+            part = part_of(self.outcome.parts, body)
+        except (ModelError, TypeError):
+            if not isinstance(body, (str, tuple, list)):
+                raise
+            return self._on_point(body)
+        nodes = set()
+        if part.kind is PartKind.BODY:
+            k = self.outcome.carriers.bodies.index(part)
+            mine = self.outcome.parts.bodies[k]
+            nodes = {*mine.positions, *mine.orientations}
+        else:
+            for index in part.elements:
+                nodes.update((self.outcome.given.arrays.element_node[:, index] - 1).tolist())
+            nodes.discard(-1)
+        return self._loads(nodes, part)
+
+    @cached_property
+    def conflicts(self) -> tuple[Conflict, ...]:
+        """Bodies on which parts press, by name, then joints; clamps are left out."""
+        return self.on_bodies + self.on_joints
+
+    @cached_property
+    def on_bodies(self) -> tuple[Conflict, ...]:
+        """Those on bodies."""
+        bodies = sorted(self.outcome.carriers.bodies, key=self._key)
+        made = (Conflict(body, self.on(body)) for body in bodies)
+        return tuple(one for one in made if any(load.part for load in one.loads))
+
+    @cached_property
+    def on_joints(self) -> tuple[Conflict, ...]:
+        """Those on joints."""
+        made = []
+        for joint in self.outcome.carriers.joints:
+            nodes = {node for node in (joint.position, joint.orientation) if node is not None}
+            if not self._is_held(joint) and any(node in self._of_node for node in nodes):
+                made.append(Conflict(joint, self._loads(nodes, None)))
+        return tuple(one for one in made if any(load.part for load in one.loads))
+
+    # What it is made of -----------------------------------------------------
+
+    @cached_property
+    def _at_nodes(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Element and node, both as given, (k,), and force or moment (k, 3) that it exerts."""
+        outcome, whole = self.outcome, self.outcome.assembly
+        element, deformation = outcome.raw.row_label - 1
+        sigma = np.zeros(6 * outcome.data.arrays.element_number.size)
+        weighted = np.abs(self.vector * row_weights(outcome))
+        is_there = weighted > _ROUNDED * weighted.max(initial=0.0)
+        sigma[6 * element + deformation] = np.where(is_there, self.vector, 0.0)
+        used = sigma[whole.row_of] != 0.0
+        owner, node = whole.row_of[used] // 6, whole.column_of[used] // 3
+        keys, place = np.unique(np.stack((owner, node)), axis=1, return_inverse=True)
+        made = np.zeros((keys.shape[1], 3))
+        value = -whole.value[used] * sigma[whole.row_of[used]]
+        np.add.at(made, (place.ravel(), whole.column_of[used] % 3), value)
+        return outcome.condensed.elements[keys[0]], outcome.condensed.nodes[keys[1]], made
+
+    @cached_property
+    def _of_node(self) -> dict[int, list[int]]:
+        """Which entries of `_at_nodes` are of a node."""
+        made: dict[int, list[int]] = {}
+        for k, node in enumerate(self._at_nodes[1].tolist()):
+            made.setdefault(node, []).append(k)
+        return made
+
+    @cached_property
+    def _ends(self) -> dict[Part, dict[_End, FloatArray]]:
+        """(2, 3) force and moment of each part where its elements end."""
+        given, parts = self.outcome.given.arrays, self.outcome.parts
+        made: dict[Part, dict[_End, FloatArray]] = {}
+        kinds = given.node_kind
+        slots = self._slots
+        for element, node, value in zip(*map(list, self._at_nodes), strict=True):
+            part = parts.of_element(int(element))
+            ends = slots(int(element))
+            end = next(pair for pair in ends if int(node) in pair)
+            both = made.setdefault(part, {}).setdefault(end, np.zeros((2, 3)))
+            both[int(kinds[int(node)] > NodeKind.POSITION)] += value
+        return made
+
+    def _slots(self, element: int) -> tuple[_End, _End]:
+        """The ends of an element of the model as analysed, in nodes as given."""
+        outcome = self.outcome
+        index = int(np.searchsorted(outcome.condensed.elements, element))
+        nodes = outcome.data.arrays.element_node[:, index] - 1
+        p, op, q, oq = (int(outcome.condensed.nodes[n]) if n >= 0 else -1 for n in nodes.tolist())
+        return (p, op), (q, oq)
+
+    @cached_property
+    def _largest(self) -> float:
+        """What any element exerts at most: members of one body may cancel out."""
+        _, node, value = self._at_nodes
+        is_force = self.outcome.given.arrays.node_kind[node] <= NodeKind.POSITION
+        length = np.where(is_force, self.outcome.characteristic_length, 1.0)
+        return float((np.linalg.norm(value, axis=1) * length).max(initial=0.0))
+
+    def _size(self, both: FloatArray) -> float:
+        force, moment = np.linalg.norm(both, axis=1)
+        return float(max(force * self.outcome.characteristic_length, moment))
+
+    def _place_of(self, end: _End) -> FloatArray:
+        position = end[0] if end[0] >= 0 else self.outcome.parts.place_of(end[1])
+        if position is None:
+            return np.zeros(3)
+        made: FloatArray = self.outcome.given.arrays.node_value[:3, position]
+        return made
+
+    def _wrench(self, both: FloatArray, about: FloatArray) -> Wrench:
+        length = self.outcome.characteristic_length
+        return Wrench(both[0], both[1], np.array(about), length, _REST * self._largest)
+
+    def _part_stress(self, part: Part) -> PartStress:
+        found = self._ends.get(part, {})
+        outer = {
+            end: both
+            for end, both in found.items()
+            if len(found) <= 2 or self._size(both) > _REST * self._largest
+        }
+        step = self.outcome.characteristic_length
+        order = sorted(
+            outer, key=lambda end: (*np.round(self._place_of(end) / step, 9).tolist(), *end)
+        )
+        ends = tuple(
+            EndLoad(
+                end[0] if end[0] >= 0 else None,
+                self._receiver(end),
+                self._wrench(outer[end], self._place_of(end)),
+            )
+            for end in order
+        )
+        if not ends:
+            nothing = self._wrench(np.zeros((2, 3)), np.zeros(3))
+            ends = (EndLoad(None, None, nothing),)
+        way = ends[-1].wrench.about - ends[0].wrench.about
+        length = float(np.linalg.norm(way))
+        size = max((self._size(both) for both in found.values()), default=0.0)
+        return PartStress(
+            part,
+            ends,
+            size / self._largest if self._largest > 0.0 else 0.0,
+            way / length if length > 0.0 and part.kind is not PartKind.HINGE else np.zeros(3),
+            self._normal(part),
+        )
+
+    def _normal(self, part: Part) -> FloatArray:
+        if part.kind is not PartKind.SHEET:
+            return np.zeros(3)
+        # Of a divided sheet that is one beam, that of the one beam.
+        index = int(np.searchsorted(self.outcome.condensed.elements, part.elements[0]))
+        wide = int(self.outcome.parts.wide[part.elements[0]])
+        axis: FloatArray = self.outcome.data.frames.frame[index][:, 3 - wide]
+        return sense_of(axis) * axis
+
+    def _receiver(self, end: _End) -> Part | Joint | None:
+        """The body or joint at an end; None of a support alone."""
+        parts = self.outcome.parts
+        for node in (end[0], end[1]):
+            body = parts.body_at.get(node)
+            if body is not None:
+                return parts.of_body(body)
+        joint = self._joint_at.get(end[1], self._joint_at.get(end[0]))
+        return None if joint is None or self._is_held(joint) else joint
+
+    @cached_property
+    def _joint_at(self) -> dict[int, Joint]:
+        made: dict[int, Joint] = {}
+        for joint in self.outcome.carriers.joints:
+            for node in (joint.orientation, joint.position):
+                if node is not None:
+                    made.setdefault(node, joint)
+        return made
+
+    def _is_held(self, joint: Joint) -> bool:
+        return all(
+            self.outcome.parts.is_held(node)
+            for node in (joint.position, joint.orientation)
+            if node is not None
+        )
+
+    def _on_point(self, point: object) -> tuple[Load, ...]:
+        position = position_of(self.outcome.parts, point)
+        own = (n for n, p in self.outcome.parts.position_of.items() if p == position)
+        return self._loads({position, *own}, None)
+
+    def _loads(self, nodes: Iterable[int], body: Part | None) -> tuple[Load, ...]:
+        """What parts but one exert on some nodes about their middle, and the support."""
+        outcome = self.outcome
+        mine = set(nodes)
+        given = outcome.given.arrays
+        positions = [n for n in mine if given.node_kind[n] <= NodeKind.POSITION]
+        if not positions:
+            places = [outcome.parts.place_of(n) for n in mine]
+            positions = [p for p in places if p is not None]
+        about = given.node_value[:3, sorted(positions)].mean(axis=1) if positions else np.zeros(3)
+        element, node, value = self._at_nodes
+        here = np.array(sorted(k for n in mine for k in self._of_node.get(n, ())), np.int64)
+        by_part: dict[Part | None, FloatArray] = {}
+        reaction: dict[int, FloatArray] = {}
+        for e, n, force in zip(
+            element[here].tolist(), node[here].tolist(), value[here], strict=True
+        ):
+            part = outcome.parts.of_element(e)
+            reaction.setdefault(n, np.zeros(3))
+            reaction[n] -= force
+            if part != body:
+                both = by_part.setdefault(part, np.zeros((2, 3)))
+                both += self._moved(n, force, about)
+        support = np.zeros((2, 3))
+        for n, force in reaction.items():
+            held = np.isin(given.coordinate_class[:, n], (Class.FIXED, Class.INDEPENDENT))
+            support += self._moved(n, np.where(held, force, 0.0), about)
+        found = [Load(part, self._wrench(both, about)) for part, both in by_part.items()]
+        found.sort(key=lambda load: self._key(load.part) if load.part is not None else ())
+        found.append(Load(None, self._wrench(support, about)))
+        return tuple(load for load in found if load.wrench)
+
+    def _moved(self, node: int, force: FloatArray, about: FloatArray) -> FloatArray:
+        """(2, 3) force and moment about a point of what works at a node."""
+        given = self.outcome.given.arrays
+        if given.node_kind[node] > NodeKind.POSITION:
+            return np.stack((np.zeros(3), force))
+        arm = given.node_value[:3, node] - about
+        return np.stack((force, np.cross(arm, force) if arm.any() else np.zeros(3)))
+
+    def _key(self, part: Part) -> tuple[object, ...]:
+        name = natural(part.name)
+        nodes = self.outcome.given.arrays.element_node[[0, 2], part.elements[0]] - 1
+        places = [self.outcome.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
+        step = self.outcome.characteristic_length
+        middle = np.round(np.mean(places, axis=0) / step, 9) if places else np.zeros(0)
+        return name, tuple(middle.tolist())
+
+
+def _vector(wrench: Wrench) -> FloatArray:
+    """(6,) force times the length, and moment."""
+    return np.concatenate((wrench.force * wrench.length, wrench.moment))

@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether zeros may be tiny singular values that the arithmetic cannot tell from zero.
+
+What is left of a value that is not zero is u' D v of a self-stress u and a motion v: even
+where it is far below the rounding of the decomposition it is as exact as the entries of D(c)
+are, for errors of u and v enter it multiplied by each other. Below that a tiny value shows in
+its vectors, as each element passes on a part of the motion of the last: the components of
+both fade evenly through many powers of ten, where those of true zeros end: theory.md (23).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core import calls
+from ..core.arrays import FloatArray
+from ..core.basis import Basis
+from ..core.elements import NodeKind, Role, length_table, role_table
+from ..core.raw import RawAssembly
+from ..util.cached import cached_property
+from .decomposition import Outcome
+from .result_sparse_basis import Sparse, index_of
+from .sensitivity import Pair, affordable_pairs, of_nonzeros, of_zeros
+
+#: What of a lift by the last bits is the storing of a number far from the origin: one unit of 4.
+STORED = 0.25
+
+_EPSILON = float(np.finfo(np.float64).eps)
+#: How many roundings each entry of D(c) has gone through.
+_ROUNDINGS = 8.0
+#: What the errors of both vectors, multiplied by each other, may leave: eps**2 over the smallest
+#: singular value that is told from zero.
+_LEAST = _EPSILON / 1024
+
+#: Neighbouring components of a vector that fades are no further apart, in powers of ten.
+_LONGEST_STEP = 4.5
+#: Components this many powers of ten below the largest may be rounding.
+_LAST_POWER = 13.0
+#: Components are sorted into so many bins for a power of ten.
+_BINS = 4
+
+# What is looked at: so many vectors of each side, of so many numbers in all; so many terms of
+# the entries of D(c) and the motions; and so many pairs with what rounding makes of them.
+_MOST_VECTORS, _MOST_NUMBERS = 256, 4_000_000
+_MOST_TERMS = 16_000_000
+_MOST_PAIRS = 16
+
+
+class _Vectors(NamedTuple):
+    """Some vectors of a basis, of unit norm in the scaled matrix, at the places they reach."""
+
+    support: NDArray[np.integer]
+    """(places,) ascending."""
+    value: FloatArray
+    """(places, vectors)."""
+
+    def in_full(self, chosen: NDArray[np.integer], size: int) -> FloatArray:
+        """(size, chosen) some of them with their zeros."""
+        made = np.zeros((size, chosen.size))
+        made[self.support] = self.value[:, chosen]
+        return made
+
+
+class Remainder(NamedTuple):
+    """What is left of u' D v of a self-stress and a motion, and what rounding explains of it."""
+
+    value: float
+    explained: float
+
+
+class Evidence:
+    """What small changes and rounding may make of singular values; found when asked for."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        """Keep the outcome that it is about."""
+        self._outcome = outcome
+
+    @cached_property
+    def pairs(self) -> tuple[Pair, ...]:
+        """What moves the smallest singular values that are not zero, ascending."""
+        return of_nonzeros(self._outcome)
+
+    @cached_property
+    def zero_pairs(self) -> tuple[tuple[Pair, ...], ...]:
+        """For each zero, at most 8, what may lift it."""
+        return of_zeros(self._outcome)
+
+    @cached_property
+    def largest_remainder(self) -> Remainder | None:
+        """See `largest_remainder`."""
+        return largest_remainder(self._outcome)
+
+    @cached_property
+    def powers_faded(self) -> float:
+        """See `powers_faded`."""
+        return powers_faded(self._outcome)
+
+
+def largest_remainder(outcome: Outcome) -> Remainder | None:
+    """The pair whose u' D v exceeds most what rounding makes of it, in the scaled matrix.
+
+    Of the first vectors of each side, as far as that takes little time; None where there is
+    no pair, or none exceeds what rounding the entries of D(c) makes.
+    """
+    raw = outcome.raw
+    stresses = _first_of(raw.stresses, raw.row_scale, np.arange(raw.stresses.vectors))
+    if stresses is None:
+        return None
+    matrix, rounding = _entries(outcome, stresses.support)
+    reached = np.zeros(raw.column_scale.size, np.bool_)
+    reached[matrix.column_of] = True
+    # Plain np.unique would import numpy.ma, which takes as long as the outcome of a deck.
+    touching = np.flatnonzero(np.bincount(raw.motions.of_entries()[reached[raw.motions.place]]))
+    touching = touching[: max(1, _MOST_TERMS // max(1, matrix.value.size))]
+    motions = _first_of(raw.motions, raw.column_scale, touching)
+    if motions is None:
+        return None
+    left = np.abs(_products(matrix, stresses, motions))
+    added = stresses._replace(value=np.abs(stresses.value))
+    moved = motions._replace(value=np.abs(motions.value))
+    made = _ROUNDINGS * _EPSILON * _products(matrix._replace(value=rounding), added, moved)
+    explained = np.maximum(made, _LEAST)
+    ratio = (left / explained).ravel()
+    most = max(1, min(_MOST_PAIRS, affordable_pairs(outcome)))
+    worst = np.argsort(-ratio)[:most]
+    worst = worst[ratio[worst] > 1.0]
+    if not worst.size:
+        return None
+    u, v = np.divmod(worst, left.shape[1])
+    found = explained[u, v] + STORED * _lifts(outcome, stresses, motions, u, v)
+    worst_of_all = int(np.argmax(left[u, v] / found))
+    return Remainder(float(left[u, v][worst_of_all]), float(found[worst_of_all]))
+
+
+def powers_faded(outcome: Outcome) -> float:
+    """Through how many powers of ten a motion and a self-stress fade, the less of the two.
+
+    The core cuts off what is below 1e-11 of a vector's largest component where it may.
+    """
+    raw = outcome.raw
+    return min(_faded(raw.motions, raw.column_scale), _faded(raw.stresses, raw.row_scale))
+
+
+def _faded(basis: Basis, scale: FloatArray) -> float:
+    """Powers of ten from the largest component down to the end of small steps, of any vector."""
+    vectors = int(np.searchsorted(basis.start, _MOST_NUMBERS, "right")) - 1
+    entries = int(basis.start[vectors])
+    if not entries:
+        return 0.0
+    vector, place = basis.of_entries()[:entries], basis.place[:entries]
+    scaled = np.abs(basis.value[:entries] / scale[place])
+    largest = np.maximum.reduceat(scaled, basis.start[:vectors])
+    part = scaled / largest[vector]
+    there = part > 10.0**-_LAST_POWER
+    bins = int(_LAST_POWER * _BINS) + 1
+    depth = (-_BINS * np.log10(part[there])).astype(np.int64)
+    filled = np.bincount(vector[there] * bins + depth, minlength=vectors * bins) > 0
+    each = np.arange(bins)
+    last = np.maximum.accumulate(np.where(filled.reshape(vectors, bins), each, 0), axis=1)
+    torn = np.maximum.accumulate(each - last > _LONGEST_STEP * _BINS, axis=1)
+    return float(np.where(torn, 0, last).max()) / _BINS
+
+
+def _first_of(basis: Basis, scale: FloatArray, chosen: NDArray[np.integer]) -> _Vectors | None:
+    """The first of some vectors, as many as are held in full."""
+    chosen = chosen[:_MOST_VECTORS]
+    if not chosen.size:
+        return None
+    sizes = np.diff(basis.start)[chosen]
+    # Together they reach no more places than they have entries.
+    numbers = np.minimum(np.cumsum(sizes), basis.size) * np.arange(1, chosen.size + 1)
+    chosen = chosen[: max(1, int(np.searchsorted(numbers, _MOST_NUMBERS, "right")))]
+    parts = [np.arange(basis.start[k], basis.start[k + 1]) for k in chosen]
+    entry, vector = np.concatenate(parts), np.repeat(np.arange(chosen.size), sizes[: chosen.size])
+    support, place = np.unique(basis.place[entry], return_inverse=True)
+    value = np.zeros((support.size, chosen.size))
+    value[place, vector] = basis.value[entry]
+    return _Vectors(support, value / np.linalg.norm(value / scale[support, None], axis=0))
+
+
+def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, FloatArray]:
+    """Entries of some rows of D(c), and what each of them is rounded in proportion to.
+
+    An elongation changes with the positions by the direction alone, each entry to its own last
+    bit; the others come from products, of which a small entry may be no more than the rounding.
+    """
+    arrays, raw = outcome.data.arrays, outcome.raw
+    element, deformation = raw.row_label[:, rows] - 1
+    node, axis = raw.column_label - 1
+    used = np.flatnonzero(np.bincount(element, minlength=arrays.element_number.size))
+    whole = _assembly_of(outcome, used)
+    here = np.searchsorted(used, element)
+    row_of = index_of(6 * here + deformation, 6 * used.size)[whole.row_of]
+    column_of = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
+    chosen = (row_of >= 0) & (column_of >= 0) & (whole.value != 0.0)
+    matrix = Sparse(row_of, column_of, whole.value, rows.size).only(chosen)
+    kind = arrays.element_kind[element]
+    along = np.isin(role_table()[kind, deformation], (Role.ELONGATION, Role.OFFSET_X))
+    elongation = along & (length_table()[kind] == 1)
+    position = arrays.node_kind[node] <= NodeKind.POSITION
+    direction = elongation[matrix.row_of] & position[matrix.column_of]
+    scale = raw.column_scale[matrix.column_of]
+    largest = np.zeros(rows.size)
+    np.maximum.at(largest, matrix.row_of, np.abs(matrix.value) * scale)
+    of_row = largest[matrix.row_of] / scale
+    return matrix, np.where(direction, np.abs(matrix.value), of_row)
+
+
+def _assembly_of(outcome: Outcome, elements: NDArray[np.integer]) -> RawAssembly:
+    """The Jacobian of some elements alone, of which there may be few among very many."""
+    packed = outcome.data.packed
+    some = packed._replace(
+        elements=np.asfortranarray(packed.elements[:, elements]),
+        vectors=np.asfortranarray(packed.vectors[:, elements]),
+    )
+    return calls.assemble(some, outcome.data.arrays.node_value, np.zeros(elements.size))
+
+
+def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArray:
+    """(stresses, motions) u' D v; `matrix` has the rows that the self-stresses reach."""
+    place = index_of(
+        motions.support, int(matrix.column_of.max(initial=0)) + 1 + motions.support[-1]
+    )
+    used = matrix.only(place[matrix.column_of] >= 0)
+    moved = motions.value[place[used.column_of]]
+    images = np.stack(
+        [np.bincount(used.row_of, used.value * part, used.rows) for part in moved.T], axis=1
+    )
+    made: FloatArray = stresses.value.T @ images
+    return made
+
+
+def _lifts(
+    outcome: Outcome,
+    stresses: _Vectors,
+    motions: _Vectors,
+    u: NDArray[np.integer],
+    v: NDArray[np.integer],
+) -> FloatArray:
+    """(pairs,) what the last bits of the geometry may make of pairs, `u` and `v` of each."""
+    left, of_left = np.unique(u, return_inverse=True)
+    right, of_right = np.unique(v, return_inverse=True)
+    return calls.find_sensitivities(
+        outcome.data.packed,
+        stresses.in_full(left, outcome.rows),
+        motions.in_full(right, outcome.columns),
+        np.stack((of_left, of_right)).astype(np.int32),
+    ).lift_of_bits

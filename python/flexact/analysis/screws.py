@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a rigid body does at one moment: a translation, a rotation about a line, or a screw.
+
+With its rotation w and the velocity v of a point c, any body moves along and about one line
+(Chasles 1830; Hunt, *Kinematic Geometry of Mechanisms*, 1978): its pitch is w.v/w.w, and the point
+of the line nearest to c is c + w x v/w.w.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..core.arrays import FloatArray, floats
+from ..util.records import Frozen
+
+#: What is below this part of a motion is rounding: the least that is ever used.
+ROUNDING = 1.0e-9
+#: A component of a direction below this says nothing of its sense.
+_NO_SENSE = 1.0e-6
+
+
+class ScrewKind(str, Enum):
+    """What the motion of a body is."""
+
+    NONE = "none"
+    TRANSLATION = "translation"
+    ROTATION = "rotation"
+    SCREW = "screw"
+
+    def __str__(self) -> str:
+        """The word itself."""
+        return self.value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Screw(Frozen):
+    """The motion of a rigid body at one moment.
+
+    Attributes:
+        kind: What it is.
+        direction: (3,) unit vector along the axis, or of the translation; of the two senses the
+            one whose first component other than zero is positive. Zero where nothing moves.
+        point: (3,) of the axis, the one nearest to `centre` [m]; of a translation `centre`.
+        pitch: How far it goes along the axis for a turn by one radian [m/rad], positive for a
+            right-hand thread; 0 of a rotation, infinite of a translation.
+        magnitude: Rotation about `direction` [rad], of a translation displacement along it [m].
+            It has a sign.
+        centre: (3,) the middle of the body's points [m].
+        rotation: (3,) [rad].
+        velocity: (3,) of `centre` [m].
+        length: By which rotations compare with displacements [m].
+    """
+
+    kind: ScrewKind
+    direction: FloatArray
+    point: FloatArray
+    pitch: float
+    magnitude: float
+    centre: FloatArray
+    rotation: FloatArray
+    velocity: FloatArray
+    length: float
+
+    def at(self, point: ArrayLike) -> FloatArray:
+        """(3,) displacement of a point of the body [m], by where it is."""
+        return self.velocity + np.cross(self.rotation, floats(point, "a point") - self.centre)
+
+    def __bool__(self) -> bool:
+        """Whether anything moves."""
+        return self.kind is not ScrewKind.NONE
+
+    def __str__(self) -> str:
+        """In words."""
+        along = in_words(self.direction)
+        if self.kind is ScrewKind.NONE:
+            return "does not move"
+        if self.kind is ScrewKind.TRANSLATION:
+            return f"moves by {self.magnitude:.4g} m along {along}"
+        line = f"the line through {in_words(self.point, self.length)} m"
+        about = f"{self.magnitude:.4g} rad about {line} along"
+        if self.kind is ScrewKind.ROTATION:
+            return f"turns by {about} {along}"
+        return f"screws by {about} {along}, pitch {self.pitch:.4g} m/rad"
+
+    def __repr__(self) -> str:
+        """Likewise."""
+        return f"<Screw: {self}>"
+
+
+def screw_of(
+    rotation: ArrayLike,
+    velocity: ArrayLike,
+    centre: ArrayLike,
+    length: float,
+    *,
+    rest: float = 0.0,
+    rounding: float = ROUNDING,
+) -> Screw:
+    """The screw of a body.
+
+    It is a translation where the rotation times `length` is at most `rounding` of the motion,
+    and a rotation where the pitch is at most `rounding` of `length` and the axis's distance from
+    `centre`: what the rotation's direction is off by goes into the pitch with this distance.
+
+    Args:
+        rotation: (3,) [rad].
+        velocity: (3,) of `centre` [m].
+        centre: (3,) a point of the body [m].
+        length: By which rotations compare with displacements [m].
+        rest: Motions up to this size are none [m].
+        rounding: What part of a motion may be rounding.
+    """
+    w, v, c = (np.array(each, float) for each in (rotation, velocity, centre))
+    speed, turn = float(np.linalg.norm(v)), float(np.linalg.norm(w))
+    size = max(speed, turn * length)
+    if not size > rest:
+        return Screw(ScrewKind.NONE, np.zeros(3), c, 0.0, 0.0, c, 0.0 * w, 0.0 * v, length)
+    if not turn * length > rounding * size:
+        sense = sense_of(v)
+        direction = sense * v / speed
+        return Screw(
+            ScrewKind.TRANSLATION, direction, c, float("inf"), sense * speed, c, 0.0 * w, v, length
+        )
+    unit = w / turn
+    arm = np.cross(unit, v) / turn
+    pitch = float(unit @ v) / turn
+    is_screw = abs(pitch) > rounding * (length + float(np.linalg.norm(arm)))
+    sense = sense_of(unit)
+    kind = ScrewKind.SCREW if is_screw else ScrewKind.ROTATION
+    return Screw(kind, sense * unit, c + arm, pitch * is_screw, sense * turn, c, w, v, length)
+
+
+def sense_of(vector: FloatArray) -> float:
+    """1 or -1: the sign of the first component that is not zero beside the largest."""
+    size = np.abs(vector)
+    first = int(np.argmax(size > _NO_SENSE * size.max(initial=0.0)))
+    return -1.0 if vector[first] < 0.0 else 1.0
+
+
+def in_words(vector: FloatArray, length: float = 0.0) -> str:
+    """Its components; what is rounding beside the largest, or beside a length, is zero."""
+    size = max(float(np.abs(vector).max(initial=0.0)), length)
+    parts = np.where(np.abs(vector) > ROUNDING * size, vector, 0.0) + 0.0
+    return f"({', '.join(f'{part:.4g}' for part in parts)})"

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How far coordinates and deformations reach into the null spaces of D(c).
+
+In a null space of several dimensions single vectors are arbitrary; what counts is how
+far each coordinate or deformation reaches into the space, its leverage: the norm of its
+row in an orthonormal basis, with rotations and moments made comparable by the
+characteristic length. A coordinate that is no column of D(c) reaches into the
+self-stresses by the reaction that they cause there.
+
+Of thousands of vectors that hang together the leverage is not exact; see `subspace`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.arrays import FloatArray
+from ..core.basis import Basis
+from ..core.elements import Class, Dual, NodeKind, dual_table
+from .order import column_key, coordinate_key, deformation_key, ranked, row_key
+from .result import Result
+from .result_sparse_basis import Sparse, index_of, norms_of_product, row_norms, support_of
+from .weights import column_weights, row_weights
+
+#: Below this leverage a row does not reach into a space.
+_NOTHING = 1.0e-7
+
+#: By what equals are sorted, of an index.
+Key = Callable[[int], Any]
+#: Index of an element from 0 and number of its deformation from 1.
+Deformations = list[tuple[int, int]]
+#: Index of a node and axis, both from 0.
+Coordinates = list[tuple[int, int]]
+
+
+def releases(result: Result) -> list[int]:
+    """Rows of D(c) that can be released to remove a self-stress, the largest leverage first.
+
+    Rows of independent deformations are not among them; see `driven_deformations`.
+    """
+    leverage = _leverage_of_class(result, Class.FIXED)
+    leverage = np.where(is_releasable(result), leverage, 0.0)
+    return _largest(leverage, lambda row: row_key(result, row))
+
+
+def release_set(result: Result) -> list[int]:
+    """Rows of D(c) that remove all self-stresses when all of them are released."""
+    able = is_of_class(result, Class.FIXED) & is_releasable(result)
+    return _independent_rows(result.stress_space, lambda row: row_key(result, row), able)
+
+
+def driven_set(result: Result) -> list[int]:
+    """Rows of independent deformations that remove self-stresses, as many as they can.
+
+    To release all of them in place of their declarations does so.
+    """
+    able = is_of_class(result, Class.INDEPENDENT)
+    return _independent_rows(result.stress_space, lambda row: row_key(result, row), able)
+
+
+def driven_deformations(result: Result) -> Deformations:
+    """Independent deformations in a self-stress: driven against a constraint.
+
+    To release one in place of its declaration removes a self-stress.
+    """
+    leverage = _leverage_of_class(result, Class.INDEPENDENT)
+    rows = _largest(leverage, lambda row: row_key(result, row))
+    labels = result.raw.row_label[:, rows].T.tolist()
+    return [(element - 1, deformation) for element, deformation in labels]
+
+
+def driven_coordinates(result: Result) -> Coordinates:
+    """Independent coordinates whose declaration can be taken away to remove a self-stress."""
+    return _with_reaction(result, Class.INDEPENDENT)
+
+
+def supports(result: Result) -> Coordinates:
+    """Fixed coordinates that can be freed to remove a self-stress."""
+    return _with_reaction(result, Class.FIXED)
+
+
+def coordinates(result: Result) -> list[int]:
+    """Columns of D(c) that can be fixed or made independent to remove a motion."""
+    return _largest(row_norms(result.motion_space), lambda column: column_key(result, column))
+
+
+def coordinate_set(result: Result) -> list[int]:
+    """Columns of D(c) that remove all motions when all are fixed or made independent."""
+    return _independent_rows(result.motion_space, lambda column: column_key(result, column))
+
+
+def deformations(result: Result) -> Deformations:
+    """Released deformations that the motions change.
+
+    To hold one, or to make it independent, removes a motion.
+    """
+    arrays = result.data.arrays
+    released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
+    if not released.any():
+        return []
+    whole = result.assembly
+    node, axis = result.raw.column_label - 1
+    column = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
+    chosen = released[whole.row_of] & (column >= 0)
+    matrix = Sparse(whole.row_of, column, whole.value, released.size).only(chosen)
+    value = matrix.value / column_weights(result)[matrix.column_of]
+    rates = norms_of_product(matrix._replace(value=value), result.motion_space)
+    angle = dual_table()[arrays.element_kind] == Dual.MOMENT
+    leverage = np.where(angle, result.characteristic_length, 1.0).ravel() * rates
+    order = _largest(leverage, lambda row: deformation_key(result, *divmod(row, 6)))
+    return [(row // 6, row % 6 + 1) for row in order]
+
+
+def is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
+    """(m,) whether the deformation of a row is of a class."""
+    element, deformation = result.raw.row_label - 1
+    is_wanted: NDArray[np.bool_] = (
+        result.data.arrays.deformation_class[deformation, element] == wanted
+    )
+    return is_wanted
+
+
+def is_releasable(result: Result) -> NDArray[np.bool_]:
+    """(m,) whether a row is of a part that can be made soft: not of a rigid body.
+
+    Where there is nothing else all are, of bodies of several members those with a name first.
+    """
+    element = result.condensed.elements[result.raw.row_label[0] - 1]
+    stressed = row_norms(result.stress_space) > _NOTHING
+    for rigid in (
+        [index for body in result.parts.bodies for index in body.elements],
+        list(result.parts.links),
+    ):
+        inside = np.zeros(result.given.arrays.element_number.size, bool)
+        inside[rigid] = True
+        made: NDArray[np.bool_] = ~inside[element]
+        if made[stressed].any():
+            return made
+    return np.ones(element.size, bool)
+
+
+def _leverage_of_class(result: Result, wanted: Class) -> FloatArray:
+    """(m,) leverage in the self-stresses, zero where the deformation is of another class."""
+    return np.where(is_of_class(result, wanted), row_norms(result.stress_space), 0.0)
+
+
+def _with_reaction(result: Result, wanted: Class) -> Coordinates:
+    """Coordinates of a class on which the self-stresses act, the largest reaction first."""
+    classes = result.data.arrays.coordinate_class.T
+    able = (classes == wanted).ravel()
+    if not able.any():
+        return []
+    reaction = _reactions(result, able)
+    order = _largest(reaction, lambda place: coordinate_key(result, *divmod(place, 3)))
+    return [(place // 3, place % 3) for place in order]
+
+
+def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
+    """(3 nodes,) reactions to the self-stresses at some coordinates, sigma^T D, as forces.
+
+    Zero where nothing is left of what the elements contribute.
+    """
+    arrays = result.data.arrays
+    whole = result.assembly
+    element, deformation = result.raw.row_label - 1
+    row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
+    chosen = able[whole.column_of] & (row >= 0)
+    matrix = Sparse(whole.column_of, row, whole.value, able.size).only(chosen)
+    turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
+    weight = 1.0 / np.where(turned, result.characteristic_length, 1.0)
+    value = matrix.value * weight[matrix.row_of] / row_weights(result)[matrix.column_of]
+    space = result.stress_space
+    reaction, contributed = (
+        norms_of_product(matrix._replace(value=entries), stresses)
+        for entries, stresses in (
+            (value, space),
+            (np.abs(value), space._replace(value=np.abs(space.value))),
+        )
+    )
+    return np.where(reaction > _NOTHING * contributed, reaction, 0.0)
+
+
+def _largest(leverage: FloatArray, key: Key) -> list[int]:
+    order = np.array(ranked(leverage, leverage.size, key), np.int64)
+    chosen: list[int] = order[leverage[order] > _NOTHING].tolist()
+    return chosen
+
+
+def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = None) -> list[int]:
+    """Rows that span the space together, each as far from the ones before as can be.
+
+    Only of `able` rows, if given.
+    """
+    support = support_of(basis)
+    if able is not None:
+        support = support[able[support]]
+    place = index_of(support, basis.size)[basis.place]
+    there = place >= 0
+    rest = np.zeros((support.size, basis.vectors))
+    rest[place[there], basis.of_entries()[there]] = basis.value[there]
+    return [int(support[i]) for i in spanning(rest, lambda i: key(int(support[i])))]
+
+
+def spanning(rows: FloatArray, key: Key) -> list[int]:
+    """Rows of (n, k) that span the space together, each as far from those before as can be.
+
+    Fewer than k where there are not so many.
+    """
+    rest, chosen = rows.copy(), []
+    for _ in range(rows.shape[1]):
+        norms = np.sqrt(np.einsum("ij,ij->i", rest, rest))
+        first = ranked(norms, 1, key)
+        if not first or norms[first[0]] < _NOTHING:
+            break
+        direction = rest[first[0]] / norms[first[0]]
+        rest -= np.outer(rest @ direction, direction)
+        chosen.append(first[0])
+    return chosen

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The file that ``flexact advise -o`` writes: a changed deck, a page, or a picture."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ...advice.advising import Advice
+from ...advice.proposal import After, tried
+from ...advice.steps import together
+from ...analysis.change import Change
+from ...analysis.naming import counts_in_words
+from ...analysis.places import listed
+from ...analysis.sentences import Pieces
+from ...analysis.verdict import Verdict
+from ...deck.errors import ModelError
+from ...model.editing import edited_deck
+from ...show.picture import STILLS, SUFFIXES
+from ...show.saving import PAGES
+from ...util.decks import DeckFile
+from ...util.errors import BatchError
+from ...util.loading import load
+from ...util.outputs import STDOUT, plan_file, write_together
+from ...util.plain_text import harmless
+from .targets import plan_deck, write_text
+
+_STEP = re.compile(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?")
+
+
+class AskedError(BatchError):
+    """A step, a body or a wish that the mechanism does not have."""
+
+    def __init__(self, message: str, code: str) -> None:
+        """Keep the words and their code."""
+        super().__init__(message)
+        self.code = code
+
+
+def in_short(error: ModelError) -> AskedError:
+    """What is wrong with what was asked, in a line: it stands in no deck."""
+    first = error.diagnostics[0]
+    return AskedError(f"{first.message}{f'; {first.help}' if first.help else ''}", first.code)
+
+
+class Chosen(NamedTuple):
+    """A step by its number, and which of its choices."""
+
+    step: int
+    choice: int
+
+    def __str__(self) -> str:
+        """As it is asked for, such as "1" or "1.2"."""
+        return f"{self.step}.{self.choice}" if self.choice > 1 else str(self.step)
+
+
+def chosen_steps(text: str) -> tuple[Chosen, ...]:
+    """Numbers of steps, and maybe of one of their choices behind a point, as an option's type."""
+    found = [_STEP.fullmatch(part.strip()) for part in text.split(",")]
+    made = tuple(Chosen(int(one[1]), int(one[2] or 1)) for one in found if one is not None)
+    if len(made) < len(found) or len({one.step for one in made}) < len(made):
+        raise argparse.ArgumentTypeError(
+            "the number of a step is wanted, such as 1, or 1.2 for its second choice, or of "
+            f"several, such as 1,8, not {text!r}"
+        )
+    return made
+
+
+class _Taken(NamedTuple):
+    """Steps that are taken together."""
+
+    words: str
+    """Such as "steps 1 and 8"."""
+    change: Change
+    after: After
+    pieces: Pieces
+    """What is done."""
+
+    @property
+    def outcome(self) -> str:
+        """What the mechanism is then."""
+        return counts_in_words(self.after.under_constrained, self.after.over_constrained)
+
+
+class AdviceFile:
+    """Where the file goes, and what it is by its suffix."""
+
+    def __init__(self, target: Path | None, steps: tuple[Chosen, ...] | None) -> None:
+        """Keep the file, None where none is wanted, and the steps that are to be taken."""
+        self.target, self.steps = target, steps
+        self.kind = "" if target is None else target.suffix.lower()
+
+    @property
+    def to_stdout(self) -> bool:
+        """Whether the deck goes to stdout in place of words."""
+        return self.target == STDOUT
+
+    def plan(self, decks: Sequence[DeckFile]) -> None:
+        """Find out what is wrong with the choice before anything is analysed.
+
+        Raises:
+            BatchError: options do not go together, or the file cannot be written.
+        """
+        if self.target is None:
+            if self.steps is not None:
+                raise BatchError("--apply writes the changed deck: say where, with -o FILE")
+            return
+        if len(decks) > 1:
+            raise BatchError(f"-o is for one deck, and there are {len(decks)}")
+        if self.kind in SUFFIXES and self.steps is not None:
+            raise BatchError(
+                "a picture shows the mechanism as it is; for what --apply makes of it name a "
+                "page (.html), or a deck"
+            )
+        if self.kind not in (*PAGES, *STILLS) and self.steps is None:
+            what = "standard output" if self.to_stdout else self.target
+            raise BatchError(
+                f"what is {what} to be? A page ends with .html, a picture with .png, "
+                ".svg or .pdf; the deck that a step makes also needs --apply K"
+            )
+        if self.kind in (*PAGES, *STILLS):
+            plan_file(decks[0], self.target)
+        else:
+            plan_deck(decks[0], self.target)
+
+    def write(self, advice: Advice) -> str:
+        """Write what was asked for, and say so; empty where nothing was.
+
+        Raises:
+            AskedError: there is no such step.
+            ModelError: there is no such choice, or no body to be drawn.
+            OutputError: the file cannot be written.
+            PictureError: a package is missing.
+        """
+        if self.target is None:
+            return ""
+        deck, name = harmless(advice.analysis.name), harmless(str(self.target))
+        name = "standard output" if self.to_stdout else name
+        pages = "flexact.show.page.advice"
+        content: bytes
+        if self.kind in STILLS:
+            content = load(pages).picture_of(advice, self.kind)
+            said = f"freedom and constraint drawn in {name}"
+        elif self.kind in PAGES and not self.steps and not len(advice):
+            content = load(pages).page_as_it_is(advice)
+            said = f"shown in {name}; {_there(advice)}"
+        else:
+            taken, given = self._taken(advice), advice.analysis.given
+            if self.kind in PAGES:
+                content = load(pages).page_of(advice, taken.change, taken.pieces)
+                said = f"{taken.words} shown in {name}, {taken.outcome}"
+            else:
+                content = edited_deck(given, taken.change.apply(given).data)
+                said = f"{taken.words} written to {name}, {taken.outcome}"
+        if self.kind in (*PAGES, *STILLS):
+            write_together({self.target: content})
+        else:
+            write_text(self.target, content)
+        return f"{deck}: {said}"
+
+    def _taken(self, advice: Advice) -> _Taken:
+        """The steps that were asked for; of a page by default the first, or what makes it exact."""
+        asked = self.steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
+        for one in asked:
+            if one.step > len(advice):
+                raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
+        steps = [(advice[one.step - 1], one.choice) for one in asked]
+        change = together(step.chosen(choice) for step, choice in steps)
+        after = steps[0][0].after if len(steps) == 1 else tried(advice.analysis, change)
+        numbers = listed([str(one) for one in asked])
+        pieces = tuple(piece for step, _ in steps for piece in (*step.pieces, " "))
+        return _Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after, pieces)
+
+
+def _there(advice: Advice) -> str:
+    """Which steps there are."""
+    if len(advice):
+        return f"there are {len(advice)}" if len(advice) > 1 else "there is one"
+    if advice.analysis.verdict is Verdict.EXACT:
+        return "it is exactly constrained, and there is nothing to mend"
+    return "nothing was found that would mend this mechanism"

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact bench``: how fast this machine is, in a table that can be put into a report."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+
+from ...util.loading import load
+from ...util.processors import processors
+from ...util.version import VERSION
+from .bar import Bar
+from .help_texts import add_examples
+from .outcome import ExitCode
+from .terminal import complain, give, say
+
+#: Of the JSON; see `docs/command.md` for when it is raised.
+FORMAT = 1
+_NOTES = """\
+Times are those of one analysis with its certainty and margin, the shortest of some runs;
+numpy's SVD is that of the same matrix with both bases, on one thread, in the same run, and the
+ratio that of the first column to it."""
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Measure how fast this machine analyses mechanisms of growing size, dense and sparse, on "
+        "one thread and on two, beside numpy's SVD. It takes half a minute or so."
+    )
+    parser.add_argument("--quick", action="store_true", help="small mechanisms, some seconds")
+    parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
+    add_examples(
+        parser,
+        ("What this machine does, for a report", "flexact bench --quick"),
+        ("The same for a program", "flexact bench --quick --json"),
+    )
+    parser.set_defaults(run=bench)
+
+
+def bench(chosen: argparse.Namespace) -> ExitCode:
+    """Measure, and say what was measured as it comes."""
+    module, words = load("flexact.apps.checks.bench"), load("flexact.apps.checks.words")
+    machine = [*load("flexact.apps.cli.about").of_machine(), *_load()]
+    threads = (1,) if processors() < 2 else (1, 2)
+    if not chosen.json:
+        say("\n".join(f"{name:15} {value}" for name, value in machine))
+        say(f"\n{words.head(threads)}")
+    found = []
+    with Bar("bench", "") as bar:
+        cases = module.QUICK if chosen.quick else module.CASES
+        for made in module.measure(cases, threads, bar.show_work):
+            found.append(made)
+            if not chosen.json:
+                bar.clear()
+                say(words.line(made, threads))
+    if chosen.json:
+        _give(machine, found, chosen.quick)
+    else:
+        say(f"\n{_NOTES}")
+    if not all(made.counts_are_right for made in found):
+        complain("flexact: error: counts differ from those of the construction: please report it")
+        return ExitCode.DIFFERENT
+    return ExitCode.ANALYSED
+
+
+def _load() -> list[tuple[str, str]]:
+    """How busy the machine is with other work, where the system says so: times are longer then."""
+    if not hasattr(os, "getloadavg"):
+        return []
+    with contextlib.suppress(OSError):
+        return [("load before", f"{os.getloadavg()[0]:.1f}")]
+    return []
+
+
+def _give(machine: list[tuple[str, str]], found: list[object], quick: bool) -> None:
+    head = {"format": FORMAT, "flexact": VERSION, "quick": quick}
+    pairs = [{"name": name, "value": value} for name, value in machine]
+    made = [each.to_dict() for each in found]  # type: ignore[attr-defined]
+    give(load("json").dumps({**head, "machine": pairs, "measurements": made}))

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact convert``: decks, tables in the style of SPACAR Light, and meshes of lines."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from ...deck.errors import ProblemsError
+from ...deck.rendering import render
+from ...util.decks import STDIN, DeckFile, find_decks
+from ...util.errors import BatchError, FlexactError
+from ...util.outputs import STDOUT
+from ...util.plain_text import harmless
+from ..convert.files import Format, bytes_of, form_of_content, format_of, read_any, read_content
+from ..convert.mesh_data import KINDS
+from ..convert.tables import FLEXIBLE
+from .decks import report_problems
+from .help_texts import add_examples
+from .outcome import ExitCode
+from .targets import plan_text, write_text
+from .terminal import complain, say
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Convert a mechanism: decks (.dat), tables in the style of SPACAR Light (.json, .yaml), "
+        "and meshes of lines (.vtu, .vtk, .msh, ...); the suffixes say which. What comes by - from "
+        "stdin is tables if it begins with a brace, else a deck; to stdout goes a deck, or of a "
+        "deck its tables as JSON."
+    )
+    parser.add_argument(
+        "file", metavar="FILE", type=Path, help="what is to be converted; - for stdin"
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        required=True,
+        help="what is to be written; - for stdout",
+    )
+    parser.add_argument(
+        "--as",
+        dest="kind",
+        choices=KINDS,
+        help="what lines of a mesh are (default: beam)",
+    )
+    parser.add_argument(
+        "--fix",
+        type=points,
+        default=(),
+        metavar="POINTS",
+        help="points of a mesh that are fixed, from 1, such as 1,4-6",
+    )
+    parser.add_argument(
+        "--flexible",
+        choices=FLEXIBLE,
+        help="what deformations in flex of tables are that are not released: degrees of freedom, "
+        "as in SPACAR Light (default), or released, too",
+    )
+    add_examples(
+        parser,
+        (
+            "Tables in the style of SPACAR Light",
+            "flexact convert input_decks/paper/five_wires.dat -o results/wires.json",
+        ),
+        (
+            "And back",
+            "flexact convert results/wires.json -o results/wires.dat",
+        ),
+    )
+    parser.set_defaults(run=convert_file)
+
+
+def points(text: str) -> tuple[int, ...]:
+    """Numbers from 1, and spans of them, as an option's type."""
+    made: list[int] = []
+    try:
+        for part in text.split(","):
+            first, _, last = part.partition("-")
+            low, high = int(first), int(last or first)
+            if not 1 <= low <= high <= 10**9 or high - low > 10**7:
+                raise ValueError
+            made += range(low, high + 1)
+    except ValueError:
+        raise argparse.ArgumentTypeError(
+            f"numbers of points from 1 are wanted, such as 1,4-6, not {text!r}"
+        ) from None
+    return tuple(made)
+
+
+def _options(chosen: argparse.Namespace, form: Format) -> dict[str, Any]:
+    """How the file is to be taken.
+
+    Raises:
+        BatchError: an option is for files of another format.
+    """
+    made: dict[str, Any] = {}
+    for option, name, value, wanted in (
+        ("--as", "kind", chosen.kind, Format.MESH),
+        ("--fix", "fixed", chosen.fix or None, Format.MESH),
+        ("--flexible", "flexible", chosen.flexible, Format.TABLES),
+    ):
+        if value is None:
+            continue
+        if form is not wanted:
+            kind = {Format.MESH: "a mesh", Format.TABLES: "tables"}[wanted]
+            raise BatchError(f"{option} is for {kind}, and {chosen.file} is none")
+        made[name] = value
+    return made
+
+
+def _source(file: Path) -> DeckFile:
+    """What is to be converted.
+
+    Raises:
+        BatchError: it cannot be read.
+    """
+    if str(file) != STDIN:
+        return DeckFile(str(file), Path(file.stem))
+    (source,) = find_decks([STDIN])
+    if source.error is not None:
+        raise BatchError(str(source.error))
+    return source
+
+
+def _failed(error: FlexactError, code: ExitCode) -> ExitCode:
+    """Say what is wrong; with the file as a deck or a table, that is the file's fault."""
+    if isinstance(error, ProblemsError):
+        complain(str(error))
+        return ExitCode.DECK_ERROR
+    complain(f"flexact: error: {harmless(str(error))}")
+    return code
+
+
+def convert_file(chosen: argparse.Namespace) -> ExitCode:
+    """Convert the file that was asked for, and say what the other format cannot."""
+    source, target = _source(chosen.file), chosen.output
+    given = format_of(chosen.file) if source.content is None else form_of_content(source.content)
+    named = target
+    if target == STDOUT:
+        named = Path("tables.json" if given is Format.DECK else "deck.dat")
+    format_of(named)
+    options = _options(chosen, given)
+    plan_text(source, target)
+    try:
+        if source.content is None:
+            model = read_any(chosen.file, **options)
+        else:
+            model = read_content(source.content, source.name, **options)
+    except FlexactError as error:
+        return _failed(error, ExitCode.DECK_ERROR)
+    try:
+        content, notes = bytes_of(model, named)
+    except FlexactError as error:
+        return _failed(error, ExitCode.OTHER)
+    report_problems(model.data)
+    name = "<stdout>" if target == STDOUT else harmless(str(target))
+    for note in notes:
+        complain(render(note, name))
+    write_text(target, content)
+    a = model.data.arrays
+    elements, nodes = a.element_number.size, a.node_number.size
+    size = f"{elements} element{'s' * (elements != 1)}, {nodes} node{'s' * (nodes != 1)}"
+    text = f"{harmless(source.path)}: written to {name}, {size}"
+    complain(text) if target == STDOUT else say(text)
+    return ExitCode.ANALYSED

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact cost``: what over-constraint costs, and what each release would keep."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+
+from ...costs.asking import AskedError
+from ...costs.cost import Cost
+from ...costs.making import cost_of
+from ...costs.request import DRIVE, HELD, POINTS, Asked
+from ...costs.saving import content_of, require_suffix, save
+from ...costs.told import WIDTH
+from ...costs.words import describe
+from ...deck.errors import ModelError, ProblemsError
+from ...util.decks import DeckFile
+from ...util.errors import BatchError, FlexactError
+from ...util.interruption import unwinding
+from ...util.outputs import STDOUT, plan_file
+from ...util.plain_text import harmless
+from .bar import Bar
+from .cli_decks import take
+from .decks import opened, report_problems
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome
+from .showing import number, one_deck
+from .terminal import complain, give, put, say, text_width
+
+#: What argparse takes for a value although it begins with a minus, such as -5% or -50um.
+_NEGATIVE = re.compile(r"-\.?\d.*")
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Say what over-constraint costs: how far each clamp may be off, and what the design and "
+        "each proven release keep of stiffness and frequencies. The deck gives stiffness (ESTIFF) "
+        "and, for frequencies, masses (EM, XM)."
+    )
+    # There is no public way to say so before Python 3.14.
+    parser._negative_number_matcher = _NEGATIVE
+    parser.add_argument("deck", metavar="DECK", help="a deck with stiffness, or - for stdin")
+    parser.add_argument(
+        "--at", metavar="POINT", help="where stiffness is measured: a node or a name (the drive)"
+    )
+    _add_many(
+        *(parser, "--release", "E:M[=K]"),
+        "a design that releases deformation M of element E, with a notch of K N m/rad; several "
+        "together: 1:5+2:5=3.5; none: only as built (default: the proven releases)",
+    )
+    parser.add_argument(
+        "--stroke",
+        metavar="POINT:C=FROM..TO",
+        help="all of it along a stroke, such as 1:z=25mm..35mm, or from the place in the deck "
+        "1:z+=-5mm..5mm",
+    )
+    parser.add_argument("--points", type=number, metavar="N", help=f"places along it ({POINTS})")
+    _add_many(
+        *(parser, "--misalign", "CLAMP:C=VALUE[@POINT]"),
+        "what this misalignment does, with all of the nonlinearity, such as 11:x=50um, or turned "
+        "about a point 11:rx=1mrad@13; several act together",
+    )
+    parser.add_argument(
+        "--shift",
+        default="-5%",
+        metavar="PART",
+        help="of the first frequency, for which tolerances are found (-5%%)",
+    )
+    parser.add_argument("--drive", choices=DRIVE, default=DRIVE[0], help="declared coordinates")
+    parser.add_argument("--held", choices=HELD, default=HELD[0], help="held deformations")
+    parser.add_argument(
+        "--beams",
+        default="auto",
+        metavar="auto|N",
+        help="beams a sheet; auto: 8 and 16, extrapolated, with the uncertainty",
+    )
+    parser.add_argument(
+        "--bodies",
+        action="store_true",
+        help="releases inside of rigid bodies too (default: only where nothing else does it)",
+    )
+    parser.add_argument(
+        "--beyond",
+        action="store_true",
+        help="take strokes and misalignments that are larger than the model",
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object on stdout")
+    parser.add_argument(
+        *("-o", "--output"),
+        action="append",
+        default=[],
+        type=Path,
+        metavar="FILE",
+        help="a picture (.png, .svg, .pdf), a page (.html), a table (.csv) or .json; - for the "
+        "table on stdout; may be repeated",
+    )
+    add_examples(
+        parser,
+        (
+            "What over-constraint costs",
+            "flexact cost input_decks/flexures/notch_guide.dat",
+        ),
+        (
+            "Which errors lower the first frequency by 1 %",
+            "flexact cost input_decks/flexures/notch_guide.dat --shift=-1%",
+        ),
+        (
+            "Two kinds of files at once",
+            "flexact cost input_decks/flexures/notch_guide.dat -o results/cost.csv "
+            "-o results/cost.json",
+        ),
+    )
+    parser.set_defaults(run=cost_deck)
+
+
+def _add_many(parser: argparse.ArgumentParser, name: str, form: str, words: str) -> None:
+    parser.add_argument(
+        name, action="append", default=[], metavar=form, help=f"{words}; may be repeated"
+    )
+
+
+def cost_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Find the cost of the deck, say and write it."""
+    deck = one_deck(chosen)
+    if chosen.points is not None and chosen.stroke is None:
+        raise BatchError("--points is for the places along a stroke: give --stroke, too")
+    try:
+        asked = Asked.of(
+            at=_point(chosen.at),
+            release=chosen.release or None,
+            stroke=chosen.stroke,
+            misalign=chosen.misalign,
+            shift=chosen.shift,
+            held=chosen.held,
+            drive=chosen.drive,
+            beams=chosen.beams,
+            points=POINTS if chosen.points is None else chosen.points,
+            bodies=chosen.bodies,
+            beyond=chosen.beyond,
+        )
+    except AskedError as error:
+        *others, last = error.messages
+        for each in others:
+            complain(f"flexact: error: {harmless(each)}")
+        raise BatchError(last) from None
+    to_stdout = STDOUT in chosen.output
+    if to_stdout and chosen.json:
+        raise BatchError("--json and -o - both go to standard output: choose one")
+    files = [target for target in chosen.output if target != STDOUT]
+    for target in files:
+        plan_file(deck, target)
+        with unwinding():
+            require_suffix(target)
+
+    def step(deck: DeckFile) -> Outcome:
+        with Bar(deck.name, deck.path) as bar:
+            model = opened(deck, bar)
+            report_problems(model)
+            try:
+                with unwinding() as look:
+
+                    def show(what: str, done: float) -> None:
+                        look()
+                        bar.show_work(what, done)
+
+                    made = cost_of(model, asked, deck.name, show, Cost)
+                    for target in files:
+                        bar.show_work("writing", 1.0)
+                        save(made, target)
+            except BatchError:
+                raise
+            except ProblemsError as error:
+                raise _in_short(error) from None
+            except FlexactError as error:
+                raise BatchError(str(error)) from error
+        if to_stdout:
+            put(content_of(made, ".csv"))
+        else:
+            if chosen.json:
+                give(made.to_json())
+            else:
+                say(f"{describe(made, text_width(WIDTH))}\n")
+        for target in files:
+            text = f"{harmless(deck.name)}: written to {harmless(str(target))}"
+            complain(text) if chosen.json or to_stdout else say(text)
+        if made.stroke is not None and made.stroke.why:
+            complain(f"{harmless(deck.name)}: error: {harmless(made.stroke.beyond)}")
+            return Outcome(deck.name, ExitCode.DECK_ERROR, "costed in part", "stroke beyond reach")
+        return Outcome(deck.name, ExitCode.ANALYSED, "costed")
+
+    return take([deck], step, as_json=chosen.json)
+
+
+def _point(text: str | None) -> int | str | None:
+    return int(text) if text is not None and re.fullmatch(r"\d{1,9}", text) else text
+
+
+def _in_short(error: ProblemsError) -> FlexactError:
+    """What was asked for and is not there, in a line; of a deck with errors all of them."""
+    if not isinstance(error, ModelError):
+        return error
+    told = (f"{e.message}{f'; {e.help}' if e.help else ''}" for e in error.diagnostics)
+    return BatchError("\n".join(told))

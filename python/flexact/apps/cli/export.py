@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact export``: a deck's mechanism as a mesh, still or playing, for ParaView."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from ...analysis.naming import motion_in_words
+from ...show.drawing.selection import select_motion
+from ...show.mesh.collection import SUFFIX, folder_of
+from ...show.mesh.cycle import ENDINGS, STEM
+from ...show.mesh.writing import mesh_writer
+from ...util.decks import DeckFile
+from ...util.interruption import unwinding
+from ...util.outputs import plan_file, plan_files
+from ...util.partial import attempted
+from ...util.plain_text import harmless
+from .bar import Bar
+from .cli_decks import take
+from .decks import add_decision, read_and_analysed
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome
+from .showing import add_deck, add_shown, one_deck
+from .terminal import complain, say
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = "Write a mechanism with its motions and self-stresses as a mesh."
+    add_deck(
+        parser, "a mesh: .vtu, .vtp, .vtk, .xdmf, ...; or .pvd, the motion as a cycle that plays"
+    )
+    add_shown(parser)
+    add_decision(parser)
+    add_examples(
+        parser,
+        (
+            "A mesh with all modes",
+            "flexact export input_decks/paper/twelve_trusses.dat -o results/trusses.vtu",
+        ),
+        (
+            "A motion that plays in ParaView",
+            "flexact export input_decks/paper/twelve_trusses.dat --motion 1 -o results/trusses.pvd",
+        ),
+    )
+    parser.set_defaults(run=export_deck, accuracy=None)
+
+
+def export_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Analyse the deck and write its mesh."""
+    deck = one_deck(chosen)
+    target: Path = chosen.output
+    with unwinding():
+        write = mesh_writer(target)
+    plan_file(deck, target)
+    if target.suffix.lower() == SUFFIX:
+        plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
+
+    def step(deck: DeckFile) -> Outcome:
+        with Bar(deck.name, deck.path) as bar:
+            analysis = read_and_analysed(deck, chosen, bar)
+            bar.show("writing")
+            missing: list[str] = []
+            wanted = chosen.motion, chosen.freedom
+            if wanted == (None, None):
+                shown = attempted("Its motion", lambda: select_motion(analysis), None, missing)
+            else:
+                shown = select_motion(analysis, *wanted)
+            with unwinding():
+                write(analysis, None if shown is None else shown.motion, target)
+        name = harmless(deck.name)
+        if missing:
+            complain(f"{name}: note: {missing[0]}")
+        elif shown is None:
+            complain(f"{name}: note: the mechanism does not move; displacements are zero")
+        what = ""
+        if shown is not None:
+            what = f", showing {motion_in_words(analysis, shown.number, shown.freedom)}"
+        say(f"{name}: written to {harmless(str(target))}{what}")
+        return Outcome(deck.name, ExitCode.ANALYSED, "written")
+
+    return take([deck], step)

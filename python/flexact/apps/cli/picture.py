@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact picture``: a deck's mechanism as a picture, still or moving."""
+
+from __future__ import annotations
+
+import argparse
+
+from ...show.drawing import quantity_named
+from ...show.picture import check_packages, check_suffix, check_view, picture_bytes
+from ...show.picture.subject import refuse_zero
+from ...util.decks import DeckFile
+from ...util.interruption import unwinding
+from ...util.outputs import plan_file, write_together
+from ...util.plain_text import harmless
+from .bar import Bar
+from .cli_decks import take
+from .decks import add_accuracy, add_decision, read_and_analysed
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome
+from .showing import add_deck, add_shown, number, one_deck
+from .terminal import say
+
+_QUANTITIES = ("normal-force", "twist-moment", "in-plane-moment", "out-of-plane-moment")
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = "Draw a mechanism: by default its first motion and its first self-stress."
+    add_deck(parser, "the picture: .png, .svg or .pdf; .gif, .mp4 or .webm, which move")
+    group = add_shown(parser)
+    group.add_argument(
+        "--stress", type=number, metavar="K", help="show self-stress K, coloured by its resultant"
+    )
+    group.add_argument(
+        "--quantity",
+        type=_quantity,
+        metavar="QUANTITY",
+        help=f"of the self-stress: {', '.join(_QUANTITIES)} (default: the dominant one); N, T, My "
+        "and Mz are older names of the four",
+    )
+    group.add_argument(
+        "--held",
+        action="store_true",
+        help="show what each flexure of an exactly constrained mechanism holds, and how well",
+    )
+    group.add_argument(
+        "--view",
+        default="iso",
+        metavar="VIEW",
+        help="iso (default), front, back, left, right, top, bottom, or AZ,EL: azimuth and "
+        "elevation of the eye in degrees, as in --view=-60,25; z is up",
+    )
+    add_decision(parser)
+    add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "The first motion and the first self-stress",
+            "flexact picture input_decks/paper/twelve_trusses.dat -o results/trusses.png",
+        ),
+        (
+            "One quantity of a self-stress, from the front",
+            "flexact picture input_decks/flexures/parallel_guide.dat --quantity in-plane-moment "
+            "--view front -o results/moment.svg",
+        ),
+    )
+    parser.set_defaults(run=draw_deck)
+
+
+def _quantity(text: str) -> str:
+    """A quantity by any of its names, as an option's type."""
+    if quantity_named(text) is None:
+        choices = ", ".join(_QUANTITIES)
+        raise argparse.ArgumentTypeError(f"invalid choice: {text!r} (choose from {choices})")
+    return text
+
+
+def draw_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Analyse the deck and draw it."""
+    deck, target = one_deck(chosen), chosen.output
+    with unwinding():
+        _check(chosen)
+    plan_file(deck, target)
+
+    def step(deck: DeckFile) -> Outcome:
+        with Bar(deck.name, deck.path) as bar:
+            analysis = read_and_analysed(deck, chosen, bar)
+            with unwinding():
+                refuse_zero(analysis, chosen.stress, chosen.quantity)
+                content = picture_bytes(
+                    analysis,
+                    target.suffix,
+                    motion=chosen.motion,
+                    freedom=chosen.freedom,
+                    stress=chosen.stress,
+                    quantity=chosen.quantity,
+                    held=chosen.held,
+                    view=chosen.view,
+                    progress=bar.show_frames,
+                )
+            with unwinding():
+                write_together({target: content})
+        say(f"{harmless(deck.name)}: drawn in {harmless(str(target))}")
+        return Outcome(deck.name, ExitCode.ANALYSED, "drawn")
+
+    return take([deck], step)
+
+
+def _check(chosen: argparse.Namespace) -> None:
+    """Find out what is wrong with the choice before anything is analysed."""
+    check_suffix(chosen.output.suffix)
+    check_packages(chosen.output.suffix)
+    check_view(chosen.view)

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact regress``: compare decks with stored answers, or store them."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from ...analysis.failing import AnalysisError
+from ...core.progress import Progress
+from ...model.data import ModelData
+from ...util.decks import DeckFile, find_decks
+from ...util.errors import BatchError
+from ...util.interruption import unwinding
+from ...util.loading import load
+from ...util.outputs import OutputError, plan_file, plan_files, write_together
+from ...util.plain_text import harmless
+from ..checks.comparison import Finding, Question, State, answer_place, case_of
+from . import failures
+from .bar import Bar
+from .cli_decks import add_decks
+from .decks import add_method, announce_wait, tolerance
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome, exit_code
+from .regress_summary import summary
+from .renamed import add_renamed
+from .targets import file, folder
+from .terminal import end_progress, say, show_progress
+from .workers import add_workers, in_order
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = "Compare what does not depend on sign, order or basis with stored answers."
+    add_decks(parser)
+    parser.add_argument(
+        "--against",
+        type=folder,
+        metavar="DIR",
+        required=True,
+        help="folder of the stored answers: the decks are compared with them, or with --store "
+        "theirs are stored there",
+    )
+    parser.add_argument(
+        "--store",
+        action="store_true",
+        help="store the answers that are new or differ in that folder, instead of comparing",
+    )
+    parser.add_argument(
+        "--within",
+        type=tolerance,
+        metavar="D",
+        help="largest difference of singular values, as a fraction of the largest "
+        "(default 1e-9), and of entries of projectors (default 1e-8)",
+    )
+    add_renamed(parser, "--tolerance", "--within", dest="within", kind=tolerance)
+    parser.add_argument(
+        "--junit", type=file, metavar="FILE", help="write what came of each deck as JUnit XML"
+    )
+    add_workers(parser)
+    add_method(parser)
+    add_examples(
+        parser,
+        (
+            "Store the answers, once they are right",
+            "flexact regress input_decks/paper --against results/answers --store",
+        ),
+        (
+            "Compare with them: exits with 3 if one differs",
+            "flexact regress input_decks/paper --against results/answers",
+        ),
+    )
+    parser.set_defaults(run=regress_decks)
+
+
+def regress_decks(chosen: argparse.Namespace) -> ExitCode:
+    """Compare the decks that were asked for with their stored answers, or store them."""
+    if chosen.store and chosen.within is not None:
+        raise BatchError("--within is for comparing; it has no meaning with --store")
+    start = time.time()
+    decks = find_decks(chosen.decks)
+    if chosen.store:
+        plan_files(decks, chosen.against, (".json",))
+    if chosen.junit is not None:
+        _require_place(chosen.junit, decks, chosen.against)
+    found, codes = [], []
+    for number, (deck, finding) in enumerate(_findings(decks, chosen), start=1):
+        finding, code = _said(deck, finding, chosen.against)
+        found.append((deck, finding))
+        codes.append(Outcome(deck.name, code, finding.state.value))
+        show_progress(number, len(decks), deck.name)
+    end_progress()
+    if len(decks) > 1:
+        say(summary(found, chosen))
+    if chosen.junit is not None:
+        text = load("flexact.apps.checks.junit").junit_xml(found, time.time() - start, start)
+        with unwinding():
+            write_together({chosen.junit: text})
+    return exit_code(codes)
+
+
+def _require_place(junit: Path, decks: Sequence[DeckFile], answers: Path) -> None:
+    """Raise where the JUnit file has no place, or one that is taken.
+
+    Raises:
+        OutputError: It has none.
+    """
+    plan_file(DeckFile("the JUnit file", Path()), junit)
+    place = os.path.realpath(junit)
+    for deck in decks:
+        for taken in (deck.path, answer_place(deck, answers)):
+            if os.path.realpath(taken) == place:
+                raise OutputError(f"{junit} would overwrite {taken}")
+
+
+def _findings(
+    decks: Sequence[DeckFile], chosen: argparse.Namespace
+) -> Iterator[tuple[DeckFile, Finding]]:
+    """What comes of each deck, in their order; a folder that gives none fails."""
+    question = Question(chosen.method, chosen.within, chosen.store)
+    good = [deck for deck in decks if deck.error is None]
+    results: Iterator[tuple[Finding, str]]
+    if chosen.dask is None and (len(good) == 1 or chosen.workers == 1):
+        results = ((_watched(deck, chosen, question), "") for deck in good)
+    else:
+        results = in_order(question, (case_of(deck, chosen.against) for deck in good), chosen)
+    for deck in decks:
+        if deck.error is not None:
+            yield deck, Finding(State.FAILED, error=deck.error)
+            continue
+        finding, failure = next(results)
+        yield deck, Finding(State.FAILED, error=AnalysisError(failure)) if failure else finding
+
+
+def _watched(deck: DeckFile, chosen: argparse.Namespace, question: Question) -> Finding:
+    """What comes of a deck, while a bar says how far it is."""
+
+    def watch(model: ModelData) -> Progress | None:
+        bar.clear()
+        announce_wait(deck, model, chosen.method)
+        return bar.of_analysis(model)
+
+    with Bar(deck.name, deck.path) as bar:
+        bar.show("reading")
+        return question(case_of(deck, chosen.against), watch)
+
+
+def _said(deck: DeckFile, finding: Finding, answers: Path) -> tuple[Finding, ExitCode]:
+    """Say what came of a deck, and store it if it is to be."""
+    name, place = harmless(deck.name), answer_place(deck, answers)
+    if finding.state is State.STORED:
+        try:
+            with unwinding():
+                write_together({place: finding.text.encode()})
+        except OutputError as error:
+            finding = Finding(State.FAILED, error=error, seconds=finding.seconds)
+        else:
+            say(f"{name}: stored in {harmless(str(place))}")
+            # All findings are kept, but not the texts of large answers.
+            finding = replace(finding, text="")
+    if finding.error is not None:
+        return finding, failures.report(deck, finding.error, as_json=False).code
+    if finding.state is State.DIFFERENT:
+        head = f"{name}: differs from {harmless(str(place))}"
+        say("\n".join((head, *(f"  {harmless(line)}" for line in finding.differences))))
+        return finding, ExitCode.DIFFERENT
+    if finding.state is State.AS_STORED:
+        say(f"{name}: as stored")
+    return finding, ExitCode.ANALYSED

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact report A B --compare``: what changed between two runs, on one page."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ...analysis.comparing import Side, SideError, broken_side, change_of, side_of, stored_side
+from ...analysis.result import Result
+from ...show.page import Pair, before_and_after, changes_part
+from ...show.page import compare as compare_page
+from ...show.picture import has_packages, picture_bytes
+from ...show.saving import PAGES, as_bytes, small_picture
+from ...util.decks import DeckFile, find_decks
+from ...util.errors import BatchError
+from ...util.interruption import unwinding
+from ...util.outputs import plan_file, require_replaceable, write_together
+from ...util.partial import attempted
+from ...util.plain_text import harmless
+from . import failures
+from .bar import Bar
+from .decks import analysed, opened
+from .outcome import ExitCode, Outcome, exit_code
+from .terminal import complain, end_progress, say, show_progress
+
+_JSON = ".json"
+_USAGE = "--compare takes two decks, or two folders"
+_KINDS = {"changed": "changed", "same": "as before"}
+
+
+def add_compare(parser: argparse.ArgumentParser) -> None:
+    """Add the comparison to the parser of the verb."""
+    parser.add_argument(
+        "--compare",
+        action="store_true",
+        help="one page of what changed from the first deck or folder to the second; a folder may "
+        "also hold the NAME.json of analyse -o",
+    )
+    parser.add_argument(
+        "--expect", choices=("same",), help="with --compare: exit with 3 where something changed"
+    )
+
+
+@dataclass(frozen=True)
+class _Found:
+    """One side of a pair, and what is drawn of it."""
+
+    side: Side
+    result: Result | None = None
+    code: ExitCode = ExitCode.ANALYSED
+
+
+def compare(chosen: argparse.Namespace) -> ExitCode:
+    """Compare the two decks or folders that were asked for, and write the page."""
+    places = _checked(chosen)
+    before, after = (_decks(place) for place in places)
+    _require_place(chosen.output, [*before.values(), *after.values()])
+    runs = _called(*places)
+    if not os.path.isdir(places[0]):
+        # Two decks are one pair, whatever they are called.
+        ((_, one),), ((_, other),) = before.items(), after.items()
+        return _Work(chosen, runs).one(one, other)
+    return _Work(chosen, runs).many(before, after)
+
+
+def _checked(chosen: argparse.Namespace) -> tuple[str, str]:
+    """The two paths, if they can be compared.
+
+    Raises:
+        BatchError: They cannot.
+    """
+    if len(chosen.decks) != 2:
+        count = len(chosen.decks)
+        raise BatchError(f"{_USAGE}, not {count} path{'s' * (count != 1)}")
+    if chosen.output.suffix.lower() not in PAGES or chosen.output.is_dir():
+        raise BatchError(f"--compare writes one page: -o NAME.html, not {chosen.output}")
+    first, second = chosen.decks
+    if "-" in (first, second):
+        raise BatchError(f"{_USAGE}; standard input is neither")
+    for path in (first, second):
+        if not os.path.exists(path):
+            raise BatchError(f"{path}: there is no such deck or folder")
+    folders = [path for path in (first, second) if os.path.isdir(path)]
+    if len(folders) == 1:
+        deck = second if folders[0] == first else first
+        raise BatchError(f"{_USAGE}; {folders[0]} is a folder, and {deck} is not")
+    if os.path.realpath(first) == os.path.realpath(second):
+        what = "folder" if folders else "deck"
+        raise BatchError(f"{_USAGE}; {first} and {second} are one {what}")
+    return first, second
+
+
+def _decks(place: str) -> dict[str, DeckFile]:
+    """The decks of a folder by their relative names; of a folder without any, stored results.
+
+    Raises:
+        BatchError: There are none, or two are called the same.
+    """
+    if not os.path.isdir(place):
+        path = Path(place)
+        return {path.stem: DeckFile(place, Path(path.stem))}
+    decks = [deck for deck in find_decks([place]) if deck.error is None]
+    if not decks:
+        results = sorted(Path(place).rglob(f"*{_JSON}"))
+        decks = [DeckFile(str(p), p.relative_to(place).with_suffix("")) for p in results]
+    if not decks:
+        raise BatchError(f"{place}: no deck (*.dat) and no result (*{_JSON}) in this folder")
+    made: dict[str, DeckFile] = {}
+    for deck in decks:
+        other = made.setdefault(deck.relative.as_posix(), deck)
+        if other is not deck:
+            raise BatchError(f"{other.path} and {deck.path} are called the same")
+    return made
+
+
+def _require_place(target: Path, decks: Sequence[DeckFile]) -> None:
+    """Raise where the page has no place, or would overwrite what it is made from.
+
+    Raises:
+        OutputError: It would.
+    """
+    for deck in decks:
+        plan_file(deck, target)
+    require_replaceable(target)
+
+
+def _called(first: str, second: str) -> tuple[str, str]:
+    """What both are called: the shortest ends of their paths that differ."""
+    one, other = (Path(os.path.abspath(path)).parts for path in (first, second))
+    for length in range(1, max(len(one), len(other)) + 1):
+        names = ["/".join(parts[-length:]).replace("//", "/") for parts in (one, other)]
+        if names[0] != names[1]:
+            return harmless(names[0]), harmless(names[1])
+    return harmless(first), harmless(second)
+
+
+class _Work:
+    """One comparison."""
+
+    def __init__(self, chosen: argparse.Namespace, runs: tuple[str, str]) -> None:
+        self.chosen, self.runs = chosen, runs
+        self.outcomes: list[Outcome] = []
+
+    def one(self, first: DeckFile, second: DeckFile) -> ExitCode:
+        """Two decks: both drawings beside each other, where both can be analysed."""
+        found = [self._found(deck) for deck in (first, second)]
+        pair = self._pair(self.runs[1], *found)
+        before, after = (each.result for each in found)
+        if pair.change is not None and before is not None and after is not None:
+            stills = [_still(each) for each in (before, after)]
+            page = before_and_after(
+                *(before, after, ()),
+                stills=(stills[0], stills[1]),
+                runs=self.runs,
+                changes=changes_part(pair.change),
+            )
+        else:
+            page = compare_page([pair], self.runs)
+        return self._finish([pair], page)
+
+    def many(self, before: Mapping[str, DeckFile], after: Mapping[str, DeckFile]) -> ExitCode:
+        """Two folders: a card for each deck that is in either."""
+        names = sorted({*before, *after}, key=lambda name: Path(name).parts)
+        pairs = []
+        for number, name in enumerate(names, start=1):
+            show_progress(number, len(names), name)
+            found = list(self._both(before.get(name), after.get(name)))
+            pairs.append(self._pair(name, *found))
+        end_progress()
+        return self._finish(pairs, compare_page(pairs, self.runs))
+
+    def _both(self, first: DeckFile | None, second: DeckFile | None) -> Iterator[_Found | None]:
+        one = None if first is None else self._found(first)
+        yield one
+        if first is not None and second is not None and _is_same(first.path, second.path):
+            yield one
+        else:
+            yield None if second is None else self._found(second)
+
+    def _pair(self, name: str, one: _Found | None, other: _Found | None) -> Pair:
+        """What is said of a deck, and what the command makes of it."""
+        sides = [None if each is None else each.side for each in (one, other)]
+        change = None
+        if sides[0] is not None and sides[1] is not None:
+            change = change_of(sides[0], sides[1])
+        pair = Pair(name, sides[0], sides[1], change)
+        results = [None if each is None else each.result for each in (one, other)]
+        if pair.kind == "same":
+            results[0] = None
+        pictures = [None if result is None else small_picture(result) for result in results]
+        if pair.kind in ("changed", "gone", "new"):
+            say(_in_a_line(pair, self.runs))
+        codes = [each.code for each in (one, other) if each is not None]
+        if self.chosen.expect and pair.kind != "same":
+            codes.append(ExitCode.DIFFERENT)
+        self.outcomes += [Outcome(name, code, pair.kind) for code in codes]
+        return replace(pair, pictures=(pictures[0], pictures[1]))
+
+    def _found(self, deck: DeckFile) -> _Found:
+        """One side, however it is to be had."""
+        try:
+            if Path(deck.path).suffix.lower() == _JSON:
+                return _Found(_stored(deck))
+            with Bar(deck.name, deck.path) as bar:
+                result = analysed(deck, opened(deck, bar), self.chosen, bar)
+                return _Found(side_of(result), result)
+        except Exception as unforeseen:
+            error = failures.foreseen(unforeseen)
+            is_pair = not os.path.isdir(self.chosen.decks[0])
+            if is_pair and isinstance(error, (SideError, BatchError)):
+                raise BatchError(str(error)) from error
+            failures.report_failure(deck, error)
+            return _Found(broken_side(error), code=failures.outcome_of(deck, error).code)
+
+    def _finish(self, pairs: Sequence[Pair], page: str) -> ExitCode:
+        target: Path = self.chosen.output
+        with unwinding():
+            write_together({target: as_bytes(page)})
+        words = {**_KINDS, "gone": f"only in {self.runs[0]}", "new": f"only in {self.runs[1]}"}
+        counts = Counter(pair.kind for pair in pairs)
+        told = ", ".join(f"{counts[kind]} {words[kind]}" for kind in words if counts[kind])
+        many = len(pairs)
+        say(f"{many} deck{'s' * (many != 1)}: {told}; page in {harmless(str(target))}")
+        code = exit_code(self.outcomes)
+        if code is ExitCode.DIFFERENT:
+            complain("flexact: not the same, which was expected")
+        return code
+
+
+def _still(result: Result) -> bytes | None:
+    if not has_packages():
+        return None
+    return attempted("", lambda: picture_bytes(result, ".png"), None, None)
+
+
+def _stored(deck: DeckFile) -> Side:
+    try:
+        raw = Path(deck.path).read_bytes()
+    except OSError as error:
+        raise BatchError(f"{deck.path}: cannot be read: {error.strerror}") from error
+    return stored_side(raw, deck.name)
+
+
+def _is_same(first: str, second: str) -> bool:
+    """Whether two files hold the same bytes."""
+    try:
+        return Path(first).read_bytes() == Path(second).read_bytes()
+    except (OSError, MemoryError):
+        return False
+
+
+def _in_a_line(pair: Pair, runs: tuple[str, str]) -> str:
+    name = harmless(pair.name)
+    if pair.change is None:
+        return f"{name}: only in {runs[0] if pair.after is None else runs[1]}"
+    told = [*pair.change.told, *(f"gone: {each}" for each in pair.change.went)]
+    told += [f"new: {each}" for each in pair.change.came]
+    if not told:
+        many = len(pair.change.statements)
+        return f"{name}: {many} statement{'s' * (many != 1)} differ; the result is as before"
+    more = f"; {len(told) - 1} more" * (len(told) > 1)
+    return f"{name}: {told[0]}{more}"

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact trace``: the path of a motion, both ways, with its dead points."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from ...show.mesh.collection import SUFFIX, folder_of
+from ...tracing.playing import ENDINGS, STEM
+from ...tracing.rows import csv_bytes
+from ...tracing.saving import require_suffix, save
+from ...tracing.trace import STEPS, trace
+from ...tracing.words import lines
+from ...util.decks import DeckFile
+from ...util.errors import BatchError, FlexactError
+from ...util.interruption import unwinding
+from ...util.outputs import STDOUT, plan_file, plan_files
+from ...util.plain_text import harmless
+from ...util.quantities import QuantityError, quantity
+from .bar import Bar
+from .cli_decks import take
+from .decks import add_decision, read_and_analysed
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome
+from .showing import add_shown, number, one_deck
+from .targets import write_text
+from .terminal import complain, say
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Follow a motion, or a declared degree of freedom, both ways from the reference with every "
+        "held deformation zero; say how far it goes, what stops it, and where its dead points are."
+    )
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
+    group = add_shown(parser, "what is followed")
+    group.add_argument(
+        "--length",
+        type=_length,
+        metavar="L",
+        help="how far each way, such as 20mm, of the node that moves farthest; a rotation of 1 rad "
+        "counts as the model's size (default: that size)",
+    )
+    group.add_argument(
+        "--beyond", action="store_true", help="take a length that is larger than the model"
+    )
+    group.add_argument(
+        "--steps", type=number, default=STEPS, metavar="N", help=f"steps each way ({STEPS})"
+    )
+    group.add_argument(
+        "--through",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="whether to go straight on where other paths branch off, which is said; else the "
+        "path ends there",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="the path: .csv, a row a step; a picture (.png, .svg, .pdf) of singular values and "
+        "places along the path; .pvd, a cycle that plays in ParaView; - for the table on stdout",
+    )
+    add_decision(parser)
+    add_examples(
+        parser,
+        (
+            "How far a declared freedom goes",
+            "flexact trace input_decks/linkages/slider_crank_planar.dat --freedom 1",
+        ),
+        (
+            "The path as a table",
+            "flexact trace input_decks/linkages/four_bar_planar.dat --motion 1 -o results/path.csv",
+        ),
+    )
+    parser.set_defaults(run=trace_deck, accuracy=None)
+
+
+def _length(text: str) -> float:
+    try:
+        value = quantity(text, "m")
+    except QuantityError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    if not value > 0.0:
+        raise argparse.ArgumentTypeError(f"a length above 0 is wanted, such as 20mm, not {text!r}")
+    return value
+
+
+def trace_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Analyse the deck and trace the motion."""
+    deck, target = one_deck(chosen), chosen.output
+    if target is not None and target != STDOUT:
+        _plan(deck, target)
+        with unwinding():
+            require_suffix(target)
+
+    def step(deck: DeckFile) -> Outcome:
+        with Bar(deck.name, deck.path) as bar:
+            analysis = read_and_analysed(deck, chosen, bar)
+            try:
+                with unwinding() as look:
+
+                    def show(done: float) -> None:
+                        look()
+                        bar.show_steps(done)
+
+                    made = trace(
+                        analysis,
+                        motion=chosen.motion,
+                        freedom=chosen.freedom,
+                        length=chosen.length,
+                        steps=chosen.steps,
+                        through=chosen.through,
+                        beyond=chosen.beyond,
+                        progress=show,
+                    )
+            except BatchError:
+                raise
+            except FlexactError as error:
+                raise BatchError(str(error)) from error
+            if target is not None and target != STDOUT:
+                with unwinding():
+                    save(made, target)
+        tell: Callable[[str], None] = say
+        if target == STDOUT:
+            write_text(target, csv_bytes(made))
+            tell = complain
+        for line in lines(made):
+            tell(harmless(line))
+        if target is not None and target != STDOUT:
+            say(f"{harmless(deck.name)}: written to {harmless(str(target))}")
+        return Outcome(deck.name, ExitCode.ANALYSED, "traced")
+
+    return take([deck], step)
+
+
+def _plan(deck: DeckFile, target: Path) -> None:
+    """Find out what is wrong with the file before anything is analysed."""
+    plan_file(deck, target)
+    if target.suffix.lower() == SUFFIX:
+        plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact view``: the page of a deck in the browser."""
+
+from __future__ import annotations
+
+import argparse
+
+from ...analysis.text_margin import verdict_word
+from ...show.browser import opens
+from ...show.page import page
+from ...show.saving import as_bytes, page_bytes
+from ...show.window import page_path, write_page
+from ...util.decks import DeckFile
+from ...util.errors import BatchError
+from ...util.interruption import unwinding
+from ...util.outputs import plan_file
+from ...util.plain_text import harmless
+from .bar import Bar
+from .cli_decks import take
+from .decks import add_accuracy, add_decision, read_and_analysed
+from .failures import foreseen
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome
+from .pages import broken_page_of
+from .showing import add_no_browser, one_deck
+from .targets import file
+from .terminal import say
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Open the page of a deck in the browser: verdict, drawing in motion, self-stresses in "
+        "colour, tables, deck. Where no browser can be opened it says where the page is. A deck "
+        "with errors gives a page with its diagnostics."
+    )
+    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
+    parser.add_argument(
+        "-o", "--output", type=file, metavar="PAGE", help="keep the page, NAME.html"
+    )
+    add_no_browser(parser)
+    add_decision(parser)
+    add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "Keep the page, and open no browser",
+            "flexact view input_decks/paper/five_wires.dat --no-browser -o results/wires.html",
+        ),
+    )
+    parser.set_defaults(run=view_deck)
+
+
+def view_deck(chosen: argparse.Namespace) -> ExitCode:
+    """Show the deck that was asked for."""
+    deck = one_deck(chosen)
+    if chosen.output is not None:
+        plan_file(deck, page_path(chosen.output))
+    return take((deck,), lambda each: _step(each, chosen))
+
+
+def _step(deck: DeckFile, chosen: argparse.Namespace) -> Outcome:
+    place = deck.relative.as_posix()
+    try:
+        with Bar(deck.name, deck.path) as bar:
+            analysis = read_and_analysed(deck, chosen, bar)
+            bar.show("drawing")
+            with unwinding():
+                # A still picture takes a while; it is for browsers elsewhere.
+                kept = chosen.output is not None
+                content = page_bytes(analysis) if kept else as_bytes(page(analysis))
+    except BatchError:
+        raise
+    except Exception as unforeseen:
+        error = foreseen(unforeseen)
+        broken = broken_page_of(error, deck.name, place)
+        if broken is not None:
+            _show(deck, broken.content, "cannot be analysed", chosen)
+        raise error from None
+    _show(deck, content, verdict_word(analysis), chosen)
+    return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(analysis))
+
+
+def _show(deck: DeckFile, content: bytes, word: str, chosen: argparse.Namespace) -> None:
+    with unwinding():
+        target = write_page(content, deck.name, chosen.output).absolute()
+    say(f"{harmless(deck.name)}: {word}; page in {harmless(str(target))}")
+    if not chosen.no_browser:
+        opens(target.as_uri())

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``flexact watch``: the page of a deck or a script, renewed whenever it is saved."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from contextlib import closing
+from pathlib import Path
+
+from ...deck.errors import DeckError
+from ...model.reading import file_bytes
+from ...util.decks import STDIN, DeckFile, FolderError
+from ...util.errors import BatchError
+from ...util.interruption import unwinding
+from ...util.plain_text import harmless
+from ..watch.watch import SCRIPT, Heard, Watch
+from ..watch.watching_messages import Answer, Broken
+from . import failures
+from .decks import add_accuracy, add_decision
+from .help_texts import add_examples
+from .outcome import ExitCode
+from .showing import add_no_browser, one_deck
+from .terminal import complain, say
+
+_LARGEST_PORT = 65535
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
+        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
+    )
+    parser.add_argument(
+        "deck",
+        metavar="FILE",
+        help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
+    )
+    parser.add_argument(
+        "--port", type=port, metavar="N", help="the port of this machine (a free one)"
+    )
+    add_no_browser(parser)
+    add_decision(parser)
+    add_accuracy(parser, is_held_against=False)
+    add_examples(
+        parser,
+        ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
+        ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
+    )
+    parser.set_defaults(run=watch)
+
+
+def port(text: str) -> int:
+    """A port, as an option's type."""
+    number = int(text) if text.isascii() and text.isdigit() else 0
+    if not 1 <= number <= _LARGEST_PORT:
+        raise argparse.ArgumentTypeError(
+            f"a number from 1 to {_LARGEST_PORT} is wanted, not {text!r}"
+        )
+    return number
+
+
+def watch(chosen: argparse.Namespace) -> ExitCode:
+    """Serve, until a signal ends it."""
+    path = chosen.deck
+    if path == STDIN:
+        raise BatchError("what comes from stdin is not saved anew; name a file to watch")
+    is_script = path.lower().endswith(SCRIPT)
+    deck = DeckFile(path, Path(path)) if is_script else one_deck(chosen)
+    path = deck.path
+    try:
+        if deck.error is not None:
+            raise deck.error
+        # What cannot be read now is more likely to be a slip than a deck to come.
+        file_bytes(path)
+    except (DeckError, FolderError) as error:
+        return failures.report(deck, error, as_json=False).code
+    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
+    with unwinding():
+        watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
+        with closing(watched):
+            say(f"{harmless(path)} is shown at {watched.server.address}")
+            if not chosen.no_browser and not watched.opens():
+                complain("no browser opens here; open this address in one of this machine")
+            watched.run()
+    return ExitCode.ANALYSED
+
+
+class _Renewed:
+    """Tells of each save."""
+
+    def __init__(self, path: str) -> None:
+        self._name = harmless(path)
+
+    def __call__(self, words: str, answer: Answer) -> None:
+        """Say what has changed, or what is wrong."""
+        if isinstance(answer, Broken):
+            complain(harmless_lines(answer.words))
+            words = "cannot be analysed"
+        elif answer.problems:
+            complain(harmless_lines(answer.problems))
+        say(f"{time.strftime('%H:%M:%S')} {self._name}: {words}")
+
+
+def harmless_lines(text: str) -> str:
+    """Text of several lines in which nothing can move a cursor."""
+    return "\n".join(harmless(line, keep_tabs=True) for line in text.split("\n"))
+
+
+def _printed(text: str) -> None:
+    sys.stdout.write(text)
+    sys.stdout.flush()

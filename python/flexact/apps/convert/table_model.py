@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From tables to a model, as SPACAR Light makes a deck of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from ...core.elements import Class, Member, NodeKind, Vector, kind_of
+from ...core.raw import ElementKind
+from ...model.data import ModelData
+from ...model.draft import NO_VECTOR, Draft
+from ...model.handles import Owner
+from ...model.places import one_line
+from .fields import NODES_A_POINT
+from .problems import Found
+from .remarks import Remarks
+from .table_classes import NodeGiver
+from .table_input import Entry, Tables
+from .table_numbers import orientations_of, positions_of
+from .table_sections import mass_of, shape_of, stiffness_of, warped
+
+#: What the local y axis of a beam points to where nothing is said.
+_ORIEN = (0.0, 1.0, 0.0)
+
+
+def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
+    """The model of checked tables; what cannot be made is noted in `found`.
+
+    Args:
+        tables: The tables.
+        flexible: What flexible deformations are that are not released.
+        found: Where problems are noted.
+    """
+    making = _Making(tables, flexible, found)
+    making.add_nodes()
+    for element in range(1, len(tables.ends) + 1):
+        making.add_element(element)
+    making.give_nodes()
+    making.note_warping()
+    found.require_none()
+    data = making.draft.freeze(tables.name)
+    return making.with_remarks(data)
+
+
+class _Making:
+    """A draft that grows from tables."""
+
+    def __init__(self, tables: Tables, flexible: Class, found: Found) -> None:
+        self.tables = tables
+        self.flexible = flexible
+        self.found = found
+        self.draft = Draft(tables.planar, Owner())
+        self.position = positions_of(tables, found)
+        self.orientation = orientations_of(tables, found)
+        self.remarks = Remarks()
+        self.remarks.left_out.update(tables.left_out)
+        self.used: set[int] = set()
+        #: Elements with warping by the points at which they end.
+        self.warping_at: dict[int, list[int]] = {}
+        for element, ends in enumerate(tables.ends, start=1):
+            if tables.entry_of(element).get("warping"):
+                for point in ends:
+                    self.warping_at.setdefault(point, []).append(element)
+        self.next_node = NODES_A_POINT * len(tables.places) + 1
+
+    def add_nodes(self) -> None:
+        """Positions; orientations come with the elements that need them."""
+        kind = NodeKind.PLANAR_POSITION if self.tables.planar else NodeKind.POSITION
+        for point, place in enumerate(self.tables.places, start=1):
+            number = self.position[point]
+            self.draft.node_kind[number] = kind
+            self.draft.node_value[number] = (*place, *(0.0,) * (4 - len(place)))
+            if name := one_line(self.tables.nodes.get(point, {}).get("name", "")):
+                self.draft.node_names.setdefault(number, name)
+
+    def _orientation(self, number: int, kind: int) -> int:
+        upright = 1.0 if kind == NodeKind.ORIENTATION else 0.0
+        self.draft.node_kind.setdefault(number, kind)
+        self.draft.node_value.setdefault(number, (upright, 0.0, 0.0, 0.0))
+        return number
+
+    def add_element(self, element: int) -> None:
+        """The beams of an element, or the one element that it is."""
+        entry, (p, q) = self.tables.entry_of(element), self.tables.ends[element - 1]
+        where = f"eprops[{self.tables.set_of.get(element, 0)}]"
+        kind = kind_of(entry.get("type", "plbeam" if self.tables.planar else "beam").upper())
+        if self.tables.planar and NodeKind.POSITION in kind.slots:
+            self.found.error(f"{where}.type", "nodes with x and y have planar elements alone")
+        count = entry.get("nbeams", 1)
+        if count > 1 and kind.member != Member.BEAM:
+            self.found.error(f"{where}.nbeams", "a beam alone is divided")
+            count = 1
+        vector = self._vector(kind, entry, where)
+        for i, slots in enumerate(self._slots(kind, p, q, count)):
+            released = self.tables.released.get(element, ()) if i == count - 1 else ()
+            classes = self._classes(kind, entry.get("flex", ()), released, element)
+            number = self.draft.append_element(kind.number, slots, vector, classes)
+            self._give(number - 1, kind, entry, element, (i, count))
+
+    def _vector(self, kind: ElementKind, entry: Entry, where: str) -> tuple[float, float, float]:
+        x, y, z = entry.get("orien", _ORIEN if kind.member == Member.BEAM else NO_VECTOR)
+        if kind.vector == Vector.NONE:
+            return NO_VECTOR
+        if kind.vector == Vector.REQUIRED and not any((x, y, z)):
+            self.found.error(where, f"a {entry['type']} needs its axis: give orien")
+        return x, y, z
+
+    def _slots(
+        self, kind: ElementKind, p: int, q: int, count: int
+    ) -> Iterator[tuple[int, int, int, int]]:
+        """Nodes of each beam; those between the ends come behind all points."""
+        ends = [(self.position[p], self.orientation[p])]
+        start, end = (np.array(self.tables.places[point - 1]) for point in (p, q))
+        for i in range(1, count):
+            value = (start + (end - start) / count * i).tolist()
+            number = self.next_node
+            self.next_node += NODES_A_POINT
+            self.draft.node_kind[number] = self.draft.node_kind[ends[0][0]]
+            self.draft.node_value[number] = (*value, *(0.0,) * (4 - len(value)))
+            ends.append((number, number + 1))
+        ends.append((self.position[q], self.orientation[q]))
+        for (one, turned), (other, other_turned) in pairwise(ends):
+            slots = [one, turned, other, other_turned]
+            for k, slot in enumerate(kind.slots):
+                if not slot:
+                    slots[k] = 0
+                elif k in (1, 3):
+                    self._orientation(slots[k], slot)
+            self.used.update(slots)
+            yield slots[0], slots[1], slots[2], slots[3]
+
+    def _classes(
+        self, kind: ElementKind, flex: Iterable[int], released: Iterable[int], element: int
+    ) -> tuple[int, ...]:
+        made = [int(Class.FIXED) if role else int(Class.NONE) for role in kind.role]
+        for mode, value in (
+            *((mode, self.flexible) for mode in flex),
+            *((mode, Class.DEPENDENT) for mode in released),
+        ):
+            if made[mode - 1] == Class.NONE:
+                self.found.error(
+                    f"elements[{element}]",
+                    f"a {kind.keyword.lower()} has no deformation {mode}, only 1 to "
+                    f"{kind.deformations}: correct flex or def",
+                )
+            else:
+                made[mode - 1] = int(value)
+        return tuple(made)
+
+    def _give(
+        self, index: int, kind: ElementKind, entry: Entry, element: int, beam: tuple[int, int]
+    ) -> None:
+        """Name, look, stiffness and mass of one of the beams of an element."""
+        if name := one_line(entry.get("name", "")):
+            if len(entry["elems"]) > 1:
+                name = f"{name} {entry['elems'].index(element) + 1}"
+            if beam[1] > 1:
+                name = f"{name}, part {beam[0] + 1} of {beam[1]}"
+            self.draft.name_element(index, name)
+        shape = shape_of(entry)
+        said = {
+            "shape": shape,
+            "colour": entry.get("color"),
+            "opacity": entry.get("opacity"),
+            "drawn": False if entry.get("hide") else None,
+        }
+        self.draft.appearance.give(
+            [index], {key: value for key, value in said.items() if value is not None}
+        )
+        if shape is not None and kind.member in (Member.BAR, Member.BEAM):
+            stiffness = stiffness_of(kind, shape, entry)
+            if stiffness is not None and kind.member == Member.BEAM and not self.tables.planar:
+                stiffness = warped(stiffness, self._length(element), self._warp_held(element))
+            self.draft.give_properties(index, stiffness, mass_of(kind, shape, entry))
+        elif shape is not None and "dens" in entry:
+            self.remarks.leave_out(f"the density of a {kind.keyword.lower()}")
+
+    def _length(self, element: int) -> float:
+        p, q = (self.tables.places[point - 1] for point in self.tables.ends[element - 1])
+        return math.dist(p, q)
+
+    def _warp_held(self, element: int) -> int:
+        """At how many ends of an element its warping is held: of what is known alone.
+
+        cw, of older versions, means that of both; else an end that is fixed holds it, and what
+        another element with warping does there is not known.
+        """
+        entry = self.tables.entry_of(element)
+        if entry.get("cshape") != "rect":
+            return 0
+        if entry.get("cw"):
+            return 2
+        if not entry.get("warping"):
+            return 0
+        ends = self.tables.ends[element - 1]
+        fixed = [self._holds_warping(point) for point in ends]
+        return sum(fixed) if self._meets(element) is None else 0
+
+    def _holds_warping(self, point: int) -> bool:
+        entry = self.tables.nodes.get(point, {})
+        return bool(entry.get("fix") or entry.get("fix_warp"))
+
+    def _meets(self, element: int) -> tuple[int, int] | None:
+        """Another element with warping at a free end of this one, and where; None without."""
+        for point in self.tables.ends[element - 1]:
+            others = [other for other in self.warping_at.get(point, ()) if other != element]
+            if others and not self._holds_warping(point):
+                return others[0], point
+        return None
+
+    def note_warping(self) -> None:
+        """Say, with its place, what of the warping is left out."""
+        warps = False
+        for element in range(1, len(self.tables.ends) + 1):
+            entry, number = self.tables.entry_of(element), self.tables.set_of.get(element, 0)
+            said = next((name for name in ("cw", "warping") if entry.get(name)), "")
+            warps = warps or bool(said)
+            why = ""
+            if said and (self.tables.planar or "emod" not in entry):
+                why = "it has no stiffness in torsion"
+            elif said == "warping" and (met := self._meets(element)) is not None:
+                why = f"at node {met[1]} it depends on element {met[0]}"
+            if why and entry.get("cshape") != "circ":
+                place = f"eprops[{number}].{said} of element {element}"
+                self.remarks.leave_out(f"warping: {place}: {why}")
+        for point, entry in self.tables.nodes.items():
+            if entry.get("fix_warp") and not warps:
+                self.remarks.leave_out(f"warping: nprops[{point}].fix_warp: no element warps")
+
+    def give_nodes(self) -> None:
+        """Classes, masses and loads of the nodes that elements use."""
+        giver = NodeGiver(
+            *(self.tables, self.draft, self.position, self.orientation, self.used),
+            *(self.found, self.remarks),
+        )
+        giver.add_classes()
+        giver.add_masses()
+        giver.add_loads()
+
+    def with_remarks(self, data: ModelData) -> ModelData:
+        """The model with what was left out among its notes."""
+        return replace(data, besides=(*data.besides, *self.remarks.diagnostics()))

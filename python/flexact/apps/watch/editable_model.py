@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mechanism as it was given, with all that can be switched in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ...advice.releases.words import outcome_as_given
+from ...analysis.change import Change
+from ...analysis.decomposition import Outcome
+from ...analysis.result import Result
+from ...core.elements import AXES, Class, coordinate_name, element_kinds
+from ...model.data import ModelData
+from ...model.division import classes_of_division
+from ...model.parts.chains import Chain
+from ...util.cached import cached_property
+from ...util.plain_text import in_short
+from .places import CoordinatePlace, DeformationPlace, Edit, Place
+from .refusal import RefusedError
+
+#: Edits, in the order in which they were made.
+Edits = tuple[Edit, ...]
+
+
+class Board:
+    """A mechanism, by the analysis of it as it was given: all words are of that state.
+
+    A divided sheet or wire that counts as one beam is switched as one; of any other each beam is
+    switched by itself.
+    """
+
+    def __init__(self, base: Result) -> None:
+        """Keep the analysis."""
+        self.base = base
+        self.given = base.given
+        self.parts = base.parts
+
+    @cached_property
+    def plain(self) -> Outcome:
+        """The outcome on the elements as given, for words."""
+        return outcome_as_given(self.base)
+
+    @cached_property
+    def wholes(self) -> dict[int, Chain]:
+        """The divided flexure that is switched as one, by the index of each of its beams."""
+        chains = self.base.condensed.chains
+        return {i: each for each in chains if not any(each.reversed) for i in each.elements}
+
+    def deformation(self, element: int, number: int) -> DeformationPlace:
+        """The place of a deformation.
+
+        Raises:
+            RefusedError: There is no such element, or it has no such deformation.
+        """
+        index = self.given.element_index.get(element)
+        if index is None:
+            raise RefusedError(f"there is no element {element}")
+        last = element_kinds()[int(self.given.arrays.element_kind[index]) - 1].deformations
+        if not 1 <= number <= last:
+            raise RefusedError(f"element {element} has no deformation {number}: it has 1 to {last}")
+        whole = self.wholes.get(index)
+        if whole is not None:
+            element = int(self.given.arrays.element_number[whole.elements[0]])
+        return DeformationPlace(element, number)
+
+    def coordinate(self, node: int, name: str) -> CoordinatePlace:
+        """The place of a coordinate.
+
+        Raises:
+            RefusedError: There is no such node, or it has no such coordinate.
+        """
+        index = self.given.node_index.get(node)
+        if index is None:
+            raise RefusedError(f"there is no node {node}")
+        if name not in self.coordinates_of(index):
+            there = ", ".join(self.coordinates_of(index))
+            raise RefusedError(f"node {node} has no coordinate {in_short(name)}: it has {there}")
+        return CoordinatePlace(node, name)
+
+    def coordinates_of(self, index: int) -> list[str]:
+        """Names of the coordinates of a node, by its index."""
+        kind = int(self.given.arrays.node_kind[index])
+        return [coordinate_name(kind, axis) for axis in AXES[kind]]
+
+    def before(self, place: Place) -> Class:
+        """The class that a place has in the mechanism as given."""
+        if isinstance(place, CoordinatePlace):
+            index = self.given.node_index[place.node]
+            axes = AXES[int(self.given.arrays.node_kind[index])]
+            axis = axes[self.coordinates_of(index).index(place.name)]
+            return Class(int(self.given.arrays.coordinate_class[axis, index]))
+        # A whole is one beam of the model that was analysed, under the number of its first.
+        is_whole = self.given.element_index[place.element] in self.wholes
+        data = self.base.data if is_whole else self.given
+        index = data.element_index[place.element]
+        return Class(int(data.arrays.deformation_class[place.number - 1, index]))
+
+    def now(self, place: Place, edits: Iterable[Edit]) -> Class:
+        """The class that a place has after some edits."""
+        return next((each.to for each in edits if each.place == place), self.before(place))
+
+    def edited(self, edits: Edits, new: Iterable[Edit]) -> Edits:
+        """Edits and new ones; what is as it was given is no edit."""
+        made = {each.place: each.to for each in edits}
+        for place, to in new:
+            made.pop(place, None)
+            if to != self.before(place):
+                made[place] = to
+        return tuple(Edit(place, to) for place, to in made.items())
+
+    def change(self, edits: Edits) -> Change:
+        """Edits as one change of the model, element by element."""
+        arrays = self.given.arrays
+        numbers = arrays.element_number.tolist()
+        deformations: dict[tuple[int, int], Class] = {}
+        coordinates: dict[tuple[int, str], Class] = {}
+        classes: list[list[int]] | None = None
+        for place, to in edits:
+            if isinstance(place, CoordinatePlace):
+                coordinates[place] = to
+                continue
+            index = self.given.element_index[place.element]
+            whole = self.wholes.get(index)
+            if whole is None:
+                deformations[place] = to
+                continue
+            classes = arrays.deformation_class.T.tolist() if classes is None else classes
+            kind = element_kinds()[int(arrays.element_kind[index]) - 1]
+            _, new = classes_of_division(classes, kind, whole.elements, [place.number], to)
+            for i, number, made in new:
+                classes[i][number - 1] = int(made)
+                deformations[numbers[i], number] = made
+        return Change(
+            tuple((element, number, to) for (element, number), to in deformations.items()),
+            tuple((node, name, to) for (node, name), to in coordinates.items()),
+        )
+
+    def model(self, edits: Edits) -> ModelData:
+        """The mechanism after some edits; as it was given where there are none."""
+        return self.change(edits).apply(self.given).data if edits else self.given

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The processes that analyse and run scripts: one at work, and one that is ready for the next."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from ...util.errors import FlexactError, reason_of
+from . import frames
+from .watching_messages import Answer, Job, Judged, Printed
+
+#: Starts a worker. The folder at hand is no place for modules: a deck lies there.
+_START = (
+    "import sys; sys.path[:] = [p for p in sys.path if p] + [sys.argv[1]]; "
+    "from flexact.apps.watch.worker import main; main()"
+)
+#: The folder that this package was loaded from.
+_HOME = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+#: How long it may take to end what a worker has started, where another program does that [s].
+_PATIENCE = 5.0
+_CRASHED = 2**31
+
+
+class WorkerError(FlexactError):
+    """A worker ended before it had an answer; the text says how."""
+
+
+class Worker:
+    """A process that answers jobs, in a session of its own so that Ctrl-C is not for it."""
+
+    def __init__(self) -> None:
+        """Start it; it loads what it needs while nobody waits."""
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _START, _HOME],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            **_apart(),
+        )
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._jobs, self._line = self._process.stdin, self._process.stdout
+        self.is_busy = False
+
+    def answer(self, job: Job, meanwhile: Callable[[Printed | Judged], None]) -> Answer:
+        """What comes of a job; what is heard before goes to `meanwhile`.
+
+        Raises:
+            WorkerError: It has ended.
+        """
+        self.is_busy = True
+        try:
+            frames.send(self._jobs, job)
+        except OSError:
+            raise self._death() from None
+        while isinstance(heard := self._hear(), (Printed, Judged)):
+            meanwhile(heard)
+        self.is_busy = False
+        made: Answer = heard
+        return made
+
+    def _hear(self) -> Any:
+        try:
+            return frames.receive(self._line)
+        except (EOFError, OSError):
+            raise self._death() from None
+        except Exception:
+            # A script may write to whatever is open in its process.
+            self.stop()
+            raise WorkerError("what the process sent was no answer, and it was ended") from None
+
+    def _death(self) -> WorkerError:
+        try:
+            return WorkerError(_how(self._process.wait(_PATIENCE)))
+        except subprocess.TimeoutExpired:
+            self.stop()
+            return WorkerError("the process hears and says nothing any more, and was ended")
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it can be asked."""
+        return self._process.poll() is None
+
+    def stop(self) -> None:
+        """End it at once, and whatever it has started."""
+        if hasattr(os, "killpg"):
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+        else:
+            with contextlib.suppress(OSError, subprocess.SubprocessError):
+                subprocess.run(
+                    ["taskkill", "/F", "/T", "/PID", str(self._process.pid)],
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    timeout=_PATIENCE,
+                )
+            self._process.kill()
+        self._process.wait()
+
+
+def _apart() -> dict[str, Any]:
+    """What starts a process that Ctrl-C of this terminal is not for."""
+    if sys.platform == "win32":
+        return {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0x200)}
+    return {"start_new_session": True}
+
+
+def _how(code: int) -> str:
+    if code >= _CRASHED:
+        # How Windows says of what a process died.
+        return f"the process ended with code {code:#010x} before it had an answer"
+    if code >= 0:
+        return f"the process ended with code {code} before it had an answer"
+    name = signal.strsignal(-code) or f"signal {-code}"
+    return f"the process was ended before it had an answer: {name.lower()}"
+
+
+def _started() -> Worker:
+    """A new worker.
+
+    Raises:
+        WorkerError: The system gives no process, or no pipes to it.
+    """
+    try:
+        return Worker()
+    except OSError as error:
+        raise WorkerError(
+            f"no process can be started now: {reason_of(error)}; save the file again to try anew"
+        ) from error
+
+
+class Crew:
+    """The worker whose answer is shown, and a fresh one for the next script."""
+
+    def __init__(self, *, fresh: bool) -> None:
+        """Start the first worker.
+
+        Args:
+            fresh: Whether each job takes a process that has done nothing before.
+        """
+        self._fresh = fresh
+        self._lock = threading.Lock()
+        self._at_work: Worker | None = None
+        self._spare: Worker | None = None
+        self._closed = False
+        with contextlib.suppress(WorkerError):
+            self._spare = _started()
+
+    def take(self) -> Worker:
+        """The worker for a new job; the one before is stopped unless it can go on.
+
+        Raises:
+            WorkerError: There can be none.
+        """
+        with self._lock:
+            before = self._at_work
+            if before is not None:
+                if not self._fresh and before.is_alive and not before.is_busy:
+                    return before
+                before.stop()
+                self._at_work = None
+            if self._closed:
+                raise WorkerError("the end")
+            self._at_work, self._spare = self._spare or _started(), None
+            return self._at_work
+
+    def prepare(self) -> None:
+        """Have a fresh worker ready, where one will be wanted."""
+        with self._lock:
+            if self._fresh and self._spare is None and not self._closed:
+                # Else it is tried again when it is wanted.
+                with contextlib.suppress(WorkerError):
+                    self._spare = _started()
+
+    def close(self) -> None:
+        """Stop all of them."""
+        with self._lock:
+            self._closed = True
+            for worker in (self._at_work, self._spare):
+                if worker is not None:
+                    worker.stop()

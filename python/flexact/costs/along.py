@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A design along a stroke, from where it rests to both ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..elasticity import Elastic, State, StrokeError
+from .designs import StrokeCurve
+from .measuring import Measures, drives_of, numbers, over_levels
+from .values import Numbers
+
+
+class Asked(NamedTuple):
+    """The stroke: of which coordinate, and where."""
+
+    node: int
+    coordinate: str
+    rest: float
+    values: FloatArray
+    """(n,) ascending, absolute."""
+
+
+class Along(NamedTuple):
+    """What was reached of a stroke."""
+
+    states: tuple[State, ...]
+    values: FloatArray
+    """(n,) those that were reached, ascending."""
+    ends: tuple[float, float]
+    """How far it went each way: the ends that were asked for, or the last value reached."""
+    why: str
+    """Why not farther; empty where all was reached."""
+
+
+def values_of(start: float, stop: float, count: int, rest: float) -> FloatArray:
+    """(n,) places along a stroke, ascending; where it rests, if that is in between, is one."""
+    made = np.linspace(min(start, stop), max(start, stop), count)
+    if made[0] < rest < made[-1]:
+        made[int(np.argmin(np.abs(made - rest)))] = rest
+    return made
+
+
+def follow(elastic: Elastic, asked: Asked) -> Along:
+    """The states along a stroke, each way from where it rests, as far as they are found."""
+    found: dict[float, State] = {}
+    ends, why = [asked.rest, asked.rest], []
+    for end, sense in enumerate((-1.0, 1.0)):
+        way = np.sort(sense * asked.values[sense * asked.values >= sense * asked.rest]) * sense
+        if end == 1:
+            way = way[way != asked.rest]
+        states, reached, reason = _one_way(elastic, asked, way.tolist())
+        found.update(zip(way.tolist(), states, strict=False))
+        if way.size:
+            ends[end] = reached
+        why += [reason] if reason else []
+    values = np.array(sorted(found))
+    return Along(
+        tuple(found[v] for v in values.tolist()), values, (ends[0], ends[1]), "; ".join(why)
+    )
+
+
+def _one_way(
+    elastic: Elastic, asked: Asked, way: Sequence[float]
+) -> tuple[tuple[State, ...], float, str]:
+    """States from the one at rest outward, how far that is, and why not farther."""
+    reached, why, rest = way[-1] if way else asked.rest, "", asked.rest
+    while way:
+        try:
+            drive = elastic.points.coordinate(asked.node, asked.coordinate)
+            return elastic.driven(drive, way), reached, why
+        except StrokeError as error:
+            why = why or str(error)
+            reached = error.reached
+            shorter = [v for v in way if abs(v - rest) <= abs(reached - rest)]
+            # What was reached on the way to a place may be out of reach by a hair.
+            way = shorter if len(shorter) < len(way) else way[:-1]
+    return (), reached, why
+
+
+def curve_of(
+    measures: Measures,
+    rest: State,
+    along: Along,
+    drive: tuple[int, str],
+    is_locked: bool,
+    progress: Callable[[float], None],
+) -> StrokeCurve | None:
+    """A design along the states that were reached; None without any."""
+    if not along.states:
+        return None
+    rows = []
+    for k, state in enumerate(along.states):
+        rows.append(_row(measures, rest, state, drive, is_locked))
+        progress((k + 1) / len(along.states))
+    together = [_stacked([row[k] for row in rows]) for k in range(4)]
+    stiffness, kept, own, force = together
+    if is_locked:
+        own = _slopes(along.values, force)
+    frequencies = parasitic = None
+    if measures.has_masses:
+        frequencies = _stacked([row[4] for row in rows])
+        drives = [_drives(measures, state, is_locked) for state in along.states]
+        parasitic = _without(frequencies, drives)
+        if not frequencies.value.size:
+            frequencies = parasitic = None
+    return StrokeCurve(
+        along.values,
+        stiffness,
+        Numbers(kept.value[:, 0], kept.uncertainty[:, 0]),
+        Numbers(own.value[:, 0], own.uncertainty[:, 0]),
+        Numbers(force.value[:, 0], force.uncertainty[:, 0]),
+        frequencies,
+        parasitic,
+        tuple(_is_stable(measures, state) for state in along.states),
+        tuple(state.under_constrained for state in along.states),
+        tuple(state.over_constrained for state in along.states),
+    )
+
+
+def _row(
+    measures: Measures, rest: State, state: State, drive: tuple[int, str], is_locked: bool
+) -> list[Numbers]:
+    """Stiffness, what is kept of it in the worst direction, of the drive, force, frequencies."""
+    made = [
+        numbers(over_levels(measures.stiffness, state)),
+        numbers(over_levels(measures.worst, rest, state)),
+        numbers(over_levels(lambda one: _own(one, drive, is_locked), state)),
+        numbers(over_levels(lambda one: np.atleast_1d(one.force), state)),
+    ]
+    if measures.has_masses:
+        made.append(numbers(over_levels(measures.frequencies, state)))
+    return made
+
+
+def _own(state: State, drive: tuple[int, str], is_locked: bool) -> FloatArray:
+    """(1,) stiffness of the driven coordinate itself; infinite where it is held."""
+    if is_locked:
+        return np.zeros(1)
+    node, name = drive
+    points = state.model.points
+    names = [points.name(each) for each in points.coordinates(points.of(node))]
+    value = state.compliance(node)[(names.index(name),) * 2]
+    return np.array([1.0 / value if value != 0.0 else np.inf])
+
+
+def _is_stable(measures: Measures, state: State) -> bool:
+    """Whether no stiffness is negative; with masses known from the frequencies."""
+    return state.finest.squares.negative == 0 if measures.has_masses else state.is_stable
+
+
+def _drives(measures: Measures, state: State, is_locked: bool) -> tuple[bool, ...]:
+    count = len(state.alone[-1].frequencies)
+    return (False,) * count if is_locked else drives_of(measures, state, count)
+
+
+def _stacked(rows: list[Numbers]) -> Numbers:
+    """(n, k) of rows, of which the shortest says how many there are."""
+    count = min(row.value.size for row in rows)
+    return Numbers(
+        np.array([row.value[:count] for row in rows]),
+        np.array([row.uncertainty[:count] for row in rows]),
+    )
+
+
+def _without(frequencies: Numbers, drives: list[tuple[bool, ...]]) -> Numbers:
+    """(n, p) frequencies without those of the drive."""
+    rows = []
+    for k, is_drive in enumerate(drives):
+        left = [j for j in range(frequencies.value.shape[1]) if not is_drive[j]]
+        rows.append(Numbers(frequencies.value[k, left], frequencies.uncertainty[k, left]))
+    return _stacked(rows)
+
+
+def _slopes(values: FloatArray, force: Numbers) -> Numbers:
+    """(n, 1) change of the force with the value, where the drive is held."""
+    if values.size < 2:
+        return Numbers(np.zeros_like(force.value), np.zeros_like(force.value))
+    slope = np.gradient(force.value[:, 0], values)[:, None]
+    return Numbers(slope, np.zeros_like(slope))

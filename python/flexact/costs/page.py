@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A cost as a page: the designs, their charts, and what vibrates and buckles, to turn and play."""
+
+from __future__ import annotations
+
+from ..show.page import Compared, Side, Told
+from ..show.page import designs as designs_page
+from ..show.page.bars_part import bars_svg
+from ..show.page.charts import chart_svg
+from ..show.page.shapes_data import Shape as Played
+from ..show.page.shapes_data import Shaped
+from ..show.picture import has_packages, shape_bytes
+from ..util.plain_text import file_name, harmless
+from .bars import LARGEST, bars_of
+from .charts import charts_of
+from .designs import CostValues, Design
+from .key import Key, choices_of, key_of, typeset
+from .quantities import in_words
+from .shape import Shape
+from .values import Number
+from .words import first_line
+
+#: Designs that are drawn: the one as built, and beside it the best that has shapes.
+_DRAWN = 2
+
+
+def page_bytes(cost: CostValues) -> bytes:
+    """The page as the content of a file."""
+    key = key_of(cost)
+    rows = (Told(row.series, row.label, row.words, row.cells) for row in key.rows)
+    curves, bars = map(chart_svg, charts_of(cost)), map(bars_svg, bars_of(cost))
+    compared = Compared(
+        file_name(cost.name),
+        typeset(first_line(cost)),
+        choices_of(cost),
+        key.heads,
+        tuple(rows),
+        (tuple(curves), tuple(bars)),
+        _sides(cost, key),
+        tuple(_notes(cost)),
+    )
+    return designs_page(compared).encode("utf-8", "backslashreplace")
+
+
+def _sides(cost: CostValues, key: Key) -> tuple[Side, ...]:
+    chosen = [(series, design) for series, design in enumerate(cost.designs) if _shown(design)]
+    return tuple(_side(series, design, key) for series, design in chosen[:_DRAWN])
+
+
+def _shown(design: Design) -> tuple[Shape, ...]:
+    """The shapes of one model, without those at errors that mean nothing."""
+    first = next(iter(design.shapes), None)
+    if first is None:
+        return ()
+    nodes = first.displacement.shape
+    return tuple(
+        each
+        for each in design.shapes
+        if each.displacement.shape == nodes
+        and (each.kind == "vibrating" or abs(each.value) <= LARGEST * _size(design, each))
+    )
+
+
+def _size(design: Design, shape: Shape) -> float:
+    """By what the error at which it buckles is measured."""
+    return design.size if _unit(design, shape) == "m" else 1.0
+
+
+def _side(series: int, design: Design, key: Key) -> Side:
+    row, shapes = key.rows[series], _shown(design)
+    title = "As built" if not design.released else f"{row.label}: {row.words} released"
+    words = "; ".join(
+        f"{head}: {cell}" for head, cell in zip(key.heads, row.cells, strict=True) if cell
+    )
+    played = tuple(
+        Played(
+            each.kind,
+            _label(design, each),
+            typeset(each.words),
+            each.configuration,
+            each.displacement,
+        )
+        for each in shapes
+    )
+    return Side(series, title, words, Shaped(shapes[0].data, played), _still(shapes[0]))
+
+
+def _unit(design: Design, shape: Shape) -> str:
+    """Of the error at which it buckles."""
+    units = {each.critical.value: each.misalignment.unit for each in design.tolerances}
+    near = min(units, key=lambda size: abs(size - abs(shape.value)), default=0.0)
+    return units.get(near, "m")
+
+
+def _label(design: Design, shape: Shape) -> str:
+    """Its frequency, or the error at which it buckles."""
+    unit = "Hz" if shape.kind == "vibrating" else _unit(design, shape)
+    return typeset(in_words(Number(abs(float(f"{shape.value:.3g}"))), unit))
+
+
+def _still(shape: Shape) -> bytes | None:
+    if not has_packages():
+        return None
+    return shape_bytes(shape.data, shape.configuration, shape.displacement, typeset(shape.words))
+
+
+def _notes(cost: CostValues) -> list[str]:
+    """Remarks on the designs, and what the deck does not allow."""
+    remarks = [f"{design.label}: {remark}" for design in cost.designs for remark in design.remarks]
+    return [harmless(each) for each in (*remarks, *cost.left_out)]

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Clamps that may be misaligned, and the point at which stiffness is measured."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..analysis.locate import node_of
+from ..analysis.places import node_words, part_words
+from ..core.elements import AXES, Class, NodeKind, coordinate_name
+from ..deck.errors import model_error
+from ..model.data import ModelData
+from ..model.parts.parts import Parts
+from .values import Clamp, Misalignment, Point
+
+
+class Places:
+    """Clamps and points of a model."""
+
+    def __init__(self, data: ModelData, parts: Parts) -> None:
+        """Keep the model as given, and its parts."""
+        self.data, self.parts = data, parts
+        self.classes = data.arrays.coordinate_class
+        self.numbers = data.arrays.node_number.tolist()
+
+    @property
+    def size(self) -> float:
+        """Of the model [m]."""
+        return self.data.size
+
+    def clamps(self) -> tuple[Clamp, ...]:
+        """Supports with something held, by the numbers of their nodes; driven ones are none."""
+        made: dict[int, Clamp] = {}
+        for node in np.argsort(self.data.arrays.node_number, kind="stable").tolist():
+            if self.held(node):
+                clamp = self.clamp_of(node)
+                made.setdefault(clamp.node, clamp)
+        return tuple(made.values())
+
+    def held(self, node: int) -> tuple[str, ...]:
+        """Coordinates of a node, by its index, that are fixed, such as ("x", "rz")."""
+        kind = int(self.data.arrays.node_kind[node])
+        fixed = self.classes[:, node] == Class.FIXED
+        return tuple(coordinate_name(kind, axis) for axis in AXES[kind] if fixed[axis])
+
+    def directions(self, clamp: Clamp) -> tuple[str, ...]:
+        """Directions in which a clamp holds, and so may be misaligned."""
+        nodes = dict.fromkeys(n for n in (clamp.node, clamp.orientation) if n is not None)
+        return tuple(name for node in nodes for name in self.held(self.data.node_index[node]))
+
+    def misalignments(self) -> tuple[Misalignment, ...]:
+        """Every clamp in every direction in which it holds."""
+        return tuple(
+            Misalignment(clamp, direction)
+            for clamp in self.clamps()
+            for direction in self.directions(clamp)
+        )
+
+    def clamp_of(self, node: int) -> Clamp:
+        """The clamp that a node, by its index, belongs to."""
+        place = self.parts.place_of(node)
+        if place is None or not (self.held(place) or place == node):
+            place = node
+        turned = self.orientation_of(place)
+        if turned is not None and not self.held(turned):
+            turned = None
+        number = self.numbers[place]
+        kind = "clamp" if turned is not None or place == node != place else "support"
+        if self.data.arrays.node_kind[place] > NodeKind.POSITION:
+            kind, turned = "clamp", place
+        label = f"{kind} {number}"
+        name = self._own_name(place)
+        words = f"{label} ({name})" if name and name != label else label
+        return Clamp(number, None if turned is None else self.numbers[turned], words, label)
+
+    def _own_name(self, node: int) -> str:
+        """The name of a point, or of the only part with a name that is held there."""
+        place = self.parts.place_of(node)
+        if place is None:
+            turning = [part for part in self.parts.turning(node) if part.is_named]
+            return turning[0].name if len(turning) == 1 else ""
+        name = self.parts.name_of_point(place)
+        named = [part.name for part in self.parts.at(place) if part.is_named]
+        return name or (named[0] if len(named) == 1 else "")
+
+    def orientation_of(self, position: int) -> int | None:
+        """The orientation node at a position node, of the first element that names both."""
+        slots = self.data.arrays.element_node - 1
+        for element in self.parts.elements_at(position):
+            for p, op in ((0, 1), (2, 3)):
+                if slots[p, element] == position and slots[op, element] >= 0:
+                    return int(slots[op, element])
+        return None
+
+    def node(self, target: object) -> int:
+        """Index of the node that is meant: its number, a name, a place, or a handle.
+
+        Raises:
+            ModelError: there is none, or there are several.
+            TypeError: it is nothing of that.
+        """
+        return node_of(self.parts, target)
+
+    def drives(self) -> tuple[tuple[int, str], ...]:
+        """Declared coordinates, (number of the node, name), in the order of the nodes."""
+        made = []
+        for node in np.flatnonzero((self.classes == Class.INDEPENDENT).any(axis=0)).tolist():
+            kind = int(self.data.arrays.node_kind[node])
+            for axis in AXES[kind]:
+                if self.classes[axis, node] == Class.INDEPENDENT:
+                    made.append((self.numbers[node], coordinate_name(kind, axis)))
+        return tuple(made)
+
+    def point(self, at: object) -> Point:
+        """The point at which stiffness is measured.
+
+        Args:
+            at: What is meant; None for the point that is driven, else the one where most parts
+                meet that can move.
+
+        Raises:
+            ModelError: there is no such point, or nothing that can move.
+        """
+        if at is not None:
+            return self._made(self.node(at), "as asked for")
+        drives = self.drives()
+        if drives:
+            return self._made(self.data.node_index[drives[0][0]], "the driven point")
+        free = (self.classes > Class.FIXED).any(axis=0)
+        nodes = np.flatnonzero(free & (self.data.arrays.node_kind <= NodeKind.POSITION)).tolist()
+        if not nodes:
+            raise model_error("no-such-point", "no point of this mechanism can move")
+        body = self._body_most_hang_on()
+        if body is not None:
+            return self._made(body, "on the body that most parts hang on")
+        best = max(nodes, key=lambda node: len(self.parts.at(node)))
+        return self._made(best, "where most parts meet")
+
+    def _body_most_hang_on(self) -> int | None:
+        """A point of the body that most parts end at; None without a body that can move."""
+        best: tuple[int, int] | None = None
+        for body in self.parts.bodies:
+            points = [n for n in body.positions if (self.classes[:, n] > Class.FIXED).any()]
+            hanging = {part for n in points for part in self.parts.at(n)}
+            if points and (best is None or len(hanging) > best[0]):
+                point = max(points, key=lambda n: len(self.parts.elements_at(n)))
+                best = len(hanging), point
+        return None if best is None else best[1]
+
+    def _made(self, node: int, reason: str) -> Point:
+        place = self.parts.place_of(node)
+        place = node if place is None else place
+        turned = self.orientation_of(place) if place == node else node
+        body = self.parts.body_at.get(place)
+        number = self.numbers[place]
+        own = self.parts.name_of_point(place) or (
+            part_words(self.parts.of_body(body))
+            if body is not None and self.parts.of_body(body).is_named
+            else ""
+        )
+        words = f"node {number} ({own})" if own else f"node {number}"
+        return Point(number, None if turned is None else self.numbers[turned], words, reason)
+
+    def words(self, node: int) -> str:
+        """What a node, by its number, is called in a sentence."""
+        return node_words(self.parts, self.data.node_index[node])

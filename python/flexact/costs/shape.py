@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A shape that vibrates or buckles, with pictures of it."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..core.arrays import FloatArray
+from ..model.configuration import Configuration
+from ..model.data import ModelData
+from ..show.picture import shape_bytes
+from ..util.outputs import OutputError, write_together
+from ..util.records import Frozen
+
+
+@dataclass(frozen=True, eq=False)
+class Shape(Frozen):
+    """A shape that vibrates or buckles, to be drawn; of the model as it was refined.
+
+    A notebook shows its picture.
+
+    Attributes:
+        kind: "vibrating" or "buckled".
+        words: Such as "parasitic frequency, 184 Hz" or "buckles with clamp 11 along x off by
+            0.13 mm".
+        value: Frequency [Hz], the critical misalignment [m, rad], or the multiplier of a state.
+        data: The refined model.
+        configuration: Where its nodes are without the shape.
+        displacement: (nodes of data, 3) displacements and rotations (spins); the largest
+            displacement is 1.
+    """
+
+    kind: str
+    words: str
+    value: float
+    data: ModelData
+    configuration: Configuration
+    displacement: FloatArray
+
+    def picture(
+        self, suffix: str = ".png", view: str | None = None, size: tuple[int, int] | None = None
+    ) -> bytes:
+        """A picture as the content of a file.
+
+        Args:
+            suffix: .png, .svg or .pdf; .gif, .mp4 or .webm, which move.
+            view: iso, front, back, left, right, top, bottom, or azimuth and elevation in degrees.
+            size: Width and height [px].
+
+        Raises:
+            FlexactError: There is no such kind of picture or view, or a package is missing.
+        """
+        drawn = self.data, self.configuration, self.displacement
+        return shape_bytes(*drawn, self.words, suffix, view=view, size=size)
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        view: str | None = None,
+        size: tuple[int, int] | None = None,
+    ) -> None:
+        """Write a picture to a file, whole or not at all; see `picture`.
+
+        Raises:
+            FlexactError: As of `picture`, or the file cannot be written.
+        """
+        if "\0" in str(path):
+            raise OutputError("a file's name cannot hold a NUL")
+        target = Path(path)
+        write_together({target: self.picture(target.suffix, view, size)})
+
+    def _repr_png_(self) -> bytes:
+        return self.picture()

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How much may be off: buckling and shift of the first frequency, to first order in the stress.
+
+The stress is proportional to the error d about the undeformed state. The square of the first
+frequency is the smallest eigenvalue of K + d G with M, a concave function of d: it falls to any
+level at most once on each side, before it is 0 where the mechanism buckles.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..core import elastic
+from ..core.arrays import FloatArray
+from ..core.elastic import ElasticState
+from ..util.cached import cached_property
+from .drives import at_rest
+from .imperfections import Imperfection
+from .roots import rises_to
+from .solution import Solution
+from .solver import Held, Solver
+from .stiffness_errors import ElasticError
+
+#: Errors larger than so many lengths of the model, or radians, are none that a design meets.
+_FAR = 1.0e3
+#: What rigid parts cannot follow, of what was asked, beyond rounding.
+_MISMATCH = 1.0e-8
+#: The part of the nearest critical error with which a rise is looked for.
+_BEGIN = 1.0e-2
+
+Pair = tuple[float, float]
+
+
+class Linear:
+    """The stresses of one imperfection, for each unit of it, about the undeformed state."""
+
+    def __init__(self, solver: Solver, held: Held, off: Imperfection) -> None:
+        """Of a mesh with what is held, and what is off."""
+        self._rest, self._off = at_rest(solver, held), off
+        self._shifted: dict[float, Pair] = {}
+
+    @cached_property
+    def stressed(self) -> Solution:
+        """The undeformed configuration with the stresses.
+
+        Raises:
+            ElasticError: rigid parts cannot follow.
+        """
+        rest, s = self._rest, self._rest.solver
+        own = s.mesh.own
+        shift = np.zeros((3, s.nodes, 1), order="F")
+        shift[:, : s.mesh.nodes, 0] = self._off.shift(own)
+        misfit = np.asfortranarray(s.mesh.misfit(self._off.misfit)[:, :, None])
+        answer = rest.respond(np.zeros((3, s.nodes, 1), order="F"), misfit, shift)
+        if float(answer.mismatch[0]) > _MISMATCH:
+            raise ElasticError(
+                f"rigid parts cannot follow {self._off.words}: nothing between them is elastic; "
+                "give their elements a stiffness (ESTIFF)"
+            )
+        stress = np.asfortranarray(answer.stress[:, :, 0])
+        return Solution(
+            s, ElasticState(rest.raw.configuration, stress, s.no_force), rest.way, rest.held
+        )
+
+    @cached_property
+    def critical(self) -> Pair:
+        """The errors of both signs at which it buckles; infinite where it does not."""
+        return self._errors(0.0)
+
+    def _errors(self, square: float) -> Pair:
+        """The errors of both signs at which a frequency has this square; 0: it buckles."""
+        at = self.stressed
+        s, rest = at.solver, self._rest
+        found = elastic.errors(
+            s.model(at.held),
+            s.arrays,
+            rest.raw,
+            rest.way.gravity,
+            at.raw.stress[:, :, None],
+            square,
+        )
+        if found.negative:
+            raise ElasticError("the undeformed state is unstable, so that no error makes it so")
+        low, high = float(found.below[0]), float(found.above[0])
+        return low if -low < self._far else -math.inf, high if high < self._far else math.inf
+
+    @property
+    def _far(self) -> float:
+        return _FAR if self._off.is_turn else _FAR * self._rest.size
+
+    def square(self, value: float) -> float:
+        """The square of the first angular frequency at an error."""
+        at = self.stressed
+        raw = at.raw._replace(stress=np.asfortranarray(value * at.raw.stress))
+        s = at.solver
+        return float(
+            elastic.frequencies(s.model(at.held), s.arrays, raw, at.way.gravity, 1).values[0]
+        )
+
+    @cached_property
+    def first(self) -> float:
+        """The square at no error.
+
+        Raises:
+            ElasticError: nothing vibrates, or a motion has no stiffness.
+        """
+        found = self._rest.squares
+        if not found.values.size:
+            raise ElasticError("nothing vibrates: no mass moves")
+        if found.loose or found.values[0] <= 0.0:
+            raise ElasticError(
+                "a motion without stiffness has the frequency 0, which shifts by no part of "
+                "itself: see undeformed().loose"
+            )
+        return float(found.values[0])
+
+    def shifted(self, shift: float) -> Pair:
+        """The errors at which the first frequency has shifted by a part of itself.
+
+        A lower frequency is reached where K - square M + d G is singular first, on either side;
+        a higher one is looked for.
+
+        Args:
+            shift: Relative, above -1 and not 0.
+        """
+        if shift not in self._shifted:
+            wanted = self.first * (1.0 + shift) ** 2
+            self._shifted[shift] = (
+                self._errors(wanted)
+                if shift < 0.0
+                else (self._rise(-1.0, wanted), self._rise(1.0, wanted))
+            )
+        return self._shifted[shift]
+
+    def _rise(self, sign: float, wanted: float) -> float:
+        nearest = min(map(abs, self.critical))
+        if math.isinf(nearest):
+            # It falls on neither side, and is concave: it does not change.
+            return sign * math.inf
+        far = min(abs(self.critical[0 if sign < 0.0 else 1]), self._far)
+        begin = _BEGIN * nearest
+        return sign * rises_to(lambda d: self.square(sign * d), wanted, self.first, begin, far)
+
+
+def finite(pair: FloatArray) -> Pair:
+    """A pair of plain numbers."""
+    return float(pair[0]), float(pair[1])

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model in the deck language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from ..core.arrays import FloatArray, IntArray
+from ..core.elements import AXES, Class, NodeKind, keywords_of
+from ..deck.comments import ELEMENT, GRAVITY, DeckComments, comments_of
+from .attributes import Appearance, CrossSection
+from .data import ModelData
+from .places import one_line
+from .properties_draft import rows_of
+
+_IDENTITY = {
+    NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],
+    NodeKind.ORIENTATION: [1.0, 0.0, 0.0, 0.0],
+}
+_VALUES = {
+    NodeKind.PLANAR_POSITION: 2,
+    NodeKind.POSITION: 3,
+    NodeKind.ANGLE: 1,
+    NodeKind.ORIENTATION: 4,
+}
+#: Component of axis 0 by kind of node, less that axis: lambda1 is component 2.
+FIRST_COMPONENT = {
+    NodeKind.PLANAR_POSITION: 1,
+    NodeKind.POSITION: 1,
+    NodeKind.ANGLE: -1,
+    NodeKind.ORIENTATION: 2,
+}
+
+
+def deck_of(data: ModelData) -> str:
+    """The deck of a model; numbers read back to the last bit.
+
+    Comments of the deck that it was read from stay with their statements.
+    """
+    origin = data.source or data.began_as
+    comments = comments_of(origin)
+    beside = comments.beside
+    # What a file is called does not stand in it.
+    title = one_line(data.name) if origin is None else ""
+    appearance, numbers = data.given_appearance, data.arrays.element_number
+    dynamics = dynamics_of(data, comments)
+    blocks = (
+        [f"% {title}"] if title else comments.top,
+        beside(ELEMENT, _elements(data)),
+        beside("X", _values(data, comments)),
+        beside("FIX", _coordinates(data, Class.FIXED, "FIX")),
+        beside("DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")),
+        beside("RLSE", _deformations(data, Class.DEPENDENT, "RLSE")),
+        beside("DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")),
+        comments.end,
+        ["END"],
+        comments.rest if not dynamics and appearance is None else [],
+        ["HALT", *dynamics, *comments.rest, "END"] if dynamics or appearance is not None else [],
+        [] if appearance is None else _picture(appearance, numbers),
+    )
+    return "\n".join(line for block in blocks for line in block) + "\n"
+
+
+def statements_of(data: ModelData) -> Iterator[tuple[tuple[str, int], str]]:
+    """What a deck says of the kinematics: keyword and number, and the statement."""
+    for keyword, statements in (
+        (ELEMENT, _elements(data)),
+        ("X", _values(data, DeckComments())),
+        ("FIX", _coordinates(data, Class.FIXED, "FIX")),
+        ("DYNX", _coordinates(data, Class.INDEPENDENT, "DYNX")),
+        ("RLSE", _deformations(data, Class.DEPENDENT, "RLSE")),
+        ("DYNE", _deformations(data, Class.INDEPENDENT, "DYNE")),
+    ):
+        for number, statement in statements:
+            yield (keyword, number), statement
+
+
+#: A line of a statement, and the number of its element or node.
+_Statements = Iterator[tuple[int, str]]
+
+
+def _elements(data: ModelData) -> _Statements:
+    a = data.arrays
+    numbers = np.concatenate([np.zeros(1, np.int32), a.node_number])
+    for keyword, number, nodes, vector, name in zip(
+        keywords_of(a.element_kind),
+        a.element_number.tolist(),
+        numbers[a.element_node].T.tolist(),
+        a.element_vector.T.tolist(),
+        data.element_names,
+        strict=True,
+    ):
+        words = [keyword, str(number), *(str(node) for node in nodes if node)]
+        if any(vector):
+            words += map(repr, vector)
+        if name:
+            words.append(f"% {name}")
+        yield number, " ".join(words)
+
+
+def _values(data: ModelData, comments: DeckComments) -> _Statements:
+    a = data.arrays
+    for number, kind, value, name in zip(
+        a.node_number.tolist(),
+        a.node_kind.tolist(),
+        a.node_value.T.tolist(),
+        data.node_names,
+        strict=True,
+    ):
+        if name or value != _IDENTITY.get(kind) or ("X", number) in comments.before:
+            line = f"X {number} {' '.join(map(repr, value[: _VALUES[kind]]))}"
+            yield number, f"{line} % {name}" if name else line
+
+
+def _coordinates(data: ModelData, wanted: Class, keyword: str) -> _Statements:
+    a = data.arrays
+    chosen = a.coordinate_class == wanted
+    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
+        kind = int(a.node_kind[index])
+        axes = np.flatnonzero(chosen[:, index]).tolist()
+        number = int(a.node_number[index])
+        words = [keyword, str(number)]
+        if len(axes) < len(AXES[kind]):
+            words += [str(axis + FIRST_COMPONENT[NodeKind(kind)]) for axis in axes]
+        yield number, " ".join(words)
+
+
+def _deformations(data: ModelData, wanted: Class, keyword: str) -> _Statements:
+    a = data.arrays
+    chosen = a.deformation_class == wanted
+    for index in np.flatnonzero(chosen.any(axis=0)).tolist():
+        modes = (np.flatnonzero(chosen[:, index]) + 1).tolist()
+        number = int(a.element_number[index])
+        words = [keyword, str(number)]
+        if len(modes) < np.count_nonzero(a.deformation_class[:, index]):
+            words += map(str, modes)
+        yield number, " ".join(words)
+
+
+def dynamics_of(data: ModelData, comments: DeckComments) -> list[str]:
+    """The statements of stiffness, mass and loads, with their comments."""
+    given, loads = data.properties, data.loads
+    elements, nodes = data.arrays.element_number, data.arrays.node_number
+    tables: list[tuple[str, IntArray, Iterable[tuple[int, tuple[float, ...]]]]] = []
+    if given is not None:
+        tables += [
+            ("ESTIFF", elements, rows_of(given.stiffness)),
+            ("EM", elements, rows_of(given.mass)),
+            ("XM", nodes, rows_of(given.node_mass)),
+        ]
+    if loads is not None:
+        tables += [
+            ("XF", nodes, _loads(data, loads.force)),
+            ("DELXF", nodes, _loads(data, loads.increment)),
+        ]
+    made: list[str] = []
+    for keyword, numbers, rows in tables:
+        statements = (
+            (number := int(numbers[i]), " ".join([keyword, str(number), *map(repr, row)]))
+            for i, row in rows
+        )
+        made += comments.beside(keyword, statements)
+    if loads is not None and loads.gravity.any():
+        words = ["GRAVITY", *map(repr, loads.gravity[: 2 if data.planar else 3].tolist())]
+        made += comments.beside(GRAVITY, [(0, " ".join(words))])
+    return made
+
+
+def _loads(data: ModelData, table: FloatArray) -> Iterator[tuple[int, tuple[float, ...]]]:
+    """Index and components of each node with a load, as many as it has coordinates."""
+    for i in np.flatnonzero(table.any(axis=1)).tolist():
+        axes = AXES[int(data.arrays.node_kind[i])]
+        yield i, tuple(table[i, list(axes)].tolist())
+
+
+#: How many numbers of elements stand in a line of the picture block.
+_NUMBERS_A_LINE = 16
+
+
+def _picture(appearance: Appearance, numbers: IntArray) -> Iterator[str]:
+    """The picture block; elements that look alike share their options."""
+    yield from ("", "VISUALIZATION")
+    for name, options in (
+        ("BEAMPROPS", _cross_sections(appearance)),
+        ("GRAPHICS", _colours(appearance)),
+    ):
+        alike: dict[tuple[str, ...], list[int]] = {}
+        for number, lines in zip(numbers.tolist(), options, strict=True):
+            if lines:
+                alike.setdefault(lines, []).append(number)
+        for lines, elements in alike.items():
+            # Without numbers a group is all elements.
+            all_of_them = len(elements) == numbers.size
+            for line in [name] if all_of_them else _in_lines(name, elements):
+                yield line
+                yield from lines
+    yield from _in_lines("DONOTDRAW", numbers[~appearance.drawn].tolist())
+
+
+def _in_lines(name: str, elements: list[int]) -> Iterator[str]:
+    for i in range(0, len(elements), _NUMBERS_A_LINE):
+        yield " ".join([name, *map(str, elements[i : i + _NUMBERS_A_LINE])])
+
+
+def _cross_sections(appearance: Appearance) -> Iterable[tuple[str, ...]]:
+    for kind, sizes in zip(
+        appearance.cross_section.tolist(), appearance.dimensions.tolist(), strict=True
+    ):
+        lines = [f"CROSSTYPE {CrossSection(kind).name}"] if kind else []
+        if any(sizes):
+            round_one = kind in (CrossSection.CIRC, CrossSection.CIRCHOL)
+            lines.append("CROSSDIM " + " ".join(map(repr, sizes[:1] if round_one else sizes)))
+        yield tuple(lines)
+
+
+def _colours(appearance: Appearance) -> Iterable[tuple[str, ...]]:
+    for face, edge, opacity in zip(
+        appearance.colour.tolist(),
+        appearance.edge_colour.tolist(),
+        appearance.opacity.tolist(),
+        strict=True,
+    ):
+        given = ("FACECOLOR", face), ("EDGECOLOR", edge), ("OPACITY", [opacity])
+        yield tuple(
+            f"{name} {' '.join(map(repr, values))}"
+            for name, values in given
+            if values[0] == values[0]
+        )

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a person sees: drawings, charts, pictures, pages, meshes and notebooks."""

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The members of a drawing: elements with two ends, how thick they are and of which colour."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...core.arrays import FloatArray
+from ...core.elements import Member, keywords_of, planar_table
+from ...model.attributes import Appearance, CrossSection
+from ...model.data import ModelData
+from ...model.parts.forms import Form, all_held, bending_held, forms_of, is_member
+from ...util.records import Frozen
+from .colours import of_forms
+from .places import slots_of
+
+#: Sizes across a member where none is given: parts of the drawing's size, and of the member's own
+#: length (of all beams of a sheet together) which they do not exceed. Along local y and z; a
+#: sheet's along its normal and its width.
+_PARTS = {
+    Form.SHEET: (0.006, 0.14),
+    Form.WIRE: (0.012, 0.012),
+    Form.BAR: (0.016, 0.016),
+    Form.BEAM: (0.034, 0.034),
+    Form.RIGID: (0.034, 0.034),
+}
+_LIMITS = {
+    Form.SHEET: (0.025, 0.6),
+    Form.WIRE: (0.06, 0.06),
+    Form.BAR: (0.08, 0.08),
+    Form.BEAM: (0.4, 0.4),
+    Form.RIGID: (0.4, 0.4),
+}
+#: Thickness of what is to be drawn as a line, as a part of the drawing's size.
+_LINE = 0.004
+
+
+@dataclass(frozen=True, eq=False)
+class Elements(Frozen):
+    """Drawn elements, in the order of those of the model.
+
+    Attributes:
+        index: (k,) index of the element, from 0.
+        number: (k,) its number.
+        names: (k,) its name, empty where it has none.
+        keyword: (k,) its keyword.
+        nodes: (k, slots) node indices; -1 where there is none.
+        frame: (k, 3, 3) reference frame, columns ex, ey, ez as in eqs. (3) and (4).
+        colour: (k, 3) red, green, blue, 0 to 1.
+        opacity: (k,) 0 to 1.
+    """
+
+    index: np.ndarray
+    number: np.ndarray
+    names: tuple[str, ...]
+    keyword: tuple[str, ...]
+    nodes: np.ndarray
+    frame: FloatArray
+    colour: FloatArray
+    opacity: FloatArray
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return int(self.index.size)
+
+    @property
+    def seen(self) -> np.ndarray:
+        """(k,) which are not invisible: an opacity of 0 leaves not even an outline."""
+        return np.asarray(self.opacity > 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Members(Elements):
+    """Drawn elements with two ends; their nodes are in the slots p, op, q, oq.
+
+    Attributes:
+        form: (k,) `Form`.
+        length: (k,) reference length [m].
+        section: (k, 2) full sizes along ey and ez [m].
+        round: (k,) whether the section is an ellipse, else a rectangle.
+        stiff: (k,) whether every deformation is held: drawn without any change of length.
+        bends: (k,) whether it is drawn as a beam's cubic curve.
+        joined: (k, 2) whether the same sheet or wire goes on at p and at q.
+        across: (k, 2, 2) along ey and ez, the directions across it of `ModelData.across`.
+        edge_colour: (k, 3) like their colours; NaN where none is given.
+    """
+
+    form: np.ndarray
+    length: FloatArray
+    section: FloatArray
+    round: np.ndarray
+    stiff: np.ndarray
+    bends: np.ndarray
+    joined: np.ndarray
+    across: FloatArray
+    edge_colour: FloatArray
+
+
+def described(data: ModelData, index: np.ndarray, colour: ArrayLike) -> dict[str, Any]:
+    """What `Elements` tell besides their nodes; `colour` is theirs where none is given."""
+    given, opacity = data.appearance.colour[index], data.appearance.opacity[index]
+    return {
+        "index": index,
+        "number": data.arrays.element_number[index].astype(np.int64),
+        "names": tuple(data.element_names[i] for i in index.tolist()),
+        "keyword": keywords_of(data.arrays.element_kind[index]),
+        "frame": data.frames.frame[index],
+        "colour": np.where(np.isnan(given), colour, given),
+        "opacity": np.where(np.isnan(opacity), 1.0, opacity),
+    }
+
+
+def members_of(data: ModelData, size: float) -> Members:
+    """The members of a model.
+
+    Args:
+        data: The model.
+        size: Of the drawing [m], to which sizes that are not given are fitted.
+    """
+    arrays, appearance = data.arrays, data.appearance
+    slots = slots_of(arrays)
+    index = np.flatnonzero(~is_member(arrays.element_kind, Member.HINGE) & appearance.drawn)
+    form, wide = (each[index] for each in forms_of(arrays))
+    nodes = slots[index]
+    kind = arrays.element_kind[index]
+    frame, length = data.frames.frame[index], data.frames.length[index]
+    stiff = all_held(arrays)[index]
+    section = _sections(form, wide, _whole_lengths(data)[index], size)
+    round_ = np.isin(form, (Form.WIRE, Form.BAR))
+    in_xz, in_xy = bending_held(arrays)[:, index]
+    plainly = np.abs(in_xz - in_xy) == 2
+    wide = np.where(plainly | (planar_table()[kind] == 1), wide, 0)
+    section, round_ = _as_given(appearance, index, wide, section, round_, size)
+    return Members(
+        **described(data, index, of_forms(form)),
+        form=form,
+        nodes=nodes,
+        length=length,
+        section=section,
+        round=round_,
+        stiff=stiff,
+        bends=is_member(kind, Member.BEAM) & ~stiff,
+        joined=_joined(data)[index],
+        across=data.across[index] @ frame[..., 1:],
+        edge_colour=appearance.edge_colour[index],
+    )
+
+
+def _whole_lengths(data: ModelData) -> FloatArray:
+    """(elements,) lengths [m]: of a divided sheet or wire from end to end."""
+    made = data.frames.length.copy()
+    place = data.arrays.node_value[:3].T
+    for chain in data.chains:
+        ends = place[[chain.positions[0], chain.positions[-1]]]
+        made[list(chain.elements)] = np.linalg.norm(ends[1] - ends[0])
+    return made
+
+
+def _joined(data: ModelData) -> np.ndarray:
+    """(elements, 2) whether the same sheet or wire goes on at p and at q."""
+    made = np.zeros((data.arrays.element_number.size, 2), bool)
+    drawn = data.appearance.drawn
+    for chain in data.chains:
+        row, against = np.array(chain.elements), np.array(chain.reversed).astype(int)
+        goes_on = drawn[row[:-1]] & drawn[row[1:]]
+        made[row[:-1], 1 - against[:-1]] = goes_on
+        made[row[1:], against[1:]] = goes_on
+    return made
+
+
+def _sections(form: np.ndarray, wide: np.ndarray, whole: FloatArray, size: float) -> FloatArray:
+    """(k, 2) sizes across members that tell their forms apart."""
+    section = np.zeros((len(form), 2))
+    for each in Form:
+        chosen = form == each
+        part, limit = np.array(_PARTS[each]), np.array(_LIMITS[each])
+        section[chosen] = np.minimum(part * size, limit * whole[chosen, None])
+    section[wide == 1] = section[wide == 1][:, ::-1]
+    return section
+
+
+def _as_given(
+    appearance: Appearance,
+    index: np.ndarray,
+    wide: np.ndarray,
+    section: FloatArray,
+    round_: np.ndarray,
+    size: float,
+) -> tuple[FloatArray, np.ndarray]:
+    """Sections and whether they are round, where the deck or the builder says so.
+
+    The two sizes of a sheet's rectangle are taken so that it is wide where its bending is
+    held, in whichever order they were given, if it is held there alone and at both ends.
+    """
+    given = appearance.dimensions[index]
+    there = np.all(given > 0.0, axis=1)
+    turned = ((wide == 1) & (given[:, 1] > given[:, 0])) | (
+        (wide == 2) & (given[:, 0] > given[:, 1])
+    )
+    given = np.where(turned[:, None], given[:, ::-1], given)
+    kind = appearance.cross_section[index]
+    known = kind != CrossSection.NONE
+    line = kind == CrossSection.LINE
+    section = np.where(there[:, None], given, section)
+    section = np.where(line[:, None], np.minimum(section, _LINE * size), section)
+    circle = np.isin(kind, (CrossSection.CIRC, CrossSection.CIRCHOL)) | line
+    return section, np.where(known, circle, round_)

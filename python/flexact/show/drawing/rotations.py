@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rotations of many nodes at once: matrices, rotation vectors and Euler parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+
+#: Below this, sines of angles are as good as nothing.
+_SMALL = 1.0e-12
+
+
+def unit(vectors: FloatArray) -> FloatArray:
+    """Vectors (..., 3) of unit length; zero ones stay zero."""
+    size = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(vectors / np.where(size > 0.0, size, 1.0))
+
+
+def frames_along(ex: FloatArray) -> FloatArray:
+    """(k, 3, 3) frames with unit vectors ex (k, 3); ey towards the axis least along each."""
+    axis = np.eye(3)[np.argmin(np.abs(ex), axis=1)]
+    ey = unit(axis - np.sum(ex * axis, axis=1, keepdims=True) * ex)
+    return np.stack((ex, ey, np.cross(ex, ey)), axis=-1)
+
+
+def matrix_of(rotation: FloatArray) -> FloatArray:
+    """Matrices (..., 3, 3) of rotation vectors (..., 3) [rad], by Rodrigues' formula."""
+    angle = np.linalg.norm(rotation, axis=-1)[..., None, None]
+    skew = _skew(rotation)
+    sine = np.sinc(angle / np.pi)
+    versine = np.sinc(angle / (2 * np.pi)) ** 2 / 2
+    return np.asarray(np.eye(3) + sine * skew + versine * (skew @ skew))
+
+
+def screw_matrix(rotation: FloatArray) -> FloatArray:
+    """(..., 3, 3): times a velocity, the translation of a screw with this rotation vector.
+
+    The integral of the rotation over the time from 0 to 1.
+    """
+    angle = np.linalg.norm(rotation, axis=-1)[..., None, None]
+    skew = _skew(rotation)
+    versine = np.sinc(angle / (2 * np.pi)) ** 2 / 2
+    safe = np.where(angle > 1.0e-3, angle, 1.0)
+    third = np.where(angle > 1.0e-3, (safe - np.sin(safe)) / safe**3, 1 / 6 - angle**2 / 120)
+    return np.asarray(np.eye(3) + versine * skew + third * (skew @ skew))
+
+
+def vector_of(matrix: FloatArray) -> FloatArray:
+    """Rotation vectors (..., 3) [rad] of matrices (..., 3, 3), angles below pi."""
+    euler = euler_of(matrix)
+    sine = np.linalg.norm(euler[..., 1:], axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(sine, euler[..., :1])
+    factor = np.where(sine > _SMALL, angle / np.where(sine > _SMALL, sine, 1.0), 2.0)
+    return np.asarray(factor * euler[..., 1:])
+
+
+def euler_of(matrix: FloatArray) -> FloatArray:
+    """Euler parameters (..., 4) of matrices (..., 3, 3), the first not negative.
+
+    The largest of the four is found from the diagonal, the others from it.
+    """
+    m = matrix
+    trace = np.trace(m, axis1=-2, axis2=-1)
+    diagonal = np.diagonal(m, axis1=-2, axis2=-1)
+    squares = np.concatenate((1 + trace[..., None], 1 - trace[..., None] + 2 * diagonal), axis=-1)
+    largest = np.argmax(squares, axis=-1)
+    products = np.empty((*trace.shape, 4, 4))
+    a, b, c = m[..., 2, 1], m[..., 0, 2], m[..., 1, 0]
+    d, e, f = m[..., 1, 2], m[..., 2, 0], m[..., 0, 1]
+    for i, row in enumerate(
+        (
+            (squares[..., 0], a - d, b - e, c - f),
+            (a - d, squares[..., 1], c + f, b + e),
+            (b - e, c + f, squares[..., 2], a + d),
+            (c - f, b + e, a + d, squares[..., 3]),
+        )
+    ):
+        for j, value in enumerate(row):
+            products[..., i, j] = value
+    row_of = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
+    made = row_of / np.linalg.norm(row_of, axis=-1, keepdims=True)
+    return np.asarray(np.where(made[..., :1] < 0, -made, made))
+
+
+def matrix_of_euler(euler: FloatArray) -> FloatArray:
+    """Matrices (..., 3, 3) of Euler parameters (..., 4) of any length but zero."""
+    euler = euler / np.linalg.norm(euler, axis=-1, keepdims=True)
+    scalar, vector = euler[..., 0, None, None], euler[..., 1:]
+    skew = _skew(vector)
+    return np.asarray(np.eye(3) + 2 * scalar * skew + 2 * (skew @ skew))
+
+
+def between(first: FloatArray, second: FloatArray, share: FloatArray) -> FloatArray:
+    """Rotations (k, s, 3, 3) at shares (s,) of the way between two of (k, 3, 3)."""
+    way = vector_of(np.swapaxes(first, -1, -2) @ second)
+    return np.asarray(first[:, None] @ matrix_of(share[None, :, None] * way[:, None]))
+
+
+def aligned(frame: FloatArray, direction: FloatArray) -> FloatArray:
+    """Frames (..., 3, 3) after the smallest rotation that brings ex to unit directions (..., 3).
+
+    Where a direction is zero the frame stays; where it is opposite, it turns about ey.
+    """
+    ex = frame[..., 0]
+    axis = np.cross(ex, direction)
+    cosine = np.sum(ex * direction, axis=-1)[..., None, None]
+    skew = _skew(axis)
+    turn = np.eye(3) + skew + (skew @ skew) / np.maximum(1 + cosine, _SMALL)
+    made = turn @ frame
+    opposite = frame * np.array([-1.0, 1.0, -1.0])
+    made = np.where(cosine > _SMALL - 1, made, opposite)
+    there = np.any(direction != 0.0, axis=-1)[..., None, None]
+    return np.asarray(np.where(there, made, frame))
+
+
+def _skew(vectors: FloatArray) -> FloatArray:
+    """Matrices (..., 3, 3) that make cross products with vectors (..., 3)."""
+    made = np.zeros((*vectors.shape, 3))
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        made[..., j, i] = vectors[..., k]
+        made[..., i, j] = -vectors[..., k]
+    return made

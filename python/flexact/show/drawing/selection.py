@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which motion is shown where several could be."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass
+
+from ...analysis.freedoms import Freedom
+from ...analysis.result import Result
+from ...deck.errors import ModelError
+from ...util.errors import BatchError, FlexactError
+from ...util.records import Frozen
+from .drawing_pose import Moving
+from .freedoms import way_of
+
+#: How many degrees of freedom are tried, whether they can move, where none was asked for.
+_MOST_TRIED = 24
+
+
+class NotThereError(BatchError):
+    """A motion, self-stress or degree of freedom of this number is not there."""
+
+
+@dataclass(frozen=True, eq=False)
+class Selection(Frozen):
+    """A motion that is shown.
+
+    Attributes:
+        motion: The motion.
+        number: Which one of the motions or degrees of freedom it is, from 1.
+        freedom: The degree of freedom that it is the motion of; None of a motion that nothing
+            determines.
+    """
+
+    motion: Moving
+    number: int
+    freedom: Freedom | None = None
+
+
+def select_motion(
+    analysis: Result, motion: int | None = None, freedom: int | str | None = None
+) -> Selection | None:
+    """The motion that is shown.
+
+    Args:
+        analysis: The result.
+        motion: The number, from 1, of one of its kinematically indeterminate motions.
+        freedom: The number, from 1, of one of its declared degrees of freedom, or its name, such
+            as "stage y"; see `Result.freedom`.
+
+    Returns:
+        The one asked for; else the first motion; else that of the first degree of freedom that
+        can move; None where the mechanism does not move.
+
+    Raises:
+        NotThereError: There is none of that number, or the degree of freedom cannot move.
+        AnalysisError: The motion of that degree of freedom cannot be found.
+    """
+    if motion is not None:
+        return _of_motion(analysis, motion)
+    if freedom is not None:
+        return _of_freedom(analysis, freedom)
+    if len(analysis.motions):
+        return _of_motion(analysis, 1)
+    for number, each in enumerate(analysis.freedoms[:_MOST_TRIED], start=1):
+        # Nobody asked for it, so that it is none where it cannot be found.
+        with contextlib.suppress(FlexactError):
+            if each.motion is not None:
+                return _of_freedom(analysis, number)
+    return None
+
+
+def require_there(number: int, count: int, what: str, plural: str) -> None:
+    """Raise unless one of this number, from 1, is among so many.
+
+    Raises:
+        NotThereError: It is not; this says how many there are.
+    """
+    if not 1 <= number <= count:
+        there = f"{count or 'no'} {what if count == 1 else plural}"
+        raise NotThereError(f"there is no {what} {number}: the analysis gives {there}")
+
+
+def _of_motion(analysis: Result, number: int) -> Selection:
+    count = len(analysis.motions)
+    require_there(number, count, "motion", "motions")
+    return Selection(analysis.motions[number - 1], number)
+
+
+def _of_freedom(analysis: Result, given: int | str) -> Selection:
+    if isinstance(given, str):
+        try:
+            number = analysis.freedoms.index(analysis.freedom(given)) + 1
+        except ModelError as error:
+            first = error.diagnostics[0]
+            raise NotThereError(f"{first.message}: {first.help}") from None
+    else:
+        number, count = given, len(analysis.freedoms)
+        require_there(number, count, "degree of freedom", "degrees of freedom")
+    chosen = analysis.freedoms[number - 1]
+    if (found := way_of(chosen)) is None:
+        raise NotThereError(f"degree of freedom {number}, {chosen.label}, cannot move")
+    return Selection(found, number, chosen)

@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is drawn of a family of lines, directions or screws: members, and faces they lie in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import Enum
+from typing import Protocol
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+from .rotations import frames_along, unit
+
+#: Half the length of a line, and of an arrow from the middle: parts of the drawing's size.
+_REACH, _ARROW = 0.42, 0.26
+#: Where arrows begin, away from the middle.
+_START = 0.05
+#: Lines through a point in a plane, and corners of a disc.
+_FAN, _ROUND = 8, 40
+#: Lines side by side.
+_BESIDE = np.linspace(-0.75, 0.75, 5)
+#: Of a helix: radius, at most so many turns, and points of each.
+_HELIX, _TURNS, _POINTS = 0.045, 8.0, 24
+
+
+class FamilyLike(Protocol):
+    """A family of lines, directions or screws; see `flexact.advice.spaces.families`."""
+
+    @property
+    def kind(self) -> Enum:
+        """What it is, by the name of the member."""
+
+    @property
+    def point(self) -> FloatArray:
+        """(3,) [m]."""
+
+    @property
+    def direction(self) -> FloatArray:
+        """(3,) unit vector, or zero."""
+
+    @property
+    def normal(self) -> FloatArray:
+        """(3,) unit vector, or zero."""
+
+    @property
+    def pitch(self) -> float:
+        """[m/rad]."""
+
+    @property
+    def points(self) -> FloatArray:
+        """(n, 3) of lines [m]."""
+
+    @property
+    def directions(self) -> FloatArray:
+        """(n, 3) unit vectors along them."""
+
+
+#: Lines, faces and arrows, as of `SpaceShape`.
+_Parts = tuple[list[FloatArray], list[FloatArray], list[FloatArray]]
+
+
+def _segments(points: FloatArray, directions: FloatArray, half: float) -> list[FloatArray]:
+    """A line (2, 3) to both sides of each point, (3,) or (n, 3)."""
+    points, directions = np.broadcast_arrays(np.atleast_2d(points), np.atleast_2d(directions))
+    return list(np.stack((points - half * directions, points + half * directions), axis=1))
+
+
+def _fan(normal: FloatArray, count: int = _FAN) -> FloatArray:
+    """(count, 3) directions in a plane, over half a turn."""
+    frame = frames_along(normal[None])[0]
+    angle = np.pi * np.arange(count) / count
+    made: FloatArray = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
+    return made
+
+
+def disc(point: FloatArray, normal: FloatArray, radius: float) -> FloatArray:
+    """(c, 3) corners of what looks round."""
+    ring = _fan(normal, _ROUND // 2)
+    made: FloatArray = point + radius * np.concatenate((ring, -ring))
+    return made
+
+
+def _square(point: FloatArray, one: FloatArray, other: FloatArray, half: float) -> FloatArray:
+    corners = np.array(((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)))
+    made: FloatArray = point + half * (corners[:, :1] * one + corners[:, 1:] * other)
+    return made
+
+
+def _sides(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Two unit vectors across a direction and each other."""
+    frame = frames_along(direction[None])[0]
+    return frame[:, 1], frame[:, 2]
+
+
+def _nearest(family: FamilyLike, middle: FloatArray) -> FloatArray:
+    """(n, 3) the point of each line of a family that is nearest to the middle."""
+    arm = middle - family.points
+    along = np.sum(arm * family.directions, axis=1)[:, None]
+    made: FloatArray = family.points + along * family.directions
+    return made
+
+
+def _line(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    return _segments(family.point, family.direction, _REACH * size), [], []
+
+
+def _pencil(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    half = _REACH * size
+    lines = _segments(family.point, _fan(family.normal), half)
+    return lines, [disc(family.point, family.normal, half)], []
+
+
+def _parallels_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    half = _REACH * size
+    across = unit(np.cross(family.normal, family.direction))
+    points = family.point + half * _BESIDE[:, None] * across
+    face = _square(family.point, family.direction, across, half)
+    return _segments(points, family.direction, half), [face], []
+
+
+def _bundle(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    every = np.array([each for each in np.ndindex(3, 3, 3) if each > (1, 1, 1)]) - 1.0
+    return _segments(family.point, unit(every), _REACH * size), [], []
+
+
+def _parallels(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    one, other = _sides(family.direction)
+    half, beside = _REACH * size, 0.6 * _REACH * size
+    places = [middle + beside * (i * one + j * other) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    lines = _segments(np.array(places), family.direction, half)
+    faces = [
+        _square(middle + end * half * family.direction, one, other, 1.3 * beside) for end in (-1, 1)
+    ]
+    return lines, faces, []
+
+
+def _plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    return *_flat(family.point, family.normal, _REACH * size), []
+
+
+def _flat(
+    point: FloatArray, normal: FloatArray, half: float
+) -> tuple[list[FloatArray], list[FloatArray]]:
+    """Lines of all directions in a plane, and a square of it."""
+    one, other = _sides(normal)
+    lines = _segments(point + half * _BESIDE[:, None] * other, one, half)
+    lines += _segments(point + half * _BESIDE[:, None] * one, other, half)
+    diagonals = np.array((one + other, one - other))
+    return lines + _segments(point, diagonals, half), [_square(point, one, other, half)]
+
+
+def _some(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    return _segments(_nearest(family, middle), family.directions, _REACH * size), [], []
+
+
+def _meeting_two(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    """Lines from one to the other: the two themselves are lines of the reciprocal space."""
+    two, _, _ = _some(family, middle, size)
+    first, second = (
+        np.linspace(0.1, 0.9, 4)[:, None] * (line[1] - line[0]) + line[0] for line in two
+    )
+    return [np.stack((one, other)) for one in first for other in second], [], []
+
+
+def _meeting_across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    """Pencils in parallel planes, round points of the line, which is of the reciprocal space."""
+    axis = _some(family, middle, size)[0][0]
+    half = 0.6 * _REACH * size
+    lines, faces = [], []
+    for place in np.linspace(0.15, 0.85, 3)[:, None] * (axis[1] - axis[0]) + axis[0]:
+        lines += _segments(place, _fan(family.direction, 4), half)
+        faces.append(disc(place, family.direction, half))
+    return lines, faces, []
+
+
+def _meeting(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    lines, _, _ = _line(family, middle, size)
+    one, other = _sides(family.direction)
+    slant = np.array([one, other, one + family.direction, other - family.direction])
+    for share in (-0.6, 0.0, 0.6):
+        place = family.point + share * _REACH * size * family.direction
+        lines += _segments(place, unit(slant), 0.6 * _REACH * size)
+    return lines, [], []
+
+
+def _across(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    lines, faces = [], []
+    for share in (-0.55, 0.0, 0.55):
+        place = middle + share * _REACH * size * family.direction
+        more = _flat(place, family.direction, 0.8 * _REACH * size)
+        lines += more[0]
+        faces += more[1]
+    return lines, faces, []
+
+
+def _every(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    faces = [disc(middle, axis, _REACH * size) for axis in np.eye(3)]
+    lines = [_segments(middle, _fan(axis), _REACH * size) for axis in np.eye(3)]
+    return [each for some in lines for each in some], faces, []
+
+
+def _screw(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    half = _REACH * size
+    turns = min(half / abs(family.pitch) / np.pi, _TURNS) if family.pitch else _TURNS
+    share = np.linspace(-1.0, 1.0, max(int(turns * _POINTS), 2))[:, None]
+    angle = np.sign(family.pitch or 1.0) * np.pi * turns * share
+    one, other = _sides(family.direction)
+    # Both axes across are right-handed about the direction, and so is a screw of positive pitch.
+    around = _HELIX * size * (np.cos(angle) * one + np.sin(angle) * other)
+    helix: FloatArray = family.point + half * share * family.direction + around
+    return [*_segments(family.point, family.direction, half), helix], [], []
+
+
+def _complex(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    """Lines round the axis, the steeper the nearer, and those that meet it at right angles."""
+    half, lines = _REACH * size, []
+    for distance in (0.25 * half, 0.75 * half):
+        for across in np.concatenate((fan := _fan(family.direction, 4), -fan)):
+            # In the moment about the axis, distance times the part along the tangent, and the
+            # pitch times the part along the axis cancel.
+            tangent = np.cross(family.direction, across)
+            way = unit(distance * family.direction - family.pitch * tangent)
+            lines += _segments(family.point + distance * across, way, 0.6 * half)
+    return lines + _segments(family.point, fan, 0.75 * half), [], []
+
+
+def _arrows(directions: FloatArray, middle: FloatArray, size: float) -> list[FloatArray]:
+    ends = ((_START, _ARROW), (-_START, -_ARROW))
+    return [
+        np.stack([middle + part * size * each for part in pair])
+        for each in np.atleast_2d(directions)
+        for pair in ends
+    ]
+
+
+def _direction(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    return [], [], _arrows(family.direction, middle, size)
+
+
+def _directions_in_plane(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    face = disc(middle, family.normal, _ARROW * size)
+    return [], [face], _arrows(_fan(family.normal, 4), middle, size)
+
+
+def _every_direction(family: FamilyLike, middle: FloatArray, size: float) -> _Parts:
+    return [], [], _arrows(np.eye(3), middle, size)
+
+
+#: By the name of the kind.
+MADE_BY: dict[str, Callable[[FamilyLike, FloatArray, float], _Parts]] = {
+    "LINE": _line,
+    "PENCIL": _pencil,
+    "PARALLELS_IN_PLANE": _parallels_in_plane,
+    "BUNDLE": _bundle,
+    "PARALLELS": _parallels,
+    "PLANE": _plane,
+    "REGULUS": _some,
+    "MEETING_TWO": _meeting_two,
+    "MEETING_ACROSS": _meeting_across,
+    "CONGRUENCE": _some,
+    "MEETING": _meeting,
+    "ACROSS": _across,
+    "COMPLEX": _complex,
+    "EVERY": _every,
+    "DIRECTION": _direction,
+    "DIRECTIONS_IN_PLANE": _directions_in_plane,
+    "EVERY_DIRECTION": _every_direction,
+    "SCREW": _screw,
+}

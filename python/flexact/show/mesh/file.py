@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mesh files through meshio: which format, and the bytes of the file.
+
+Field data, which meshio reads and does not write, are put into .vtu files behind it.
+"""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import shutil
+import sys
+import tempfile
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from types import ModuleType
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...util.errors import reason_of
+from ...util.interruption import undisturbed
+from ...util.outputs import OutputError
+from ...util.plain_text import harmless
+from .field_data import component_names, spelt
+from .mesh_content import Mesh
+
+#: Formats that meshio writes unaided with every cell and every array, and how.
+FORMATS: dict[str, dict[str, str]] = {"vtu": {}, "vtk": {}, "xdmf": {"data_format": "XML"}}
+
+#: Where meshio begins the grid and the data of the points; no data look like it.
+_GRID = b"<UnstructuredGrid>\n"
+_POINTS = b"<PointData>\n"
+_TYPES = {"uint8": "UInt8", "int64": "Int64", "float64": "Float64"}
+#: Bytes of a block that is compressed by itself, as meshio has it.
+_BLOCK = 32_768
+
+
+class MeshFormatError(OutputError):
+    """A mesh format is not known, lacks a package, or cannot hold what is to be written."""
+
+
+def find_format(name: str) -> str:
+    """The format that has this name or suffix.
+
+    Raises:
+        MeshFormatError: There is none, or meshio is not installed.
+    """
+    known = name.lower().removeprefix(".")
+    if known not in FORMATS:
+        raise MeshFormatError(
+            f"mesh format {known!r} is not known: it is one of {', '.join(FORMATS)}, for export "
+            "also pvd, which plays, and vtp; meshio.write(..., analysis.to_meshio()) has others"
+        )
+    _meshio()
+    return known
+
+
+def _meshio() -> ModuleType:
+    try:
+        return import_module("meshio")
+    except ImportError as error:
+        raise MeshFormatError(
+            f"mesh files need the package meshio: pip install meshio ({error})"
+        ) from error
+
+
+def mesh_bytes(mesh: Mesh, form: str) -> bytes:
+    """The file that holds a mesh; a .vtu file has the field data, too.
+
+    Raises:
+        MeshFormatError: meshio is not installed.
+        OutputError: The temporary folder cannot be written to, or there is not enough memory.
+    """
+    try:
+        with _temporary_folder() as folder, _placeholder_for_h5py(form):
+            path = folder / f"mesh.{form}"
+            _meshio().write(path, mesh.to_meshio(), file_format=form, **FORMATS[form])
+            content = path.read_bytes()
+    except MemoryError as error:
+        raise OutputError("there is not enough memory for the mesh") from error
+    except OSError as error:
+        reason = reason_of(error)
+        raise OutputError(f"the mesh cannot be written to a temporary folder: {reason}") from error
+    return _completed(content, mesh.field_data) if form == "vtu" else content
+
+
+def _completed(content: bytes, data: Mapping[str, NDArray[np.generic]]) -> bytes:
+    """The .vtu file of meshio's with field data, which meshio reads and does not write.
+
+    ParaView warps by `displacement` unless told otherwise.
+    """
+    components = component_names(data)
+    arrays = b"".join(
+        _array(name, values, components.get(name, [])) for name, values in data.items()
+    )
+    content = content.replace(_GRID, _GRID + b"<FieldData>\n" + arrays + b"</FieldData>\n", 1)
+    return content.replace(_POINTS, b'<PointData Vectors="displacement">\n', 1)
+
+
+def _array(name: str, values: NDArray[np.generic], components: Sequence[str]) -> bytes:
+    """An array of field data."""
+    many = values.shape[1] if values.ndim > 1 else 1
+    told = "".join(
+        f" ComponentName{k}={quoteattr(harmless(words))}" for k, words in enumerate(components)
+    )
+    if many > 1 or values.ndim > 1:
+        told = f' NumberOfComponents="{many}"{told}'
+    head = (
+        f'<DataArray type="{_TYPES[values.dtype.name]}" Name={quoteattr(name)}{told} '
+        f'NumberOfTuples="{len(values)}" format="binary">\n'
+    )
+    return head.encode() + _encoded(values.tobytes()) + b"\n</DataArray>\n"
+
+
+def cell_names(mesh: Mesh) -> list[str]:
+    """The name of each cell's element or symbol as VTK can keep it."""
+    names = list(map(spelt, mesh.names))
+    return [names[i] for i in mesh.element.tolist()]
+
+
+def _encoded(raw: bytes) -> bytes:
+    """Bytes as meshio's .vtu files have them: in blocks, compressed, in base 64."""
+    blocks = [raw[i : i + _BLOCK] for i in range(0, len(raw), _BLOCK)]
+    packed = [zlib.compress(block) for block in blocks]
+    last = len(blocks[-1]) if blocks else 0
+    header = np.array([len(blocks), _BLOCK, last, *map(len, packed)], np.uint32)
+    return base64.b64encode(header.tobytes()) + base64.b64encode(b"".join(packed))
+
+
+@contextlib.contextmanager
+def _temporary_folder() -> Iterator[Path]:
+    """A folder of the system's for a while; a signal does not leave it behind."""
+    folder = None
+    try:
+        with undisturbed():
+            folder = tempfile.mkdtemp(prefix="flexact-")
+        yield Path(folder)
+    finally:
+        if folder is not None:
+            with undisturbed():
+                shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def _placeholder_for_h5py(form: str) -> Iterator[None]:
+    """Let meshio's XDMF writer import h5py, which it does even where it will not use it."""
+    if form != "xdmf" or find_spec("h5py") is not None:
+        yield
+        return
+    sys.modules["h5py"] = ModuleType("h5py")
+    try:
+        yield
+    finally:
+        del sys.modules["h5py"]

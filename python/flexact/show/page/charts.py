@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Charts as SVG within a page: curves with their names at their ends, marks, and bands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+from ..charts import Chart, Curve, Mark, apart
+from ..scale import Scale
+from ..series import STYLES
+from .markup import text
+
+#: Width of a chart and size of its letters; its height, and margins above and below.
+WIDTH, LETTERS = 380.0, 13.0
+_HEIGHT, _TOP, _BOTTOM = 262.0, 28.0, 44.0
+#: Width of a letter and height of a line, times the size of letters; room before a name.
+LETTER, _LINE, _BESIDE = 0.58, 1.2, 12.0
+_RADIUS = 4.0
+
+
+def chart_svg(chart: Chart) -> str:
+    """A chart, in words for those who do not see it."""
+    names = max((len(curve.label) for curve in chart.curves), default=0)
+    right = WIDTH - names * LETTER * LETTERS - _BESIDE - 2.0
+    ticks = max(map(len, chart.y.labels), default=0)
+    left = 10.0 + max(3, ticks) * LETTER * LETTERS
+    place = Places(chart.x, chart.y, (left, right), (_HEIGHT - _BOTTOM, _TOP))
+    title = f"{chart.title}{chart.y.heading}"
+    body = (
+        words(0.0, 14.0, title, "chart-title"),
+        *_grid(place),
+        *(part for curve in chart.curves for part in _curve(place, curve)),
+        *(part for mark in chart.marks for part in _mark(place, mark)),
+        *_names(place, chart.curves),
+        words(
+            (left + right) / 2, _HEIGHT - 8.0, f"{chart.x_title}{chart.x.heading}", "soft middle"
+        ),
+    )
+    return svg(chart.name, _HEIGHT, _told(chart), body)
+
+
+class Places:
+    """Where values of two axes are in the chart."""
+
+    def __init__(
+        self, x: Scale, y: Scale, across: tuple[float, float], up: tuple[float, float]
+    ) -> None:
+        """Keep the axes, and where each begins and ends."""
+        self.x, self.y, self.across, self.up = x, y, across, up
+
+    def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """(p, 2) places of values (p,)."""
+        return np.column_stack((self.along(x), self.above(y)))
+
+    def along(self, x: FloatArray) -> FloatArray:
+        """Places of values along."""
+        start, end = self.across
+        return np.asarray(start + (end - start) * self.x.share(x))
+
+    def above(self, y: FloatArray) -> FloatArray:
+        """Places of values up."""
+        start, end = self.up
+        return np.asarray(start + (end - start) * np.clip(self.y.share(y), -0.02, 1.05))
+
+
+def svg(name: str, height: float, told: str, body: Iterable[str]) -> str:
+    """A picture of the page's charts."""
+    return (
+        f'<figure class="chart"><svg class="{text(name)}" viewBox="0 0 {WIDTH:g} {height:.5g}" '
+        f'role="img" aria-label="{text(told)}">{"".join(body)}</svg></figure>'
+    )
+
+
+def words(x: float, y: float, told: str, kind: str) -> str:
+    """Words at a place."""
+    return f'<text x="{x:.1f}" y="{y:.1f}" class="{kind}">{text(told)}</text>'
+
+
+def line(start: tuple[float, float], end: tuple[float, float], kind: str) -> str:
+    """A straight line."""
+    (a, b), (c, d) = start, end
+    return f'<line x1="{a:.1f}" y1="{b:.1f}" x2="{c:.1f}" y2="{d:.1f}" class="{kind}"/>'
+
+
+def series_css() -> str:
+    """Colours and dashes of the designs, on light ground and on dark."""
+    light = "".join(_look(k, each.colour) for k, each in enumerate(STYLES))
+    dark = "".join(_look(k, each.on_dark) for k, each in enumerate(STYLES))
+    lines = "".join(
+        f".s{k}.curve{{stroke-width:{each.width:g};"
+        f"stroke-dasharray:{' '.join(f'{part * each.width:g}' for part in each.dashes) or 'none'}}}"
+        for k, each in enumerate(STYLES)
+    )
+    chosen = dark.replace(".s", ':root[data-theme="dark"] .s')
+    system = dark.replace(".s", ':root:not([data-theme="light"]) .s')
+    return f"{light}{lines}{chosen}@media (prefers-color-scheme: dark){{{system}}}"
+
+
+def _look(series: int, colour: str) -> str:
+    return f".s{series}{{--series:{colour}}}"
+
+
+def _grid(place: Places) -> Iterator[str]:
+    (left, right), (bottom, top) = place.across, place.up
+    for y, label in zip(place.above(place.y.ticks).tolist(), place.y.labels, strict=True):
+        yield line((left, y), (right, y), "grid")
+        yield words(left - 6.0, y + 4.5, label, "soft end")
+    labels = place.x.labels_for((right - left) / (LETTER * LETTERS))
+    for x, label in zip(place.along(place.x.ticks).tolist(), labels, strict=True):
+        yield line((x, bottom), (x, top), "grid")
+        yield words(x, bottom + 16.0, label, "soft middle")
+    yield line((left, bottom), (right, bottom), "axis")
+
+
+def _curve(place: Places, curve: Curve) -> Iterator[str]:
+    for run in curve.runs:
+        x, y, spread = curve.x[run], curve.y[run], curve.spread[run]
+        if np.any(spread > 0.0):
+            round_it = (place.at(x, y + spread), place.at(x, y - spread)[::-1])
+            path = _path(np.concatenate(round_it))
+            yield f'<path d="{path}Z" class="s{curve.series} band"/>'
+        yield f'<path d="{_path(place.at(x, y))}" class="s{curve.series} curve"/>'
+
+
+def _path(points: FloatArray) -> str:
+    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points.tolist())
+
+
+def _mark(place: Places, mark: Mark) -> Iterator[str]:
+    points = place.at(*np.array(mark.points).T)
+    for x, y in points.tolist():
+        yield (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_RADIUS:g}" class="s{mark.series} point"/>')
+    x, y = points.mean(axis=0).tolist()
+    bottom, top = place.up
+    below = y < bottom - 0.2 * (bottom - top)
+    side = 0.0 if len(points) > 1 else 1.0 if x < sum(place.across) / 2 else -1.0
+    anchor = "middle" if not side else "start" if side > 0 else "end"
+    height = y + (29.0 if below else -9.0)
+    yield words(x + 10.0 * side, height, mark.words, f"s{mark.series} named {anchor}")
+
+
+def _names(place: Places, curves: Iterable[Curve]) -> Iterator[str]:
+    ends = [(curve, curve.end) for curve in curves]
+    found = [(curve, end) for curve, end in ends if end is not None]
+    wanted = np.array([float(place.above(np.array(end[1]))) for _, end in found])
+    bottom, top = place.up
+    heights = apart(wanted, LETTERS * _LINE, top - LETTERS, bottom + LETTERS)
+    right = place.across[1]
+    for (curve, end), there, height in zip(found, wanted.tolist(), heights.tolist(), strict=True):
+        x = float(place.along(np.array(end[0])))
+        kind = f"s{curve.series}"
+        yield line((x + 2.0, there), (right + _BESIDE - 2.0, height), f"{kind} leader")
+        bold = " says" if curve.series == 0 else ""
+        yield words(right + _BESIDE, height + 4.5, curve.label, f"{kind} named{bold}")
+
+
+def _told(chart: Chart) -> str:
+    """The chart in words."""
+    ends = ", ".join(
+        f"{curve.label} from {chart.y.unit.told(float(np.nanmin(curve.y)))} "
+        f"to {chart.y.unit.told(float(np.nanmax(curve.y)))}"
+        for curve in chart.curves
+    )
+    marks = "".join(f"; {mark.words}" for mark in chart.marks)
+    return f"{chart.title} over {chart.x_title}: {ends}{marks}"

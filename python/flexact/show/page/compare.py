@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two runs of many decks: what changed in each, with pictures side by side."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from urllib.parse import quote
+
+from ...analysis.comparing import Change, Gravity, Side
+from ...analysis.verdict import Verdict
+from .assets import filled
+from .finder_part import finder
+from .index import SCRIPTS
+from .markup import breakable, image, text
+from .verdict_part import BROKEN, KINDS, MARGINAL
+
+STYLES = ("style.css", "index.css", "compare.css")
+_ORDERS = (
+    ("place", "what changed, the gravest first"),
+    ("folder", "folder"),
+    ("name", "name"),
+    ("verdict", "verdict behind, the worst first"),
+)
+_GRAVITY = ("broken", "both", "over", "under", "marginal", "exact")
+#: Statements that are shown.
+_MOST_STATEMENTS = 200
+_WORDS = {Verdict(verdict).value: sign for verdict, sign in KINDS.items()}
+_ARROW = '<span class="to" aria-label="then">\N{RIGHTWARDS ARROW}</span>'
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A deck in two runs.
+
+    Attributes:
+        name: What it is called.
+        before: In the first run, if it is there.
+        after: In the second one, if it is there.
+        change: What changed, where it is in both.
+        pictures: Of both as PNG, if there are any; the second alone where nothing changed.
+        page: Path of a page beside this one with both drawings; empty where there is none.
+    """
+
+    name: str
+    before: Side | None
+    after: Side | None
+    change: Change | None
+    pictures: tuple[bytes | None, bytes | None] = (None, None)
+    page: str = ""
+
+    @property
+    def kind(self) -> str:
+        """Class of the card."""
+        if self.change is None:
+            return "gone" if self.after is None else "new"
+        return "same" if self.change.is_none else "changed"
+
+
+def compare_page(pairs: Sequence[Pair], runs: tuple[str, str]) -> str:
+    """The page of two runs.
+
+    Args:
+        pairs: The decks in their order.
+        runs: What both runs are called.
+    """
+    counts = Counter(pair.kind for pair in pairs)
+    words = {
+        "changed": "changed",
+        "same": "as before",
+        "gone": f"only in {runs[0]}",
+        "new": f"only in {runs[1]}",
+    }
+    kinds = [(kind, f"{counts[kind]} {words[kind]}") for kind in words if counts[kind]]
+    summary = "".join(f'<span class="fact">{text(each)}</span> ' for _, each in kinds)
+    title = f"{runs[0]} \N{RIGHTWARDS ARROW} {runs[1]}"
+    folder = sorted(enumerate(pairs), key=lambda each: -_gravity(each[1]))
+    cards = "".join(_card(number, k, pair, runs) for number, (k, pair) in enumerate(folder))
+    body = (
+        f'<header class="verdict index"><h1><span><b>{breakable(title)}</b></span></h1>'
+        f'<p class="about">{summary}</p>'
+        '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button></header>'
+        f'<main class="plain">{finder(kinds, _ORDERS)}'
+        f'<ul class="cards pairs">{cards}</ul></main>'
+    )
+    return filled(title, body, SCRIPTS, STYLES)
+
+
+def changes_part(change: Change, *, below_verdicts: bool = False) -> str:
+    """What changed as HTML: sentences, what came and went, and statements of the deck.
+
+    Args:
+        change: What changed.
+        below_verdicts: Whether both verdicts stand above, so that they need not be said again.
+    """
+    is_said = below_verdicts and change.gravity is Gravity.VERDICT
+    told = "".join(f"<li>{_sentence(each)}</li>" for each in change.told[is_said:])
+    modes = "".join(
+        f'<li class="{kind}"><span class="mark">{word}</span> {text(each)}</li>'
+        for kind, word, each in (
+            *(("went", "gone", each) for each in change.went),
+            *(("came", "new", each) for each in change.came),
+        )
+    )
+    nothing = '<p class="note">Nothing changed.</p>' if change.is_none else ""
+    if change.gravity is Gravity.STATEMENTS:
+        nothing = '<p class="note">The result is as before.</p>'
+    told = f'<ul class="told-changes">{told}{modes}</ul>' if told or modes else nothing
+    return told + _statements(change)
+
+
+def _sentence(words: str) -> str:
+    return text(words[:1].upper() + words[1:])
+
+
+def _statements(change: Change) -> str:
+    many = len(change.statements)
+    if not many:
+        return ""
+    lines = "".join(
+        f'<span class="{"came" if each.added else "went"}">{"+" if each.added else "-"}'
+        f'<span class="no">{each.line}</span> {text(each.written)}\n</span>'
+        for each in change.statements[:_MOST_STATEMENTS]
+    )
+    more = many - _MOST_STATEMENTS
+    rest = f'<p class="note">and {more} more</p>' if more > 0 else ""
+    words = f"{many} statement{'s' * (many != 1)} of the deck differ{'s' * (many == 1)}"
+    return (
+        f'<details class="statements"><summary>{words}</summary>'
+        f'<pre class="excerpt"><code>{lines}</code></pre>{rest}</details>'
+    )
+
+
+def _gravity(pair: Pair) -> int:
+    """A deck that is in one run only changed more than any in both."""
+    return max(Gravity) + 1 if pair.change is None else int(pair.change.gravity)
+
+
+def _card(number: int, folder: int, pair: Pair, runs: tuple[str, str]) -> str:
+    last = pair.after or pair.before
+    assert last is not None
+    behind = _kind(last)[0]
+    data = {
+        "kind": pair.kind,
+        "place": number,
+        "folder": folder,
+        "name": pair.name.rpartition("/")[2].lower(),
+        "verdict": _GRAVITY.index(behind),
+    }
+    told = "".join(f' data-{name}="{escape(str(value))}"' for name, value in data.items())
+    name = breakable(pair.name)
+    if pair.page:
+        name = f'<a href="{escape(quote(pair.page))}">{name}</a>'
+    if pair.change is None:
+        changes = f'<p class="note">Only in {text(runs[pair.after is not None])}.</p>'
+    else:
+        changes = changes_part(pair.change, below_verdicts=True)
+    return (
+        f'<li class="card pair {pair.kind}"{told}>{_pictures(pair)}<div class="said">'
+        f'<p class="name">{name}</p>{_verdicts(pair)}{changes}</div></li>\n'
+    )
+
+
+def _pictures(pair: Pair) -> str:
+    made = "".join(
+        f"<figure>{image(picture, '', late=True)}<figcaption>{words}</figcaption></figure>"
+        for picture, words in zip(pair.pictures, _captions(pair), strict=True)
+        if picture is not None
+    )
+    return f'<div class="two">{made}</div>' if made else ""
+
+
+def _captions(pair: Pair) -> tuple[str, str]:
+    return ("before", "after") if pair.kind == "changed" else ("", "")
+
+
+def _verdicts(pair: Pair) -> str:
+    if pair.kind in ("same", "gone", "new") or pair.before is None:
+        side = pair.after or pair.before
+        return f'<p class="verdicts">{_verdict(side)}</p>' if side is not None else ""
+    if pair.after is not None and pair.before.words == pair.after.words:
+        return f'<p class="verdicts">{_verdict(pair.after)}</p>'
+    return f'<p class="verdicts">{_verdict(pair.before)} {_ARROW} {_verdict(pair.after)}</p>'
+
+
+def _verdict(side: Side | None) -> str:
+    if side is None:
+        return ""
+    kind, sign = _kind(side)
+    doubt = "?" * (side.certainty == "doubtful")
+    words = side.words[:1].upper() + side.words[1:]
+    return (
+        f'<span class="one {kind}"><span class="sign" aria-hidden="true">{sign}{doubt}</span>'
+        f"{text(words)}</span>"
+    )
+
+
+def _kind(side: Side) -> tuple[str, str]:
+    """Class and sign of a side."""
+    if side.is_broken:
+        return BROKEN
+    return _WORDS.get(side.verdict, MARGINAL)

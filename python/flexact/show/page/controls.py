@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The controls below and beside a drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Sequence
+from typing import Any
+
+from ...analysis.freedoms import Freedom
+from ...analysis.naming import freedom_in_words
+from ...analysis.sentences import Line
+from ..drawing import QUANTITIES
+from .markup import flowing, text
+
+_VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right"))
+_LAYERS = (
+    ("ghost", "reference as a ghost", True),
+    ("arrows", "arrows of displacements", True),
+    ("symbols", "supports and freedoms", True),
+    ("diagram", "bending diagram", False),
+    ("axes", "local axes, p and q", False),
+    ("elements", "names of elements", False),
+    ("nodes", "names of nodes", False),
+)
+_MOVEMENTS = (
+    *(("motion", "Motions"), ("freedom", "Declared degrees of freedom")),
+    *(("vibrating", "Vibrates"), ("buckled", "Buckles")),
+)
+_MORE_KEYS = (
+    "+ and \N{MINUS SIGN} zoom, 0 starts again, the space bar plays and pauses. "
+    "A click keeps its mark, a double click or C brings it into the middle, Escape lets go."
+)
+KEYS = f"Drag or arrow keys turn the drawing, with Shift they move it; the wheel or {_MORE_KEYS}"
+PLANAR_KEYS = f"Drag or arrow keys move the drawing; the wheel or {_MORE_KEYS}"
+_TOUCH = "Drag to turn, two fingers move, pinch to zoom. Tap for what is there, twice to centre it."
+_PLANAR_TOUCH = "Drag to move, pinch to zoom. Tap for what is there, twice to centre it."
+
+
+def toolbar(*drawings: dict[str, Any]) -> str:
+    """What plays some drawings together, and from where they are seen."""
+    planar = all(each["planar"] for each in drawings)
+    moves = any(each["movements"] for each in drawings)
+    views = "".join(
+        f'<button type="button" data-view="{view}">{name}</button>'
+        for view, name in (() if planar else _VIEWS)
+    )
+    return (
+        '<div class="toolbar"><div class="group" role="group" aria-label="Movement"'
+        f"{'' if moves else ' hidden'}>"
+        '<button type="button" class="play">Play</button>'
+        '<label>size <input type="range" class="amplitude" min="0" max="100" value="100"></label>'
+        '<label>speed <input type="range" class="speed" min="0.1" max="1.5" step="0.1" value="0.5">'
+        '</label></div><div class="group" role="group" aria-label="View">'
+        f'{views}<button type="button" class="fit">Fit</button>'
+        '<button type="button" class="centre" disabled>Centre</button></div></div>'
+    )
+
+
+def keys(data: dict[str, Any]) -> str:
+    """How a drawing is turned and moved by hand."""
+    mouse, fingers = (PLANAR_KEYS, _PLANAR_TOUCH) if data["planar"] else (KEYS, _TOUCH)
+    return f'<p class="keys">{text(mouse)}</p><p class="keys touch">{text(fingers)}</p>'
+
+
+def choices_part(
+    data: dict[str, Any], stuck: Sequence[Freedom], below: str = "", mark: str = ""
+) -> str:
+    """What is shown of one result: a movement, a self-stress and its quantity.
+
+    Args:
+        data: The drawing's data.
+        stuck: The declared degrees of freedom in which the mechanism cannot move.
+        below: HTML of further choices.
+        mark: What tells its names from those of other drawings of the page.
+    """
+    stresses = [_choice(k, stress) for k, stress in enumerate(data["stresses"])]
+    found = {each for stress in data["stresses"] for each in stress["largest"]}
+    quantities = [
+        (each, data["names"][each], data["meaning"][each]) for each in QUANTITIES if each in found
+    ]
+    return (
+        f'<section class="choices" aria-label="{text(f"What is shown {mark}".strip())}" hidden>'
+        + _movements(data["movements"], mark)
+        + _immovable(stuck)
+        + (_radios(mark, "stress", "Self-stress", stresses, "None") if stresses else "")
+        + (_radios(mark, "quantity", "Coloured by", quantities) if quantities else "")
+        + _spaces(data["spaces"], mark)
+        + below
+        + "</section>"
+    )
+
+
+def _movements(movements: Sequence[dict[str, Any]], mark: str) -> str:
+    """Motions, declared degrees of freedom and elastic shapes: one choice, under headings."""
+    none, made = "None", ""
+    for kind, legend in _MOVEMENTS:
+        chosen = [
+            _choice(index, movement)
+            for index, movement in enumerate(movements)
+            if movement["kind"] == kind
+        ]
+        if chosen:
+            made += _radios(mark, "movement", legend, chosen, none)
+            none = ""
+    return made
+
+
+def _spaces(spaces: Sequence[dict[str, Any]], mark: str) -> str:
+    """Freedom space, constraint space, or none."""
+    chosen = [_choice(k, space) for k, space in enumerate(spaces)]
+    return _radios(mark, "space", "Freedom and constraint", chosen, "None") if chosen else ""
+
+
+def _choice(index: int, mode: dict[str, Any]) -> tuple[str, str, str]:
+    """Value, words, and what tells more."""
+    label = mode.get("label", mode["title"])
+    return str(index), label, mode["title"] if mode["title"] != label else ""
+
+
+def _immovable(stuck: Sequence[Freedom]) -> str:
+    if not stuck:
+        return ""
+    items = tuple(map(freedom_in_words, stuck))
+    line = Line(("Declared, but a self-stress stops it: ",), items)
+    return f'<p class="note stuck">{flowing(line)}.</p>'
+
+
+def _radios(
+    mark: str, name: str, legend: str, choices: Iterable[tuple[str, str, str]], none: str = ""
+) -> str:
+    every = ([("", none, "")] if none else []) + list(choices)
+    about = f'name="{mark}{name}" data-choice="{name}"'
+    made = "".join(_chip(about, *choice, checked=not choice[0]) for choice in every)
+    return f"<fieldset><legend>{legend}</legend>{made}</fieldset>"
+
+
+def _chip(about: str, value: str, words: str, more: str, checked: bool) -> str:
+    told = f' title="{text(more)}"' if more else ""
+    state = " checked" if checked else ""
+    return (
+        f'<label class="chip"><input type="radio" {about} value="{value}"{told}{state}>'
+        f"<span>{text(words)}</span></label>"
+    )
+
+
+def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
+    """What else is drawn, of what some drawings have; some are not drawn at first."""
+    moves, stressed = (any(each[name] for each in drawings) for name in ("movements", "stresses"))
+    lacking = {"ghost": not moves, "arrows": not moves, "diagram": not stressed}
+    made = "".join(
+        f'<label class="check"><input type="checkbox" data-layer="{layer}"'
+        f"{' checked' if on and layer not in off else ''}>{words}</label>"
+        for layer, words, on in _LAYERS
+        if not lacking.get(layer)
+    )
+    return f"<fieldset><legend>Also drawn</legend>{made}</fieldset>"

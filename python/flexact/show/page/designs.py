@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Designs compared on one page: a table, charts, and what vibrates and buckles side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from ..drawing import drawing_of
+from .assets import PLAIN_SCRIPTS, SCRIPTS, filled
+from .charts import series_css
+from .controls import choices_part, keys, layers, toolbar
+from .drawing import frames_of
+from .drawing_part import drawing_part
+from .markup import row, section, table, text
+from .shapes_data import Shaped, shapes_data
+from .verdict_part import SWITCH
+
+#: Of the page's styles, those of charts come behind those of all pages.
+STYLES = ("style.css", "charts.css")
+#: A divided sheet has so many nodes that arrows of them all hide it.
+_OFF = ("arrows",)
+
+
+class Told(NamedTuple):
+    """A design in the table: its number, by which it is coloured, its name, and cells."""
+
+    series: int
+    label: str
+    words: str
+    cells: tuple[str, ...]
+
+
+class Side(NamedTuple):
+    """A design that is drawn.
+
+    Attributes:
+        series: Its number, by which it is coloured.
+        title: Such as "As built".
+        words: What is to be known of it, a sentence.
+        shaped: Its shapes.
+        still: A picture as PNG, for browsers without scripts or WebGL.
+    """
+
+    series: int
+    title: str
+    words: str
+    shaped: Shaped
+    still: bytes | None
+
+
+class Compared(NamedTuple):
+    """What the page says.
+
+    Attributes:
+        name: Of the mechanism.
+        headline: The sentence that counts.
+        about: How it was found, in parts.
+        heads: Of the columns of the table.
+        designs: Its rows.
+        charts: Charts as SVG, in groups that begin on a new line.
+        sides: One or two designs that are drawn.
+        notes: Sentences below.
+    """
+
+    name: str
+    headline: str
+    about: Sequence[str]
+    heads: Sequence[str]
+    designs: Sequence[Told]
+    charts: Sequence[Sequence[str]]
+    sides: Sequence[Side]
+    notes: Sequence[str]
+
+
+def designs_page(compared: Compared) -> str:
+    """The page as text."""
+    title = f"{compared.name or 'model'}: what over-constraint costs"
+    body = (
+        _head(compared),
+        f'<main class="{"pair" if compared.sides else "plain"} designs">',
+        section("designs", "The designs", _table(compared)),
+        section("charts", "What each bears and keeps", _charts(compared.charts)),
+        _drawn(compared.sides),
+        section("notes", "To be known", *(f"<p>{text(each)}</p>" for each in compared.notes)),
+        "</main>",
+    )
+    scripts = SCRIPTS if compared.sides else PLAIN_SCRIPTS
+    return filled(title, "\n".join(body), scripts, STYLES, series_css())
+
+
+def _head(compared: Compared) -> str:
+    about = " ".join(
+        f'<span class="{"name" if k == 0 and compared.name else "fact"}">{text(each)}</span>'
+        for k, each in enumerate(compared.about)
+    )
+    return (
+        '<header class="verdict top"><h1 class="headline">'
+        f"<span>{text(compared.headline)}</span></h1>"
+        f'<p class="about">{about}</p>{SWITCH}</header>'
+    )
+
+
+def _table(compared: Compared) -> str:
+    rows = (
+        row(
+            f'<span class="s{each.series} swatch" aria-hidden="true"></span>'
+            f'<span class="s{each.series} named says">{text(each.label)}</span> '
+            + (text(each.words) if each.words != each.label else ""),
+            *(
+                f'<span class="head" aria-hidden="true">{text(head)}</span>{text(cell)}'
+                for head, cell in zip(compared.heads, each.cells, strict=True)
+            ),
+        )
+        for each in compared.designs
+    )
+    return table(("design", *compared.heads), rows, kind="designs")
+
+
+def _charts(groups: Sequence[Sequence[str]]) -> str:
+    return "".join(f'<div class="charts">{"".join(each)}</div>' for each in groups if each)
+
+
+def _drawn(sides: Sequence[Side]) -> str:
+    if not sides:
+        return ""
+    frames = frames_of(*(drawing_of(each.shaped.data) for each in sides))
+    every = [shapes_data(each.shaped, frame) for each, frame in zip(sides, frames, strict=True)]
+    marks = [f"design-{k}-" for k in range(len(sides))]
+    halves = (_side(*each) for each in zip(sides, every, marks, strict=True))
+    return (
+        '<section class="shared" aria-label="The drawings" hidden>'
+        f"{toolbar(*every)}</section>{''.join(halves)}"
+        '<section class="shared" aria-label="In the drawings" hidden>'
+        f"{layers(*every, off=_OFF)}{keys(every[0])}</section>"
+    )
+
+
+def _side(side: Side, data: dict[str, Any], mark: str) -> str:
+    return (
+        f'<div class="viewer half"><header class="verdict s{side.series} design">'
+        f'<h2 class="headline"><span class="says">{text(side.title)}</span></h2>'
+        f'<p class="about">{text(side.words)}</p></header>'
+        f"{drawing_part(data, side.still, f'{side.title}. {side.words}', mark=mark)}"
+        f"{choices_part(data, (), mark=mark)}</div>"
+    )

@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The drawing as data of a page: what its viewer draws.
+
+Lengths are parts of the drawing's size and places are measured from its centre, so that single
+precision is enough wherever the mechanism stands.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+from ...core.elements import Class, NodeKind, coordinate_name
+from ...model.parts.parts import Parts
+from ...util.plain_text import harmless
+from ..drawing import (
+    BENDING,
+    QUANTITIES,
+    UNITS,
+    Drawing,
+    Form,
+    Support,
+    colours,
+    joints_of,
+    meanings_in,
+    names_in,
+    sides_in,
+)
+from ..drawing.diagrams import GAP, HEIGHT, SHOWN
+from ..drawing.places import turned_at
+from ..drawing.rotations import euler_of
+from ..drawing.view import ISO, view_of
+from .limits import MOST_MEMBERS
+from .packing import flags, floats, integers
+
+#: An edge where no colour is given: so much of the member's own.
+_EDGE = 0.45
+
+
+@dataclass(frozen=True)
+class Frame:
+    """From places in the model to places in the page.
+
+    Attributes:
+        drawing: The drawing.
+        centre: (3,) the middle of the page's drawings [m].
+        size: What is one in the page [m].
+        planar: Whether all lies in the xy plane.
+        towards: (3,) direction from which the page looks at first.
+        kept: (nodes in the page,) indices of the model's nodes.
+        new: (nodes + 1,) their indices in the page; -1 of those left out, and behind the last.
+    """
+
+    drawing: Drawing
+    centre: FloatArray
+    size: float
+    planar: bool
+    towards: FloatArray
+    kept: np.ndarray
+    new: np.ndarray
+
+    def places(self, position: FloatArray) -> FloatArray:
+        """Positions (..., 3) [m] as places in the page."""
+        return np.asarray((position - self.centre) / self.size)
+
+    def nodes(self, index: np.ndarray) -> np.ndarray:
+        """Node indices in the page; -1 stays."""
+        return np.asarray(self.new[index])
+
+
+def frames_of(*drawings: Drawing) -> tuple[Frame, ...]:
+    """Of drawings that are seen side by side: one scale, one middle, one view, the first's."""
+    low = np.min([each.low for each in drawings], axis=0)
+    high = np.max([each.high for each in drawings], axis=0)
+    size = float(np.linalg.norm(high - low)) or 1.0
+    planar = all(each.planar for each in drawings)
+    towards = view_of(ISO, drawings[0]).axes[2]
+    common = (low / 2 + high / 2, size, planar, towards)
+    return tuple(Frame(each, *common, *_kept(each)) for each in drawings)
+
+
+def _kept(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
+    """All nodes, or, where members are left out, those of the ones that are drawn."""
+    count = drawing.data.arrays.node_kind.size
+    used = np.zeros(count + 1, bool)
+    used[:count] = len(drawing.members) <= MOST_MEMBERS
+    used[drawing.members.nodes[:MOST_MEMBERS]] = True
+    used[-1] = False
+    new = np.where(used, np.cumsum(used) - 1, -1)
+    return np.flatnonzero(used), new
+
+
+def static_data(parts: Parts, frame: Frame) -> dict[str, Any]:
+    """All that does not depend on motions and self-stresses."""
+    drawing = frame.drawing
+    return {
+        "planar": frame.planar,
+        "size": frame.size,
+        "iso": frame.towards.tolist(),
+        "stops": np.asarray(colours.STOPS).tolist(),
+        "colours": {
+            "support": colours.SUPPORT,
+            "arrow": colours.ARROW,
+            "freedom": colours.FREEDOM,
+            "mark": colours.MARK,
+            "freedom space": colours.FREEDOM_SPACE,
+            "constraint space": colours.CONSTRAINT_SPACE,
+            "new wire": colours.NEW_WIRE,
+        },
+        "quantities": list(QUANTITIES),
+        "bending": BENDING,
+        "diagram": {"height": HEIGHT, "gap": GAP, "shown": SHOWN},
+        "units": UNITS,
+        "names": names_in(drawing),
+        "meaning": meanings_in(drawing),
+        "sides": sides_in(drawing),
+        "forms": {int(form): form.name.lower() for form in Form},
+        "nodes": _nodes(parts, frame),
+        "members": _members(parts, frame),
+        "bodies": _bodies(parts, frame),
+        "hinges": _hinges(frame),
+        "supports": _supports(parts, frame),
+        "joints": _joints(frame),
+        "arrows": _arrows(frame),
+    }
+
+
+def _nodes(parts: Parts, frame: Frame) -> dict[str, Any]:
+    arrays, kept = frame.drawing.data.arrays, frame.kept
+    placed = arrays.node_kind <= NodeKind.POSITION
+    place = np.where(placed, np.arange(placed.size), -1)
+    pairs = turned_at(arrays)
+    place[pairs[:, 1]] = pairs[:, 0]
+    return {
+        "number": integers(arrays.node_number[kept]),
+        "placed": integers(np.flatnonzero(placed[kept])),
+        "place": integers(frame.nodes(place[kept])),
+        "held": _held(frame, pairs),
+        "names": {
+            row: name
+            for row, node in enumerate(kept.tolist())
+            if placed[node] and (name := parts.name_of_point(node))
+        },
+    }
+
+
+def _held(frame: Frame, pairs: np.ndarray) -> dict[int, str]:
+    """What is fixed at position nodes, by their index in the page."""
+    arrays = frame.drawing.data.arrays
+    fixed = (arrays.coordinate_class == Class.FIXED).T
+    placed = np.flatnonzero(arrays.node_kind <= NodeKind.POSITION)
+    names: dict[int, list[str]] = defaultdict(list)
+    for place, node in np.concatenate((np.stack((placed, placed), axis=1), pairs)).tolist():
+        kind, axes = int(arrays.node_kind[node]), np.flatnonzero(fixed[node]).tolist()
+        names[int(frame.new[place])] += [coordinate_name(kind, axis) for axis in axes]
+    return {
+        place: ", ".join(dict.fromkeys(told))
+        for place, told in names.items()
+        if told and place >= 0
+    }
+
+
+def _members(parts: Parts, frame: Frame) -> dict[str, Any]:
+    every = frame.drawing.members
+    some = slice(MOST_MEMBERS)
+    own = np.clip(every.colour[some], 0.0, 1.0)
+    edge = np.where(np.isnan(every.edge_colour[some]), _EDGE * own, every.edge_colour[some])
+    owner = [parts.of_element(index) for index in every.index[some].tolist()]
+    rows: dict[int, int] = {}
+    which = [rows.setdefault(part.number, len(rows)) for part in owner]
+    called = {part.number: harmless(part.name) for part in owner}
+    return {
+        "number": integers(every.number[some]),
+        "part": integers(which),
+        "parts": [called[number] for number in rows],
+        "names": [harmless(name) for name in every.names[some]],
+        "keyword": list(every.keyword[some]),
+        "form": flags(every.form[some]),
+        "section": floats(every.section[some] / frame.size),
+        "round": flags(every.round[some]),
+        "bends": flags(every.bends[some]),
+        "across": floats(every.across[some]),
+        "joined": flags(every.joined[some]),
+        "shown": flags(~frame.drawing.in_solid[some]),
+        "colour": flags(_bytes(own)),
+        "edge": flags(_bytes(edge)),
+        "opacity": floats(every.opacity[some]),
+    }
+
+
+def _bodies(parts: Parts, frame: Frame) -> dict[str, Any]:
+    """Bodies that are solids: corners in the frame of the member with which each moves."""
+    drawing, members = frame.drawing, frame.drawing.members
+    solids = drawing.solids
+    corners, triangles, owner, edges = [np.zeros((0, 3))], [], [], []
+    behind = 0
+    for number, solid in enumerate(solids):
+        row = solid.rows[0]
+        arm = solid.corners - drawing.reference.position[members.nodes[row, 0]]
+        corners.append(arm @ members.frame[row] / frame.size)
+        triangles.append(behind + solid.triangles)
+        owner.append(np.full(len(solid.triangles), number))
+        edges.append(behind + solid.edges)
+        behind += len(arm)
+    own = np.array([solid.colour for solid in solids]).reshape(-1, 3).clip(0.0, 1.0)
+    edge = np.array([solid.edge_colour for solid in solids]).reshape(-1, 3)
+    elements = [int(members.index[solid.rows[0]]) for solid in solids]
+    return {
+        "names": [parts.of_element(i).name for i in elements],
+        "rows": [solid.rows.tolist() for solid in solids],
+        "corner": floats(np.concatenate(corners)),
+        "count": integers([len(solid.corners) for solid in solids]),
+        "triangles": integers(np.concatenate([np.zeros((0, 3)), *triangles])),
+        "owner": integers(np.concatenate([np.zeros(0), *owner])),
+        "edges": integers(np.concatenate([np.zeros((0, 2)), *edges])),
+        "colour": flags(_bytes(own)),
+        "edge": flags(_bytes(np.where(np.isnan(edge), _EDGE * own, edge))),
+        "opacity": floats([solid.opacity for solid in solids]),
+    }
+
+
+def _hinges(frame: Frame) -> dict[str, Any]:
+    hinges = frame.drawing.hinges
+    rows = hinges_in(frame)
+    return {
+        "number": integers(hinges.number[rows]),
+        "names": [harmless(hinges.names[row]) for row in rows.tolist()],
+        "keyword": [hinges.keyword[row] for row in rows.tolist()],
+        "node": integers(frame.nodes(hinges.nodes[rows, 0])),
+        "size": floats(hinges.size[rows] / frame.size),
+        "colour": flags(_bytes(hinges.colour[rows])),
+    }
+
+
+def hinges_in(frame: Frame) -> np.ndarray:
+    """Rows of the drawing's hinges that are in the page."""
+    nodes = frame.nodes(frame.drawing.hinges.nodes)
+    return np.flatnonzero((nodes[:, 1:] >= 0).all(axis=1))
+
+
+def _supports(parts: Parts, frame: Frame) -> dict[str, Any]:
+    """Symbols in frames whose ex points from the ground to what is held, and their sizes."""
+    supports = frame.drawing.supports
+    node = frame.nodes(supports.node)
+    rows = np.flatnonzero(node >= 0)
+    sizes = np.repeat(supports.size[rows, None], 3, axis=1)
+    kind = supports.kind[rows]
+    block = kind == Support.CLAMP
+    held = rows[block]
+    sizes[block] = np.column_stack((supports.depth[held], 2 * supports.extent[held]))
+    return {
+        "node": integers(node[rows]),
+        "kind": flags(kind),
+        "offset": floats(supports.offset[rows] / frame.size),
+        "names": [_held_by(parts, supports.held[row]) for row in rows.tolist()],
+        "frame": floats(euler_of(supports.frame[rows])),
+        "size": floats(sizes / frame.size),
+    }
+
+
+def _held_by(parts: Parts, nodes: tuple[int, ...]) -> list[str]:
+    """The names of points and parts that a support holds, each once."""
+    points = [parts.name_of_point(node) for node in nodes]
+    there = [part.name for node in nodes for part in parts.at(node)]
+    return list(dict.fromkeys(harmless(name) for name in (*points, *there) if name))
+
+
+def _joints(frame: Frame) -> dict[str, Any]:
+    node, radius = joints_of(frame.drawing)
+    rows = frame.nodes(node) >= 0
+    return {
+        "node": integers(frame.nodes(node[rows])),
+        "radius": floats(radius[rows] / frame.size),
+    }
+
+
+def _arrows(frame: Frame) -> dict[str, Any]:
+    arrows = frame.drawing.arrows
+    node = frame.nodes(arrows.node)
+    rows = node >= 0
+    return {
+        "node": integers(node[rows]),
+        "direction": floats(arrows.direction[rows]),
+        "turning": flags(arrows.turning[rows]),
+    }
+
+
+def _bytes(colour: FloatArray) -> np.ndarray:
+    return np.rint(255.0 * np.clip(colour, 0.0, 1.0)).astype(np.uint8)

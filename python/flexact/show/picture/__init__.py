@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of results; uses what `drawing` and `text` may, and `drawing` and `text`.
+
+matplotlib and pillow are imported only when one is drawn.
+"""
+
+from ..drawing.view import ViewError, check_view
+from .animation import VideoError
+from .files import STILLS
+from .make import (
+    SUFFIXES,
+    PictureError,
+    check_packages,
+    check_suffix,
+    draw,
+    has_packages,
+    picture_bytes,
+)
+from .model import model_bytes
+from .picture_animation import SUFFIXES as MOVING
+from .shape import shape_bytes
+from .subject import SubjectError
+
+__all__ = [
+    "MOVING",
+    "STILLS",
+    "SUFFIXES",
+    "PictureError",
+    "SubjectError",
+    "VideoError",
+    "ViewError",
+    "check_packages",
+    "check_suffix",
+    "check_view",
+    "draw",
+    "has_packages",
+    "model_bytes",
+    "picture_bytes",
+    "shape_bytes",
+]

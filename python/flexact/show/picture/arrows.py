@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrows: what a motion moves or turns, and declared degrees of freedom; always in front."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+from ..drawing import Drawing, Pose, reach_of
+from ..drawing.colours import ARROW, FREEDOM
+from ..drawing.rotations import frames_along, matrix_of, unit, vector_of
+from .canvas import OVER, Canvas
+
+#: Displacements below this part of the largest get no arrow, and no more than so many get one.
+_LEAST, _MOST = 0.3, 28
+#: Arrows whose nodes are nearer than this part of the drawing's size are one.
+_APART = 0.06
+#: A motion that displaces nothing by more than this part of the drawing's size has turning arrows,
+#: no more than so many, no nearer to each other than this part.
+_STILL, _MOST_TURNING, _TURNING_APART = 0.02, 4, 0.15
+#: Less than this part of a whole turning arrow is not drawn.
+_LEAST_TURNING = 0.15
+#: The least width of a circle that is seen, a part of its height.
+_OPEN = 0.4
+#: Lengths of arrows of freedoms, and radius of turning ones: parts of the drawing's size.
+_LENGTH, _RADIUS = 0.13, 0.055
+#: Length and width of a head: parts of the drawing's size, and at most of the arrow's length.
+_HEAD, _HEAD_PART = (0.03, 0.02), 0.5
+_WIDTH = 1.9
+_CASE = (1.0, 1.0, 1.0)
+#: Freedoms beyond so many are not drawn.
+_MOST_FREEDOMS = 60
+
+
+def add_displacements(canvas: Canvas, drawing: Drawing, pose: Pose) -> None:
+    """Arrows from where nodes were to where they are, of the largest displacements."""
+    start, end = _largest(drawing, pose)
+    add_straight(canvas, start, end, ARROW, drawing.size)
+
+
+def add_rotations(canvas: Canvas, drawing: Drawing, pose: Pose, end: Pose) -> None:
+    """Turning arrows at the largest rotations of a motion that displaces hardly anything.
+
+    Args:
+        canvas: Where to.
+        drawing: The drawing.
+        pose: Where the nodes are.
+        end: Where they are at the end of the motion; arrows are whole there.
+    """
+    if reach_of(drawing, [end])[0] >= _STILL * drawing.size:
+        return
+    node, turn = _turned_places(drawing)
+    farthest = np.linalg.norm(vector_of(end.rotation[turn]), axis=1)
+    order = _by_size(farthest, 1.0)
+    place = drawing.reference.position[node]
+    rotation = vector_of(pose.rotation[turn])
+    for row in _apart(place, order, _TURNING_APART * drawing.size, _MOST_TURNING):
+        share = float(np.linalg.norm(rotation[row]) / farthest[row])
+        if share > _LEAST_TURNING:
+            axis = unit(rotation[row])
+            _add_turning(canvas, place[row], axis, drawing.size, ARROW, share)
+
+
+def _turned_places(drawing: Drawing) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) position nodes and (n,) orientation nodes there, of members and of hinges."""
+    members, hinges = drawing.members.nodes, drawing.hinges.nodes
+    pairs = (members[:, :2], members[:, 2:], hinges[:, [0, 1]], hinges[:, [0, 2]])
+    every = np.unique(np.concatenate(pairs), axis=0)
+    known = every[np.all(every >= 0, axis=1)]
+    return known[:, 0], known[:, 1]
+
+
+def add_freedoms(canvas: Canvas, drawing: Drawing) -> None:
+    """Arrows of the declared degrees of freedom, straight or turning."""
+    arrows = drawing.arrows
+    if len(arrows) > _MOST_FREEDOMS:
+        return
+    place = drawing.reference.position[arrows.node]
+    straight = ~arrows.turning
+    start = place[straight]
+    end = start + _LENGTH * drawing.size * arrows.direction[straight]
+    add_straight(canvas, start, end, FREEDOM, drawing.size)
+    for row in np.flatnonzero(arrows.turning).tolist():
+        _add_turning(canvas, place[row], arrows.direction[row], drawing.size, FREEDOM)
+
+
+def _largest(drawing: Drawing, pose: Pose) -> tuple[FloatArray, FloatArray]:
+    """Starts and ends (n, 3) of the arrows of the largest displacements, not too close."""
+    shown = np.unique(drawing.members.nodes[:, [0, 2]])
+    start, end = drawing.reference.position[shown], pose.position[shown]
+    length = np.linalg.norm(end - start, axis=1)
+    chosen = _apart(start, _by_size(length, drawing.size), _APART * drawing.size, _MOST)
+    return start[chosen], end[chosen]
+
+
+def _by_size(sizes: FloatArray, unit_size: float) -> np.ndarray:
+    """Rows of the largest sizes (n,), these first; what rounding tells apart is equal."""
+    order = np.argsort(-np.round(sizes / unit_size, 9), kind="stable")
+    return np.asarray(order[sizes[order] > _LEAST * sizes.max(initial=0.0)])
+
+
+def _apart(place: FloatArray, order: np.ndarray, apart: float, most: int) -> list[int]:
+    """The first rows in an order whose places (n, 3) are not too near to each other."""
+    chosen: list[int] = []
+    for row in order.tolist():
+        gap = np.linalg.norm(place[chosen] - place[row], axis=1)
+        if gap.min(initial=np.inf) > apart:
+            chosen.append(row)
+        if len(chosen) == most:
+            break
+    return chosen
+
+
+def add_straight(
+    canvas: Canvas,
+    start: FloatArray,
+    end: FloatArray,
+    colour: tuple[float, float, float],
+    size: float,
+) -> None:
+    """Straight arrows, their heads in the plane of the picture."""
+    way = end - start
+    towards = canvas.view.axes[2]
+    flat = way - (way @ towards)[:, None] * towards
+    length = np.linalg.norm(flat, axis=1)
+    able = length > 1.0e-3 * size
+    start, end, flat, length = start[able], end[able], flat[able], length[able]
+    head = np.minimum(_HEAD[0] * size, _HEAD_PART * length)
+    along = unit(flat)
+    # The shaft ends where the head begins; in the picture, whatever its depth.
+    neck = end - (0.85 * head)[:, None] * along
+    shaft = np.stack((start, neck), axis=1)
+    _add(canvas, shaft, end, along, head, colour, size)
+
+
+def _add_turning(
+    canvas: Canvas,
+    place: FloatArray,
+    axis: FloatArray,
+    size: float,
+    colour: tuple[float, float, float],
+    share: float = 1.0,
+) -> None:
+    """A share of three quarters of a circle about an axis, with a head.
+
+    It is turned to the eye so far that it is seen as an arc and not as a stroke.
+    """
+    axis = _opened(axis, canvas.view.axes[2])
+    frame = frames_along(axis[None])[0]
+    radius = _RADIUS * size
+    angle = np.linspace(0.0, 1.5 * np.pi * min(share, 1.0), 28)
+    circle = place + radius * (matrix_of(angle[:, None] * axis) @ frame[:, 1])
+    head = 0.8 * _HEAD[0] * size
+    along = circle[-1] - circle[-2]
+    towards = canvas.view.axes[2]
+    flat = unit(along - (along @ towards) * towards)
+    tip = circle[-1] + 0.7 * head * flat
+    _add(canvas, circle[None], tip[None], flat[None], np.array([head]), colour, size)
+
+
+def _opened(axis: FloatArray, towards: FloatArray) -> FloatArray:
+    """(3,) the unit vector nearest to an axis about which a circle is seen wide enough."""
+    facing = float(axis @ towards)
+    if abs(facing) >= _OPEN:
+        return axis
+    flat = unit(axis - facing * towards)
+    sense = -1.0 if facing < 0.0 else 1.0
+    return np.asarray(np.sqrt(1.0 - _OPEN**2) * flat + sense * _OPEN * towards)
+
+
+def _add(
+    canvas: Canvas,
+    shafts: FloatArray,
+    tip: FloatArray,
+    along: FloatArray,
+    head: FloatArray,
+    colour: tuple[float, float, float],
+    size: float,
+) -> None:
+    """Shafts (n, c, 3), and heads of lengths (n,) that end at tips (n, 3) along directions."""
+    wing = np.cross(canvas.view.axes[2], along) * (head * _HEAD[1] / _HEAD[0] / 2)[:, None]
+    back = tip - head[:, None] * along
+    heads = np.stack((tip, back + wing, back - wing), axis=1)
+    given, case = np.array(colour), np.array(_CASE)
+    canvas.lines(shafts, case, _WIDTH + 1.6, layer=OVER)
+    canvas.polygons(heads, case, edge=case, width=1.6, layer=OVER)
+    above = 10 * size  # over the cases of all
+    canvas.lines(shafts, given, _WIDTH, layer=OVER, nearer=above)
+    canvas.polygons(heads, given, edge=given, width=0.4, layer=OVER, nearer=above)

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Charts put down with matplotlib: curves with their names at their ends, marks, and bands."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...util.plain_text import harmless
+from ..charts import Chart, Mark, apart
+from ..scale import Scale
+from ..series import style_of
+
+INK, SOFT, GRID = "#18212d", "#566273", "#dfe4ea"
+#: Sizes of letters [pt].
+TITLE, WORDS, SMALL = 11.5, 10.0, 9.0
+#: Height of a line of letters, times their size, and room between a curve's end and its name [pt].
+LINE, _BESIDE = 1.25, 7.0
+#: Width of a letter, times its size.
+LETTER = 0.62
+_HALO = 2.5
+#: How far below or above its place a mark is told [pt].
+_UNDER, _OVER = 20.0, 5.0
+
+
+def written(words: str) -> str:
+    """Words as matplotlib writes them as they are."""
+    return harmless(words).replace("$", r"\$")
+
+
+def draw_chart(axes: Any, chart: Chart) -> None:
+    """A chart on empty axes; names of curves stand to the right of them."""
+    draw_axis(axes, "x", chart.x)
+    draw_axis(axes, "y", chart.y)
+    axes.set_title(
+        written(f"{chart.title}{chart.y.heading}"),
+        loc="left",
+        fontsize=TITLE,
+        color=INK,
+        pad=7,
+    )
+    axes.set_xlabel(
+        written(f"{chart.x_title}{chart.x.heading}"), fontsize=WORDS, color=SOFT, labelpad=2
+    )
+    for curve in chart.curves:
+        look = style_of(curve.series)
+        for run in curve.runs:
+            x, y, spread = curve.x[run], curve.y[run], curve.spread[run]
+            axes.plot(
+                x,
+                y,
+                color=look.colour,
+                lw=look.width,
+                ls=(0, look.dashes) if look.dashes else "-",
+                zorder=3 + curve.series / 10,
+                solid_capstyle="butt",
+            )
+            if np.any(spread > 0.0):
+                axes.fill_between(
+                    x, y - spread, y + spread, color=look.colour, alpha=0.18, lw=0, zorder=2
+                )
+    for mark in chart.marks:
+        _draw_mark(axes, chart, mark)
+    _name_curves(axes, chart)
+
+
+def draw_axis(axes: Any, which: str, scale: Scale) -> None:
+    """Ticks, their words and a quiet grid along x or y."""
+    getattr(axes, f"set_{which}scale")("log" if scale.is_log else "linear")
+    getattr(axes, f"set_{which}lim")(scale.low, scale.high)
+    axis = getattr(axes, f"{which}axis")
+    labels = scale.labels
+    if which == "x":
+        wide = axes.get_window_extent().width * 72.0 / axes.get_figure().dpi
+        labels = scale.labels_for(wide / (LETTER * WORDS))
+    axis.set_ticks(scale.ticks, [written(label) for label in labels])
+    axis.set_ticks([], minor=True)
+    axes.tick_params(axis=which, labelsize=WORDS, colors=SOFT, length=0, pad=3)
+    axes.grid(True, axis=which, which="major", color=GRID, lw=0.8)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_color("#9aa5b3")
+
+
+def halo() -> list[Any]:
+    """What keeps letters apart from lines behind them."""
+    from matplotlib.patheffects import withStroke
+
+    return [withStroke(linewidth=_HALO, foreground="white")]
+
+
+def _draw_mark(axes: Any, chart: Chart, mark: Mark) -> None:
+    colour = style_of(mark.series).colour
+    for point in mark.points:
+        axes.plot(*point, "o", ms=6, mfc="white", mec=colour, mew=1.8, zorder=6, clip_on=False)
+    x, y = np.mean(mark.points, axis=0).tolist()
+    across, up = float(chart.x.share(x)), float(chart.y.share(y))
+    is_pair = len(mark.points) > 1
+    side = 0.0 if is_pair else (1.0 if across < 0.5 else -1.0)
+    # Below a place that is high, above one that lies on the axis.
+    below = up > 0.2
+    axes.annotate(
+        written(mark.words),
+        (x, y),
+        xytext=(8.0 * side, -_UNDER if below else _OVER),
+        textcoords="offset points",
+        ha="center" if is_pair else ("left" if side > 0 else "right"),
+        va="top" if below else "bottom",
+        fontsize=WORDS,
+        color=colour,
+        zorder=7,
+        path_effects=halo(),
+    )
+
+
+def _name_curves(axes: Any, chart: Chart) -> None:
+    """Names at the right, as near to the ends as there is room, with a line where they are not."""
+    ends = [(curve, curve.end) for curve in chart.curves]
+    found = [(curve, end) for curve, end in ends if end is not None]
+    height = axes.get_window_extent().height * 72.0 / axes.get_figure().dpi
+    wanted = np.array([float(chart.y.share(end[1])) for _, end in found]) * height
+    places = apart(wanted, WORDS * LINE, -WORDS, height + WORDS)
+    width = axes.get_window_extent().width * 72.0 / axes.get_figure().dpi
+    for (curve, end), place in zip(found, places.tolist(), strict=True):
+        colour = style_of(curve.series).colour
+        across = float(chart.x.share(end[0])) * width
+        axes.annotate(
+            written(curve.label),
+            end,
+            xycoords="data",
+            xytext=(width - across + _BESIDE, place - float(chart.y.share(end[1])) * height),
+            textcoords="offset points",
+            ha="left",
+            va="center",
+            fontsize=WORDS,
+            fontweight="bold" if curve.series == 0 else "normal",
+            color=colour,
+            annotation_clip=False,
+            arrowprops={
+                "arrowstyle": "-",
+                "color": colour,
+                "lw": 0.7,
+                "shrinkA": 0,
+                "shrinkB": 1,
+                "relpos": (0.0, 0.5),
+            },
+        )
+
+
+def width_of(figure: Any, words: str, size: float, weight: str = "normal") -> float:
+    """How wide words are on a figure [inch]."""
+    text = figure.text(0.0, 0.0, written(words), fontsize=size, fontweight=weight)
+    width = text.get_window_extent().width / figure.dpi
+    text.remove()
+    return float(width)

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A self-stress on the members: colours along them, and bending diagrams beside them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.arrays import FloatArray
+from ...util.records import Frozen
+from ..drawing import BENDING, QUANTITIES, Drawing, Resultants
+from ..drawing.colours import diverging
+from ..drawing.diagrams import diagrams_of
+from .canvas import OVER, Canvas
+from .surfaces import OUTLINE
+
+#: How much of a diagram shines through what hides it.
+_THROUGH = 0.3
+#: Peaks below this part of the largest are not named, and no more than so many are.
+_NAMED, _MOST_NAMED = 0.3, 8
+#: Values that differ by less than this part of the largest have one colour.
+_EVEN = 0.01
+#: Of very many members those above this part of the largest value are drawn thicker.
+_LOUD = 0.05
+#: Pieces of a member for its colours.
+PIECES = 36
+
+
+@dataclass(frozen=True, eq=False)
+class Stress(Frozen):
+    """One quantity of a self-stress.
+
+    Attributes:
+        values: The resultants.
+        quantity: One of `QUANTITIES`.
+        largest: Its largest magnitude, of members and hinges [N] or [N m].
+    """
+
+    values: Resultants
+    quantity: str
+    largest: float
+
+    def colours(self, member: np.ndarray, at: FloatArray) -> FloatArray:
+        """(k, s - 1, 3) of the pieces between stations (s,) of members (k,)."""
+        middle = (at[1:] + at[:-1]) / 2
+        return self.colours_of(self.values.along(self.quantity, member, middle))
+
+    def member_colours(self) -> FloatArray:
+        """(k, 3) of the members by the larger of the values at their ends."""
+        ends = self.values[self.quantity]
+        high, low = ends.max(axis=1), ends.min(axis=1)
+        return self.colours_of(np.where(high >= -low * (1.0 - _EVEN), high, low))
+
+    def is_loud(self) -> np.ndarray:
+        """(k,) whether a member has more than a small part of the largest value."""
+        return np.asarray(np.abs(self.values[self.quantity]).max(axis=1) > _LOUD * self.largest)
+
+    def hinge_colours(self) -> FloatArray:
+        """(h, 3) of the hinges."""
+        return self.colours_of(self.values.hinges[:, QUANTITIES.index(self.quantity)])
+
+    def colours_of(self, values: FloatArray) -> FloatArray:
+        """(..., 3) of values (...)."""
+        return diverging(values / self.largest if self.largest > 0.0 else np.zeros_like(values))
+
+    @property
+    def pieces(self) -> int:
+        """Of how many pieces a member is, so that its colours change smoothly along it."""
+        ends = self.values[self.quantity]
+        uneven = np.abs(ends[:, 0] - ends[:, 1]).max(initial=0.0)
+        return PIECES if uneven > _EVEN * self.largest else 1
+
+    @property
+    def has_diagram(self) -> bool:
+        """Whether it is a bending moment."""
+        return self.quantity in BENDING
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The largest value of a member's diagram: where the outline is there, and its foot."""
+
+    place: tuple[float, float, float]
+    foot: tuple[float, float, float]
+    value: float
+
+
+def stress_of(values: Resultants, quantity: str | None) -> Stress:
+    """One quantity of resultants, by default the dominant one."""
+    chosen = quantity or values.dominant
+    return Stress(values, chosen, values.largest(chosen))
+
+
+def add_diagrams(canvas: Canvas, drawing: Drawing, stress: Stress) -> list[Peak]:
+    """Draw bending diagrams beside the members, on the stretched sides; where their peaks are."""
+    if not stress.has_diagram or not stress.largest > 0.0:
+        return []
+    made = diagrams_of(drawing, stress.values, stress.quantity, canvas.view.axes[2], PIECES)
+    if not made.member.size:
+        return []
+    colour = stress.colours_of((made.value[:, 1:] + made.value[:, :-1]) / 2)
+    _add_outlined(canvas, made.base, made.top, colour, made.ends)
+    peaks = []
+    for row, peak in enumerate(_peaks(made.value)):
+        place, foot = (tuple(each[row, peak].tolist()) for each in (made.top, made.base))
+        peaks.append(Peak(place, foot, float(made.value[row, peak])))
+    return _to_be_named(peaks, stress.largest)
+
+
+def _peaks(value: FloatArray) -> list[int]:
+    """(k,) the station of the largest value; where a moment is constant the middle."""
+    size = np.abs(value)
+    first = size >= (1.0 - _EVEN) * size.max(axis=1, keepdims=True)
+    constant = first.all(axis=1)
+    made: list[int] = np.where(constant, value.shape[1] // 2, first.argmax(axis=1)).tolist()
+    return made
+
+
+def _add_outlined(
+    canvas: Canvas, base: FloatArray, top: FloatArray, colour: FloatArray, ends: np.ndarray
+) -> None:
+    """Strips from a base to the tops, with their outlines and the ends (k, 2) that they have."""
+    quads = np.stack((base[:, :-1], base[:, 1:], top[:, 1:], top[:, :-1]), axis=2)
+    pale = 0.55 + 0.45 * colour.reshape(-1, 3)
+    canvas.polygons(quads.reshape(-1, 4, 3), pale)
+    ink = np.array(OUTLINE)
+    ribs = np.stack((base, top), axis=2)[:, ::4]
+    canvas.lines(ribs.reshape(-1, 2, 3), ink, 0.3)
+    for line, width in ((base, 0.5), (top, 1.1)):
+        canvas.lines(line, ink, width)
+    sides = np.stack((base[:, [0, -1]], top[:, [0, -1]]), axis=2).reshape(-1, 2, 3)
+    canvas.lines(sides[ends.ravel()], ink, 1.1)
+    # What is behind other parts shines through them.
+    canvas.polygons(quads.reshape(-1, 4, 3), pale, opacity=_THROUGH, layer=OVER)
+    around = np.concatenate((base[:, :1], top, base[:, -1:]), axis=1)
+    canvas.lines(around, ink, 0.4, layer=OVER)
+
+
+def _to_be_named(peaks: list[Peak], largest: float) -> list[Peak]:
+    """The peaks whose values are told; of many, each value once."""
+    peaks = [peak for peak in peaks if abs(peak.value) >= _NAMED * largest]
+    if len(peaks) > _MOST_NAMED // 2:
+        alike: dict[str, list[Peak]] = {}
+        for peak in peaks:
+            alike.setdefault(f"{peak.value:.2g}", []).append(peak)
+        peaks = [every[len(every) // 2] for every in alike.values()]
+    return peaks if len(peaks) <= _MOST_NAMED else []

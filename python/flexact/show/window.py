@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `.show()` does with a page: the notebook, a script that is watched, or the browser."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import tempfile
+from collections.abc import Callable
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from ..util.errors import BatchError, reason_of
+from ..util.loading import load
+from ..util.outputs import OutputError, write_together
+from ..util.plain_text import file_name, harmless
+from .browser import opens
+
+#: Suffixes of pages.
+_PAGES = (".html", ".htm")
+
+#: Takes what is shown, and the line of the script; set where a script is watched.
+Taker = Callable[[Any, int], None]
+_takers: list[Taker] = []
+
+
+def take_with(taker: Taker) -> None:
+    """Hand whatever is shown from now on to `taker`, and show nothing."""
+    _takers[:] = [taker]
+
+
+def is_taken(shown: Any) -> bool:
+    """Whether what is shown was taken by who watches the script."""
+    for taker in _takers:
+        taker(shown, _line_of_script())
+    return bool(_takers)
+
+
+def _line_of_script() -> int:
+    """The line of the outermost file that is being run, which is where a person looks."""
+    frame, line = sys._getframe(), 0
+    main = getattr(sys.modules.get("__main__"), "__file__", None)
+    while frame is not None:
+        if frame.f_code.co_filename == main:
+            line = frame.f_lineno
+        if frame.f_back is None:
+            break
+        frame = frame.f_back
+    return line
+
+
+def is_displayed(shown: Any) -> bool:
+    """Whether it was displayed in a notebook, which is where this runs."""
+    found = sys.modules.get("IPython")
+    shell = found.get_ipython() if found is not None else None
+    # The consoles of editors have a kernel too, but show text alone.
+    if not hasattr(shell, "kernel") or any("SPYDER" in name for name in os.environ):
+        return False
+    load("IPython.display").display(shown)
+    return True
+
+
+class InWords:
+    """An error as a notebook shows it."""
+
+    def __init__(self, error: Exception) -> None:
+        """Keep what it says."""
+        self._words = str(error)
+
+    def __repr__(self) -> str:
+        """All that it says."""
+        return self._words
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(self._words)}</pre>"
+
+
+def page_path(path: str | os.PathLike[str]) -> Path:
+    """The path of a page, if it can be that of one.
+
+    Raises:
+        FlexactError: It cannot.
+    """
+    target = Path(path)
+    if target.suffix.lower() not in _PAGES or "\0" in str(target):
+        raise BatchError(f"{harmless(str(target))} is not the name of a page, such as guide.html")
+    return target
+
+
+def write_page(page: bytes, name: str, path: Path | None = None) -> Path:
+    """Write a page, whole or not at all.
+
+    Args:
+        page: The page.
+        name: What it is of.
+        path: Where it goes; by default a temporary file.
+
+    Raises:
+        FlexactError: It cannot be written.
+    """
+    if path is None:
+        return _temporary(page, name)
+    write_together({path: page})
+    return path
+
+
+def open_page(target: Path) -> Path:
+    """Open a page in the browser, or say where it is where none opens; its whole path."""
+    target = target.absolute()
+    if not opens(target.as_uri()):
+        print(f"The page is {target}", flush=True)
+    return target
+
+
+def _temporary(page: bytes, name: str) -> Path:
+    short = re.sub(r"[^\w.-]+", "_", Path(file_name(name)).stem)[:40] or "model"
+    try:
+        number, made = tempfile.mkstemp(".html", f"flexact-{short}-")
+        with open(number, "wb") as file:
+            file.write(page)
+    except OSError as error:
+        raise OutputError(f"no temporary page can be written: {reason_of(error)}") from error
+    return Path(made)

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parameters of variants, however they are given: a table, a grid, or rows as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..util.plain_text import in_short
+from .columns import COLUMNS, ERROR
+from .row import in_a_line
+
+#: A parameter of a variant.
+Value = str | int | float | bool | None
+Row = dict[str, Value]
+#: A table by columns or rows, a grid, a structured array, a data frame, or rows as they come.
+Parameters = Any
+
+_TAKEN = {column.name for column in (*COLUMNS, ERROR)}
+_TEXTS = (str, bytes, bytearray)
+_SINGLE = (str, int, float, bool, type(None), np.generic)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Every combination of some values of each parameter; the last parameter changes fastest.
+
+    Attributes:
+        axes: The values of each parameter by its name.
+    """
+
+    axes: dict[str, list[Value]]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each parameter has."""
+        return tuple(map(len, self.axes.values()))
+
+    def __len__(self) -> int:
+        """How many combinations there are."""
+        return prod(self.shape)
+
+    def __iter__(self) -> Iterator[Row]:
+        """The combinations as rows."""
+        for values in product(*self.axes.values()):
+            yield dict(zip(self.axes, values, strict=True))
+
+
+def grid(**axes: Iterable[Value]) -> Grid:
+    """Parameters for `flexact.sweep`: every combination of the values of each.
+
+    Args:
+        **axes: By the name of the parameter its values: numbers, texts, truth values or None.
+
+    Raises:
+        TypeError: the values are no sequence, or one is none of these.
+        ValueError: a parameter is called like a column of the table.
+    """
+    for name in axes:
+        require_name(name)
+    return Grid({name: _column(name, values) for name, values in axes.items()})
+
+
+class Wrong(NamedTuple):
+    """In place of a row that cannot be had."""
+
+    message: str
+
+
+class Given(NamedTuple):
+    """Parameters as they were given."""
+
+    rows: Iterator[Row | Wrong]
+    """Taken as they are needed."""
+    number: int | None
+    """How many there are; None where that shows only as they come."""
+
+
+def given(parameters: Parameters) -> Given:
+    """The rows of parameters; what is there from the beginning is checked before the first.
+
+    Raises:
+        TypeError: they are no parameters, or one is no number, text, truth value or None.
+        ValueError: columns differ in length, or a parameter is called like a column of the table.
+    """
+    if isinstance(parameters, Grid):
+        return Given(iter(parameters), len(parameters))
+    columns = _columns(parameters)
+    if columns is not None:
+        return _by_columns(columns)
+    if isinstance(parameters, _TEXTS) or not isinstance(parameters, Iterable):
+        raise TypeError(
+            "parameters are a mapping of names to values, a flexact.grid, a data frame, or rows "
+            f"of names and values, not {in_short(parameters)}"
+        )
+    if isinstance(parameters, Sequence):
+        rows = [checked(row) for row in parameters]
+        return Given(iter(rows), len(rows))
+    return Given(_as_they_come(iter(parameters)), None)
+
+
+def _columns(parameters: Parameters) -> dict[str, Any] | None:
+    """Columns by name, of a mapping, a structured array or a data frame."""
+    if isinstance(parameters, np.ndarray) and parameters.dtype.names:
+        return {name: parameters[name] for name in parameters.dtype.names}
+    if isinstance(parameters, Mapping):
+        return {name: parameters[name] for name in parameters}
+    if hasattr(parameters, "columns") and hasattr(parameters, "__getitem__"):
+        return {name: parameters[name] for name in parameters.columns}
+    return None
+
+
+def _by_columns(columns: Mapping[Any, Any]) -> Given:
+    for name in columns:
+        require_name(name)
+    made = {
+        name: _plain(name, values) if isinstance(values, _SINGLE) else _column(name, values)
+        for name, values in columns.items()
+    }
+    lengths = {name: len(values) for name, values in made.items() if isinstance(values, list)}
+    if len(set(lengths.values())) > 1:
+        told = ", ".join(f"{name} {length}" for name, length in lengths.items())
+        raise ValueError(
+            f"columns of parameters must be of one length, not {told}; flexact.grid(...) makes "
+            "every combination"
+        )
+    count = next(iter(lengths.values()), 1)
+    whole = [v if isinstance(v, list) else [v] * count for v in made.values()]
+    rows = (dict(zip(made, values, strict=True)) for values in zip(*whole, strict=True))
+    return Given(rows, count if made else 0)
+
+
+def _column(name: str, values: Any) -> list[Value]:
+    if isinstance(values, _TEXTS) or not isinstance(values, Iterable):
+        raise TypeError(f"the parameter {name} must be a list of values, not {in_short(values)}")
+    return [_plain(name, value) for value in values]
+
+
+def _as_they_come(taken: Iterator[Any]) -> Iterator[Row | Wrong]:
+    """Rows; one that is wrong, or what the generator raises, is told in its place."""
+    first = True
+    while True:
+        try:
+            item = next(taken)
+        except StopIteration:
+            return
+        except Exception as error:
+            yield Wrong(f"the parameters ended here: {in_a_line(error)}")
+            return
+        try:
+            row: Row | Wrong = checked(item)
+        except (TypeError, ValueError) as error:
+            if first:
+                raise
+            row = Wrong(str(error))
+        first = False
+        yield row
+
+
+def checked(row: Any) -> Row:
+    """A row of parameters, if it is one.
+
+    Raises:
+        TypeError: It is none, or a parameter is no number, text, truth value or None.
+        ValueError: A parameter is called like a column of the table.
+    """
+    if not isinstance(row, Mapping):
+        raise TypeError(
+            f"the parameters of a variant are a mapping of names to values, not {in_short(row)}"
+        )
+    for name in row:
+        require_name(name)
+    return {name: _plain(name, value) for name, value in row.items()}
+
+
+def require_name(name: Any) -> None:
+    """Raise unless a parameter can be called so.
+
+    Raises:
+        TypeError: It is no text.
+        ValueError: It is empty, or the name of a column.
+    """
+    if not isinstance(name, str):
+        raise TypeError(f"the name of a parameter must be text, not {in_short(name)}")
+    if not name:
+        raise ValueError("a parameter must have a name")
+    if name in _TAKEN:
+        raise ValueError(
+            f"a parameter cannot be called {name!r}: a column of the table has that name"
+        )
+
+
+def _plain(name: str, value: Any) -> Value:
+    """A value as Python's own."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    for kind in (bool, int, float, str):
+        if isinstance(value, kind):
+            return kind(value)
+    if value is None:
+        return None
+    raise TypeError(
+        f"the parameter {name} must be a number, a text, a truth value or None, "
+        f"not {in_short(value)}"
+    )
+
+
+def array_of(values: Sequence[Value]) -> np.ndarray:
+    """A column: of floats, whole numbers, truth values or texts, else of objects.
+
+    Among numbers None is NaN.
+    """
+    kinds = {type(value) for value in values}
+    if kinds == {bool}:
+        return np.array(values, np.bool_)
+    if kinds and kinds <= {str}:
+        return np.array(values, np.str_)
+    if kinds == {int}:
+        try:
+            return np.array(values, np.int64)
+        except OverflowError:
+            pass
+    elif kinds <= {int, float, type(None)} and kinds != {type(None)}:
+        try:
+            return np.array(values, np.float64)
+        except OverflowError:
+            pass
+    made = np.empty(len(values), object)
+    made[:] = values
+    return made

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Thousands of variants of a mechanism in one table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import repeat
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from ..analysis.decomposition import Asked
+from ..analysis.spaces import asked_for
+from ..core.progress import Progress
+from ..model.model import Model
+from ..model.variation import held_given, positions_given
+from .building import table_of, table_of_answers
+from .collecting import Work, answers_of
+from .columns import columns_of
+from .evaluate import swept
+from .parameters import Parameters, Row, Wrong, given
+from .source import Make, Making, Positions
+from .sweeps_worker import OfFunction, OfModel
+from .table import Table
+
+_PLAIN = Asked()
+
+
+def sweep(
+    of: Model | Make,
+    parameters: Parameters | None = None,
+    *,
+    positions: ArrayLike | None = None,
+    held: ArrayLike | None = None,
+    want: str = "values",
+    method: str = "auto",
+    tolerance: float | None = None,
+    prove: bool | None = None,
+    workers: int | None = None,
+    executor: Any = None,
+    progress: Progress | None = None,
+) -> Table:
+    """Analyse many variants of a mechanism: one table, a row a variant.
+
+    Either of a model whose nodes are moved, or of which other deformations are held,
+
+        flexact.sweep(model, positions=P)
+
+    by threads in the core; or of a function that makes a model of parameters,
+
+        flexact.sweep(make, flexact.grid(angle=[...], length=[...]))
+
+    which is called, as `make(angle=..., length=...)`, and analysed by several processes.
+
+    A variant that cannot be made or analysed is a row with its `error`; all others stay.
+
+    Args:
+        of: A model, or a function that returns one.
+        parameters: For a function, what it is called with, by name: columns of one length (a
+            mapping, in which a single value stands for all rows; a data frame; a structured
+            array), `flexact.grid(...)`, or rows (a list or generator of mappings). Each is a
+            number, a text, a truth value or None. For a model, likewise, what the variants are
+            called in the table; they may be left out.
+        positions: (variants, nodes, 3) [m], as `Model.positions`; rows of orientations are
+            ignored, and vectors of elements stay as they are.
+        held: (variants, elements, 6) of bool, as for `Model.with_held`; with or without
+            positions.
+        want: What is to be known of each variant: "verdict", the decision on rank alone;
+            "values", the gap, the smallest singular value, the condition number and the margin;
+            "all", motions and self-stresses, too.
+        method: As for `analyse`.
+        tolerance: As for `analyse`.
+        prove: As for `analyse`.
+        workers: So many threads or processes at most; by default one a processor.
+        executor: Where the work is done, if not here: see `flexact.sweeps.engine_running.results_of`.
+        progress: Called with what is being done and how much of that is done, from 0 to 1 (0
+            where nobody knows how many variants there will be).
+
+    Raises:
+        DeckError, ModelError: the model is wrong.
+        EngineError: the executor is not there, or was lost.
+        TypeError: something is of another kind than it must be.
+        ValueError: positions or masks have the wrong shape or are not finite, columns differ in
+            length, a parameter is called like a column of the table, or there is no such `want`
+            or method.
+    """
+    columns_of(want)
+    asked = asked_for(method, tolerance, prove)
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be something to call, not {type(progress).__name__}")
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int)):
+        raise TypeError(f"workers must be a whole number, not {type(workers).__name__}")
+    if workers is not None and workers < 1:
+        raise ValueError(f"workers must be 1 or more, not {workers}")
+    work = Work(workers, executor, progress)
+    if isinstance(of, Model):
+        source = _source_of(of, positions, held)
+        return _of_model(source, parameters, want, asked, work)
+    if not callable(of):
+        raise TypeError(
+            f"a model, or a function that makes one, can be swept, not {type(of).__name__}"
+        )
+    if positions is not None or held is not None:
+        raise TypeError("positions and what is held belong to a model, not to a function")
+    if parameters is None:
+        raise TypeError("a function needs parameters: sweep(make, {'angle': [...]})")
+    return _of_function(of, parameters, want, asked, work)
+
+
+def _source_of(model: Model, positions: ArrayLike | None, held: ArrayLike | None) -> Positions:
+    """Positions and masks, checked.
+
+    Raises:
+        DeckError, ModelError, TypeError, ValueError: see `sweep`.
+    """
+    model.check()
+    data = model.data
+    if positions is None and held is None:
+        raise TypeError("a model needs positions, or what is held: sweep(model, positions=...)")
+    moved = None if positions is None else positions_given(data, positions, many=True)
+    masks = None if held is None else held_given(data, held, many=True)
+    if moved is not None and masks is not None and len(moved) != len(masks):
+        raise ValueError(
+            f"there are {len(moved)} positions, but {len(masks)} masks of what is held"
+        )
+    # What is given may change afterwards.
+    return Positions(
+        data, None if moved is None else moved.copy(), None if masks is None else masks.copy()
+    )
+
+
+def _of_model(
+    source: Positions, parameters: Parameters | None, want: str, asked: Asked, work: Work
+) -> Table:
+    labels = _labels(parameters, source.count)
+    if work.executor is None and asked == _PLAIN and want != "all":
+        found = swept(
+            source.data,
+            positions=source.positions,
+            held=source.held,
+            want=want,
+            workers=work.workers,
+            progress=work.progress,
+        )
+        return table_of(labels, found, want, source)
+    items = zip(
+        *(repeat(None, source.count) if a is None else a for a in (source.positions, source.held)),
+        strict=True,
+    )
+    answers = answers_of(OfModel(source.data, want, asked), items, source.count, want, work)
+    return table_of_answers(labels, answers, want, source)
+
+
+def _labels(parameters: Parameters | None, count: int) -> list[Row]:
+    """What the variants of a model are called."""
+    if parameters is None:
+        return [{}] * count
+    rows = list(given(parameters).rows)
+    for row in rows:
+        if isinstance(row, Wrong):
+            raise ValueError(row.message)
+    if len(rows) != count:
+        raise ValueError(f"there are {count} variants, but parameters of {len(rows)}")
+    return [row for row in rows if not isinstance(row, Wrong)]
+
+
+def _of_function(make: Make, parameters: Parameters, want: str, asked: Asked, work: Work) -> Table:
+    rows, count = given(parameters)
+    kept: list[Row] = []
+
+    def taken() -> Iterator[Row | Wrong]:
+        for row in rows:
+            kept.append({} if isinstance(row, Wrong) else row)
+            yield row
+
+    answers = answers_of(OfFunction(make, want, asked), taken(), count, want, work)
+    return table_of_answers(kept, answers, want, Making(make))

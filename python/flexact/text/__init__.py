@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: BSD-3-Clause
-"""A result in words and as JSON; uses `advice`, `result` and below."""

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A traced path as a picture: singular values and what moves, along the path."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..analysis.naming import motion_in_words
+from ..analysis.verdict import Verdict
+from ..core.arrays import FloatArray
+from ..show.picture.files import still_bytes
+from ..show.picture.loading import load_matplotlib
+from ..show.picture.make import check_packages
+from ..util.plain_text import file_name, harmless
+from .drive import drive_unit
+from .names import Names
+from .values import Traced
+
+#: Below this singular values are drawn at the lower edge.
+_FLOOR = 1.0e-9
+#: How many singular values, and how many curves of what moves, are drawn.
+_MOST_VALUES, _MOST_CURVES = 3, 6
+#: Curves that differ by less than this part of the largest are the same.
+_SAME = 1.0e-3
+_DEAD = "#111827"
+_CURVES = ("#1f5fa8", "#b25406", "#15774a", "#93205e", "#8a6a00", "#4b5563")
+_SIZE, _PANEL, _DPI = (8.0, 1.4), 2.6, 120
+
+
+def plot_bytes(trace: Traced, suffix: str = ".png") -> bytes:
+    """The picture as a file: .png, .svg or .pdf.
+
+    Raises:
+        FlexactError: matplotlib is missing.
+    """
+    check_packages()
+    load_matplotlib()
+    from matplotlib.figure import Figure
+
+    panels = 2 if trace.shown.freedom is None else 3
+    figure: Any = Figure(
+        figsize=(_SIZE[0], _SIZE[1] + _PANEL * panels),
+        dpi=_DPI,
+        layout="constrained",
+        facecolor="white",
+    )
+    axes = figure.subplots(panels, 1, sharex=True)
+    what = motion_in_words(trace.result, trace.shown.number, trace.shown.freedom)
+    axes[0].set_title(harmless(what), parse_math=False, fontsize=11, loc="left", pad=18)
+    _draw_values(axes[0], trace)
+    _draw_places(axes[1], trace)
+    if trace.shown.freedom is not None:
+        _draw_drive(axes[2], trace)
+    for panel in axes:
+        for step in trace.dead_points:
+            panel.axvline(step.arc, color=_DEAD, lw=1.0, ls=(0, (4, 3)), zorder=3)
+        panel.grid(True, which="major", color="#e5e7eb", lw=0.7, zorder=0)
+        panel.set_axisbelow(True)
+    for number, step in enumerate(trace.dead_points, start=1):
+        axes[0].annotate(
+            str(number),
+            (step.arc, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 3),
+            textcoords="offset points",
+            ha="center",
+            fontsize=9,
+        )
+    axes[-1].set_xlabel("along the path [m]", fontsize=11)
+    _legend(figure, trace)
+    name = file_name(trace.result.given.name) or "path"
+    return still_bytes(figure, suffix, name, harmless(what))
+
+
+def _draw_values(axes: Any, trace: Traced) -> None:
+    count = min(_MOST_VALUES, *(step.values.size for step in trace.steps))
+    colours = [step.verdict.colour for step in trace.steps]
+    axes.set_yscale("log")
+    for k in range(count):
+        values = np.maximum([step.values[k] for step in trace.steps], _FLOOR)
+        axes.plot(trace.arc, values, color="#9ca3af", lw=1.0, zorder=2)
+        axes.scatter(trace.arc, values, c=colours, s=10, zorder=4, clip_on=False)
+    axes.set_ylim(bottom=_FLOOR)
+    axes.set_ylabel("smallest singular values", fontsize=11)
+
+
+def _draw_places(axes: Any, trace: Traced) -> None:
+    """Coordinates that change most; of those that are the same the first."""
+    points = Names(trace.result).points(len(trace.result.given.node_names))
+    start = trace.steps[trace.reference].pose.position
+    moved: list[tuple[float, str, FloatArray]] = []
+    for point in points:
+        way = np.array([step.pose.position[point.node] for step in trace.steps])
+        for k, axis in enumerate("xy" if trace.result.given.planar else "xyz"):
+            curve = way[:, k] - start[point.node, k]
+            moved.append((float(np.ptp(curve)), f"{point.name} {axis}", curve))
+    largest = max((each[0] for each in moved), default=0.0)
+    moved.sort(key=lambda each: -round(each[0] / (largest or 1.0), 9))
+    curves: list[tuple[str, FloatArray]] = []
+    for size, name, curve in moved:
+        is_new = all(np.abs(curve - other).max() > _SAME * largest for _, other in curves)
+        if size > _SAME * largest and is_new and len(curves) < _MOST_CURVES:
+            curves.append((name, curve))
+    for colour, (name, curve) in zip(_CURVES, curves, strict=False):
+        told = harmless(name).replace("$", r"\$")
+        axes.plot(trace.arc, curve, color=colour, lw=1.4, label=told)
+    axes.set_ylabel("displacement [m]", fontsize=11)
+    if curves:
+        axes.legend(fontsize=9, frameon=False, ncols=3, loc="best")
+
+
+def _draw_drive(axes: Any, trace: Traced) -> None:
+    freedom = trace.shown.freedom
+    if freedom is None:
+        return
+    axes.plot(trace.arc, [step.drive for step in trace.steps], color=_CURVES[0], lw=1.4)
+    axes.set_ylabel(
+        harmless(f"{freedom.label} [{drive_unit(freedom)}]"), parse_math=False, fontsize=11
+    )
+
+
+def _legend(figure: Any, trace: Traced) -> None:
+    from matplotlib.lines import Line2D
+
+    there = {step.verdict for step in trace.steps}
+    handles: list[Any] = [
+        Line2D([], [], marker="o", ms=5, ls="none", color=verdict.colour, label=verdict.value)
+        for verdict in Verdict
+        if verdict in there
+    ]
+    if trace.dead_points:
+        handles.append(Line2D([], [], color=_DEAD, lw=1.0, ls=(0, (4, 3)), label="dead point"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize=9.5)
