@@ -10,17 +10,18 @@ starts quickly.
 
 import typing as _typing
 
-from .model.showing import shown_by as _shown_by
+from .model.model import shown_by as _shown_by
+from .util.loading import VERSION as _VERSION
 from .util.loading import load as _load
-from .util.version import VERSION as _VERSION
 
 if _typing.TYPE_CHECKING:
-    from .advice.advising import Advice, Step
+    from .advice.advice import Advice
+    from .advice.steps import Step
     from .analysis.exact import ExactBases
-    from .analysis.failing import AnalysisError
     from .analysis.modes import Motion, SelfStress
     from .analysis.verdict import (
         Alternative,
+        AnalysisError,
         Certainty,
         ClassCounts,
         Counts,
@@ -32,10 +33,9 @@ if _typing.TYPE_CHECKING:
     )
     from .api import Analysis, analyse
     from .costs.cost import Cost, cost
-    from .costs.shape import Shape
-    from .costs.state_shape import shape
+    from .costs.shape import Shape, shape
     from .deck.diagnostics import Diagnostic, Place, Severity
-    from .deck.errors import DeckError, ModelError
+    from .deck.rendering import DeckError, ModelError
     from .elasticity import (
         Elastic,
         ElasticError,
@@ -48,36 +48,33 @@ if _typing.TYPE_CHECKING:
     from .model.configuration import Configuration
     from .model.handles import Assembly, Body, Element, FoldedSheet, Node, Notch, Sheet, Wire
     from .model.jacobian import Jacobian, deformations, jacobian
-    from .model.material import Material
     from .model.model import Model
-    from .model.models import read, read_text
-    from .show.notebook.notebook_output import viewer
+    from .model.reading import read, read_text
+    from .model.sections import Material
+    from .show.notebook.output import viewer
     from .show.notebook.rows import Results
     from .sweeps.crossing import Crossing, Crossings
     from .sweeps.parameters import grid
     from .sweeps.sweep import sweep
     from .sweeps.table import Table
     from .sweeps.tolerances import Tolerances, tolerances
-    from .tracing.trace import trace
-    from .tracing.tracing_trace import Trace
+    from .tracing.trace import Trace, trace
     from .util.errors import FlexactError
 
 __version__ = _VERSION
 
 #: The module of each public name.
 _HOMES = {
-    "advice.advising": (
-        "Advice",
-        "Step",
-    ),
+    "advice.advice": ("Advice",),
+    "advice.steps": ("Step",),
     "analysis.exact": ("ExactBases",),
-    "analysis.failing": ("AnalysisError",),
     "analysis.modes": (
         "Motion",
         "SelfStress",
     ),
     "analysis.verdict": (
         "Alternative",
+        "AnalysisError",
         "Certainty",
         "ClassCounts",
         "Counts",
@@ -95,14 +92,16 @@ _HOMES = {
         "Cost",
         "cost",
     ),
-    "costs.shape": ("Shape",),
-    "costs.state_shape": ("shape",),
+    "costs.shape": (
+        "Shape",
+        "shape",
+    ),
     "deck.diagnostics": (
         "Diagnostic",
         "Place",
         "Severity",
     ),
-    "deck.errors": (
+    "deck.rendering": (
         "DeckError",
         "ModelError",
     ),
@@ -131,13 +130,13 @@ _HOMES = {
         "deformations",
         "jacobian",
     ),
-    "model.material": ("Material",),
     "model.model": ("Model",),
-    "model.models": (
+    "model.reading": (
         "read",
         "read_text",
     ),
-    "show.notebook.notebook_output": ("viewer",),
+    "model.sections": ("Material",),
+    "show.notebook.output": ("viewer",),
     "show.notebook.rows": ("Results",),
     "sweeps.crossing": (
         "Crossing",
@@ -150,8 +149,10 @@ _HOMES = {
         "Tolerances",
         "tolerances",
     ),
-    "tracing.trace": ("trace",),
-    "tracing.tracing_trace": ("Trace",),
+    "tracing.trace": (
+        "Trace",
+        "trace",
+    ),
     "util.errors": ("FlexactError",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -225,7 +226,7 @@ __all__ = [
 # A model may know nothing of what stands on top of it.
 _shown_by(
     lambda model, path: _load("flexact.api").show_model(model, path),
-    lambda model: _load("flexact.show.notebook.models").html_of(model.data),
+    lambda model: _load("flexact.show.notebook.rows").html_of_model(model.data),
 )
 
 

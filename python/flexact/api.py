@@ -10,32 +10,31 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .advice.describe import MOST_MODES, describe
-from .analysis.accuracy import AccuracyGiven
-from .analysis.failing import AnalysisError
-from .analysis.json_result import dictionary_of, text_of
+from .analysis.decomposition import AccuracyGiven
+from .analysis.json import dictionary_of, text_of
 from .analysis.result import Result, result_of
 from .analysis.spaces import asked_for
-from .analysis.text_margin import margin_in_short
-from .analysis.warnings import warning_of, warnings_of
+from .analysis.verdict import AnalysisError
+from .analysis.verdict_words import margin_in_short, warning_of, warnings_of
 from .core.arrays import FloatArray
 from .core.progress import Progress
 from .deck.diagnostics import Diagnostic
-from .deck.errors import ProblemsError
+from .deck.rendering import ProblemsError
 from .model.jacobian import jacobian
 from .model.model import Model
-from .model.models import read
+from .model.reading import read
 from .show.mesh import to_meshio
 from .show.page import broken_page, page
 from .show.saving import as_bytes, save
 from .show.window import InWords, is_displayed, is_taken, open_page, page_path, write_page
-from .util.cached import cached_property
 from .util.loading import load
 from .util.partial import attempted
+from .util.records import cached_property
 
 if TYPE_CHECKING:
     import meshio
 
-    from .advice.advising import Advice
+    from .advice.advice import Advice
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,8 +95,9 @@ class Analysis(Result):
 
         Args:
             path: Its suffix says what it is to be: a picture (.png, .svg, .pdf, or .gif, .mp4 and
-                .webm, which move; `flexact.show.picture`), a page (.html; `flexact.show.page`), a cycle for
-                ParaView (.pvd), or a mesh (.vtu, .vtp, .vtk, .xdmf, ...; `flexact.show.mesh`).
+                .webm, which move; `flexact.show.picture`), a page (.html; `flexact.show.page`), a
+                cycle for ParaView (.pvd), or a mesh (.vtu, .vtp, .vtk, .xdmf, ...;
+                `flexact.show.mesh`).
             motion: Number of the motion that is shown, from 1; of pictures and meshes.
             freedom: Number of the declared degree of freedom that is shown, likewise.
             stress: Number of the self-stress that is shown, of pictures.
@@ -157,7 +157,7 @@ class Analysis(Result):
             ModelError: no body has this name, or a text is not understood.
         """
         # Few ask for it, and it takes a while to load.
-        made: Advice = load("flexact.advice.advising").advice_of(self, body, wanted, bodies)
+        made: Advice = load("flexact.advice.advice").advice_of(self, body, wanted, bodies)
         return made
 
     def describe(self) -> str:
@@ -185,12 +185,12 @@ class Analysis(Result):
 
     def _repr_html_(self) -> str:
         # Notebooks alone ask for it.
-        made: str = load("flexact.show.notebook.notebook_output").html_of(self)
+        made: str = load("flexact.show.notebook.output").html_of(self)
         return made
 
     def in_notebook(self, what: object) -> str | None:
         """HTML of a motion, a self-stress or a row of them, with pictures."""
-        made: str | None = load("flexact.show.notebook.modes").html_of(self, what)
+        made: str | None = load("flexact.show.notebook.rows").html_of(self, what)
         return made
 
 

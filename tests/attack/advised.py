@@ -22,9 +22,9 @@ from pasting import analysis_pasted, steps_pasted
 
 import flexact
 from flexact import Model
-from flexact.advice.advising import Advice, Step
+from flexact.advice.advice import Advice, Step
 from flexact.advice.causes.cause import CauseKind, LineKind, Relation, RelationKind
-from flexact.advice.causes.generic import generic_rank
+from flexact.advice.causes.gradients import generic_rank
 from flexact.advice.causes.trials import Trials
 from flexact.advice.proposal import Purpose
 from flexact.advice.releases.words import outcome_as_given, released

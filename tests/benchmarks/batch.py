@@ -28,7 +28,7 @@ from pathlib import Path
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import flexact
-from flexact.sweeps.row import row_of
+from flexact.sweeps.columns import row_of
 
 #: Two sheets guide a stage; D(c) is 12 x 11, or 11 x 11.
 DECK = """\

@@ -23,7 +23,7 @@ from commands import in_turn
 from dask_cluster import running_cluster
 
 from flexact.sweeps import running as chunks
-from flexact.sweeps.engine_running import results_of
+from flexact.sweeps.running import results_of
 
 #: Items, and what one of them takes [s].
 ITEMS, SECONDS = 2000, 0.0015

@@ -22,7 +22,7 @@ import numpy as np
 
 import flexact
 from flexact.model.variation import with_positions
-from flexact.sweeps.signed import scaled_jacobian
+from flexact.sweeps.evaluate import scaled_jacobian
 
 ROOT = Path(__file__).resolve().parents[2]
 DECK = ROOT / "input_decks" / "flexures" / "five_wires.dat"

@@ -25,7 +25,7 @@ from matrix import Columns, scaled_jacobian
 from numpy.typing import NDArray
 
 import flexact
-from flexact.core.basis import Basis
+from flexact.core.arrays import Basis
 
 _T = TypeVar("_T")
 

@@ -12,30 +12,28 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import flexact
-from flexact.apps.cli.analyse import LOGS
+from flexact.apps.cli.analyse import FORMS, LOGS
 from flexact.apps.cli.command import parser_of
-from flexact.apps.cli.findings import FORMS
 from flexact.apps.cli.main import main
 from flexact.apps.cli.summary import TABLES
 from flexact.apps.convert.text import JSON, YAML
 from flexact.apps.editor.completion import complete_at
+from flexact.apps.editor.deck import Deck
 from flexact.apps.editor.document import Document, Position
-from flexact.apps.editor.editor_deck import Deck
-from flexact.apps.editor.editor_problems import problems_of
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import folds_of, outline_of
-from flexact.apps.editor.problems import advice_on, opinion_on
-from flexact.apps.watch.answering import answer_of
+from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
 from flexact.apps.watch.edit_session import Editor
+from flexact.apps.watch.messages import Job, Shown
 from flexact.apps.watch.scene import Stage
-from flexact.apps.watch.watching_messages import Job, Shown
+from flexact.apps.watch.worker import answer_of
 from flexact.costs.saving import SUFFIXES as COSTS
 from flexact.show.drawing import QUANTITIES
 from flexact.show.mesh.collection import SUFFIX as CYCLE
 from flexact.show.mesh.file import FORMATS
 from flexact.show.picture import STILLS, SUFFIXES
 from flexact.show.saving import PAGES
-from flexact.tracing.saving import SUFFIXES as TRACES
+from flexact.tracing.output import SUFFIXES as TRACES
 
 #: Verbs that take no deck.
 WITHOUT_DECK = {"bench", "completion", "help"}

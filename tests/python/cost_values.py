@@ -17,20 +17,24 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.costs.designs import CostValues, Design, MisalignmentCurve, Stroke, StrokeCurve
-from flexact.costs.shape import Shape
-from flexact.costs.values import (
+from flexact.costs.designs import (
     DIRECTIONS,
     FREQUENCY,
     Clamp,
+    CostValues,
+    Design,
     Kept,
     Misalignment,
+    MisalignmentCurve,
     Number,
     Numbers,
     Point,
     Released,
+    Stroke,
+    StrokeCurve,
     Tolerance,
 )
+from flexact.costs.shape import Shape
 from flexact.model.configuration import Configuration
 from flexact.model.reading import read_file
 

@@ -8,18 +8,20 @@ from collections.abc import Iterator
 
 from flexact.apps.editor.actions import mends_of
 from flexact.apps.editor.completion import complete_at
+from flexact.apps.editor.deck import Deck
 from flexact.apps.editor.document import Document, Position, Range
-from flexact.apps.editor.editor_deck import Deck
-from flexact.apps.editor.editor_problems import problems_of
 from flexact.apps.editor.hover import hover_at
-from flexact.apps.editor.navigation import (
+from flexact.apps.editor.outline import (
     RenameError,
+    Symbol,
     definition_at,
+    folds_of,
+    outline_of,
     place_at,
     references_at,
     rename_at,
 )
-from flexact.apps.editor.outline import Symbol, folds_of, outline_of
+from flexact.apps.editor.problems import problems_of
 
 _SCRAPS = (
     *("\n", "\r\n", "\r", "\t", " ", "%", "#", "*", ";", "\ufeff", "\x00", "\x0b", "\x0c", "\x1a"),

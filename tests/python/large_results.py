@@ -5,7 +5,7 @@ import dataclasses
 from typing import Any
 
 from flexact import Analysis
-from flexact.core.basis import Basis
+from flexact.core.arrays import Basis
 
 
 def changed(analysis: Analysis, **raw: Any) -> Analysis:

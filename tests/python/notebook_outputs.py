@@ -13,7 +13,7 @@ from typing import Any
 from reference_decks import ROOT
 
 import flexact
-from flexact.show.notebook import given
+from flexact.show.notebook import output as given
 
 GALLERY = sorted((ROOT / "docs" / "gallery").glob("*.py"))
 #: The viewer, and a result, within an output.

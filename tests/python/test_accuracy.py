@@ -19,18 +19,18 @@ from test_margin import two_wires
 from flexact import Analysis, AnalysisError, Verdict, analyse
 from flexact.advice.describe import verdict_in_words
 from flexact.analysis.differences import side_of, stored_side
-from flexact.analysis.text_margin import but_only, verdict_in_short
-from flexact.analysis.units import angle_in_words, length_in_words
+from flexact.analysis.naming import angle_in_words, length_in_words
+from flexact.analysis.verdict_words import but_only, verdict_in_short
 from flexact.apps.checks.findings import findings_about
 from flexact.apps.cli.main import main
+from flexact.apps.editor.deck import Deck
 from flexact.apps.editor.document import Document
-from flexact.apps.editor.editor_deck import Deck
 from flexact.apps.editor.problems import opinion_on
+from flexact.apps.watch.live_edit import Session
 from flexact.apps.watch.messages import told_of
-from flexact.apps.watch.switches import Session
-from flexact.show.notebook.notebook_output import html_of
+from flexact.show.notebook.output import html_of
 from flexact.show.page import entry_of, page
-from flexact.show.page.verdict_part import verdict_of_side
+from flexact.show.page.content import verdict_of_side
 from flexact.show.picture.make import _words as picture_words
 from flexact.show.spacar_log import spacar_log
 

@@ -7,9 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from flexact.advice.releases.bases import count_bases
-from flexact.advice.releases.echelon import echelon_of
-from flexact.advice.releases.matroid import Rows, TooManyError
+from flexact.advice.releases.matroid import Rows, TooManyError, count_bases, echelon_of
 
 Edges = list[tuple[int, int]]
 ERROR = 1.0e-15

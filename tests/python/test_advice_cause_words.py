@@ -23,7 +23,7 @@ from flexact.advice.causes.words import (
     cause_of_stress_in_words,
     mend_in_words,
 )
-from flexact.analysis.sentences import plain
+from flexact.analysis.naming import plain
 
 DECKS = [
     "flexures/five_wires_lower_two_parallel",

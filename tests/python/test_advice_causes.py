@@ -22,7 +22,7 @@ import flexact
 from flexact import Model
 from flexact.advice.causes.cause import CauseKind, Causes, LineKind, RelationKind
 from flexact.advice.causes.causes import causes_of
-from flexact.advice.causes.generic import generic_rank
+from flexact.advice.causes.gradients import generic_rank
 from flexact.model.variation import with_positions
 
 #: Places of both ends of flexures, the one at the ground first.
@@ -408,7 +408,7 @@ def test_what_a_tolerance_makes_zero_is_special() -> None:
 
 
 def test_what_cannot_be_tried_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("flexact.advice.causes.generic.rank_at", lambda *_: None)
+    monkeypatch.setattr("flexact.advice.causes.gradients.rank_at", lambda *_: None)
     causes = causes_of_deck("paper/twelve_trusses")
     assert {one.kind for one in (*causes.motions, *causes.self_stresses)} == {CauseKind.UNKNOWN}
     assert causes.generic_rank is None

@@ -13,10 +13,10 @@ from reference_decks import NAMES, text_of, transform
 import flexact
 from flexact import Analysis, Model, analyse
 from flexact.advice.proposal import Purpose
-from flexact.advice.releases.advising_releases import declaration_in_words
-from flexact.advice.releases.declarations import declarations_of
+from flexact.advice.releases.releases import declarations_of
+from flexact.advice.releases.words import declaration_in_words
 from flexact.analysis.change import Change
-from flexact.analysis.sentences import Named, plain
+from flexact.analysis.naming import Named, plain
 from flexact.core.elements import Class
 
 

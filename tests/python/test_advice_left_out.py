@@ -37,7 +37,7 @@ FAILING = {
     "flexact.advice.words.spaces_lines": "words of freedom and constraint",
     "flexact.advice.motions.motion_in_sentence": "a motion",
     "flexact.advice.motions.stress_in_sentence": "a self-stress",
-    "flexact.advice.releases.advising_releases._note": "a step",
+    "flexact.advice.releases.words._note": "a step",
 }
 
 

@@ -10,7 +10,7 @@ from random_models import mechanism
 
 from flexact import Analysis, Model, analyse
 from flexact.analysis import ways as leverage
-from flexact.analysis.advice_ways import coordinate_of
+from flexact.analysis.ways import coordinate_of
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 

@@ -27,11 +27,10 @@ import flexact
 from flexact import Analysis, Model, analyse
 from flexact.advice.proposal import Purpose
 from flexact.advice.releases import candidates as reach
-from flexact.advice.releases.advising_releases import release_in_words
-from flexact.advice.releases.releases import releases_of
-from flexact.advice.releases.steps import by_steps
+from flexact.advice.releases.releases import by_steps, releases_of
+from flexact.advice.releases.words import release_in_words
 from flexact.analysis import ways as leverage
-from flexact.analysis.sentences import Named, plain
+from flexact.analysis.naming import Named, plain
 from flexact.core.elements import Class
 
 #: Beams without vectors on a lattice of 0.05, many of whose default axes tie.

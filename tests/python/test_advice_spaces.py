@@ -23,8 +23,7 @@ from spaces_models import SHEETS, WIRES, on_folded_sheets, on_sheets, on_wires
 
 import flexact
 from flexact import Model
-from flexact.advice.spaces.families import Family, FamilyKind
-from flexact.advice.spaces.screw_space import ScrewSpace
+from flexact.advice.spaces.screws import Family, FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
 
 K = FamilyKind

@@ -12,10 +12,10 @@ from spaces_models import SHEETS, WIRES, on_sheets, on_wires
 
 import flexact
 from flexact import Model
-from flexact.advice.spaces.freedom import Freed
 from flexact.advice.spaces.spaces import spaces_of
+from flexact.advice.spaces.subjects import Freed
 from flexact.advice.spaces.words import spaces_lines
-from flexact.analysis.sentences import plain
+from flexact.analysis.naming import plain
 
 _NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]\d+)?"
 #: What may change with place, scale and turn: points, directions, planes and pitches.

@@ -14,11 +14,10 @@ from spaces_models import SHEETS, WIRES, on_folded_sheets, on_sheets, on_wires
 import flexact
 from flexact import Model
 from flexact.advice.proposal import Proposal, Purpose
-from flexact.advice.spaces.families import FamilyKind
-from flexact.advice.spaces.placing import wire_along
-from flexact.advice.spaces.screw_space import ScrewSpace
+from flexact.advice.spaces.flexures import wire_along
+from flexact.advice.spaces.screws import FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
-from flexact.advice.spaces.wanted import Wanted
+from flexact.advice.spaces.wanted_motion import Wanted
 from flexact.analysis.change import Change
 from flexact.analysis.screws import ScrewKind
 from flexact.model.parts.parts import PartKind

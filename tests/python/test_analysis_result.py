@@ -14,7 +14,7 @@ from verdicts import DENSE
 
 import flexact
 from flexact import Model, analyse
-from flexact.util import memory
+from flexact.util import machine as memory
 
 
 def test_gap_and_tolerance_stand_on_both_sides_of_the_decision() -> None:

@@ -7,9 +7,8 @@ from typing import Any
 
 import pytest
 
-from flexact.sweeps.batch import FilterError, filter_of
+from flexact.sweeps.batch import FilterError, deck_columns, filter_of
 from flexact.sweeps.columns import Column
-from flexact.sweeps.deck_rows import deck_columns
 
 ROW = {
     "deck": "guides/five wires.dat",

@@ -198,7 +198,7 @@ def interrupted(decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 def analysed(monkeypatch: pytest.MonkeyPatch, arguments: Sequence[str]) -> list[str]:
     """The decks that a run analyses."""
-    from flexact.apps.cli import batch_work
+    from flexact.apps.cli import batch_run as batch_work
 
     names: list[str] = []
     row = batch_work.deck_row
@@ -300,7 +300,7 @@ def test_where_nothing_is_done_nothing_is_left(
     def interrupt(*_: object) -> None:
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr("flexact.apps.cli.batch_work.deck_row", interrupt)
+    monkeypatch.setattr("flexact.apps.cli.batch_run.deck_row", interrupt)
     assert main(["batch", str(decks), "-o", str(tmp_path / "t.csv"), "-j1"]) == 130
     assert [name for name in files_in(tmp_path) if not name.startswith("decks")] == []
 

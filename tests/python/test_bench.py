@@ -17,12 +17,9 @@ from json_schema import schema
 
 import flexact
 from flexact.apps.checks import bench as measurement
-from flexact.apps.checks.bench import Case, measure
-from flexact.apps.checks.matrix import full_matrix
-from flexact.apps.checks.mechanisms import FAMILIES
-from flexact.apps.checks.timing import least_times
+from flexact.apps.checks.bench import FAMILIES, Case, full_matrix, least_times, measure
 from flexact.apps.cli.main import main
-from flexact.util import memory
+from flexact.util import machine as memory
 
 #: One dense and one sparse, and one beside which no SVD runs.
 TINY = (Case("stages", 2, "svd"), Case("bars", 3, "sparse"), Case("stages", 8, "sparse"))

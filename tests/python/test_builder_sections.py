@@ -9,9 +9,8 @@ import pytest
 from wrong_use import code_of
 
 from flexact import Material, Model, ModelError
-from flexact.model.appearance_draft import Shape
-from flexact.model.material import MATERIALS
-from flexact.model.sections import constants_of
+from flexact.model.draft import Shape
+from flexact.model.sections import MATERIALS, constants_of
 
 RECT, CIRC = 1, 2
 

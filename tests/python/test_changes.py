@@ -8,8 +8,8 @@ import pytest
 from test_watch import EXACT, GUIDE
 
 import flexact
-from flexact.apps.watch.changes import changed_between, changed_words
 from flexact.apps.watch.messages import Told, told_of
+from flexact.apps.watch.scene import changed_between, changed_words
 
 FREE = GUIDE.replace("DYNX 3  2\n", "")
 

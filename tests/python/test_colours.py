@@ -8,7 +8,7 @@ import pytest
 from colour_vision import MATRICES, ciede2000, lab_of
 
 from flexact.model.parts.forms import Form
-from flexact.show.drawing import colours
+from flexact.show.drawing import members as colours
 
 #: Distances by CIEDE2000: of what is told apart at once, and of a ghost, which has outlines, from
 #: paper.

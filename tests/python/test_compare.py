@@ -10,7 +10,7 @@ from reference_decks import ROOT
 from small_decks import BROKEN, DECKS, files_in, write
 
 import flexact
-from flexact.analysis.comparing import Gravity, Side, change_of, side_of, stored_side
+from flexact.analysis.differences import Gravity, Side, change_of, side_of, stored_side
 from flexact.apps.cli.main import main
 from flexact.apps.cli.outcome import ExitCode
 

@@ -12,8 +12,8 @@ import pytest
 from small_decks import write
 
 from flexact.util import machine as control_groups
-from flexact.util import memory
-from flexact.util import processors as engine_processors
+from flexact.util import machine as engine_processors
+from flexact.util import machine as memory
 
 MB = 2.0**20
 V2 = "29 23 0:26 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw,nsdelegate\n"

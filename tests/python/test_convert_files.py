@@ -17,10 +17,8 @@ from reference_decks import text_of as deck_of
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.convert.convert_mesh_files import MeshError, mesh_bytes
 from flexact.apps.convert.files import bytes_of, read_any
-from flexact.apps.convert.mesh_files import model_of_mesh
-from flexact.apps.convert.mesh_writing import mesh_of
+from flexact.apps.convert.mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh
 from flexact.apps.convert.tables import TablesError, tables_of
 from flexact.apps.convert.text import PackageError, read_tables, text_of
 

@@ -16,11 +16,9 @@ from reference_decks import ROOT
 
 import flexact
 from flexact import Cost, Model, ModelError, cost
-from flexact.costs.elastic_design import Bench, Choice
-from flexact.costs.keeping import ratios
-from flexact.costs.quantities import in_words
+from flexact.costs.designs import Tolerance, in_words
+from flexact.costs.elastic_design import Bench, Choice, ratios
 from flexact.costs.resolve import Places
-from flexact.costs.values import Tolerance
 
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 

@@ -14,7 +14,9 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.costs.asking import (
+from flexact.costs.designs import Number, in_words
+from flexact.costs.json import HEADER
+from flexact.costs.request import (
     AskedError,
     misalignment_of,
     quantity,
@@ -22,9 +24,6 @@ from flexact.costs.asking import (
     shift_of,
     stroke_of,
 )
-from flexact.costs.json import HEADER
-from flexact.costs.quantities import in_words
-from flexact.costs.values import Number
 
 SIX = ROOT / "input_decks" / "paper" / "six_folded_sheets.dat"
 #: Two sheets that guide a stage, of case A03; with masses.

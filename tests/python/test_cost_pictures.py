@@ -17,16 +17,10 @@ from cost_values import CRITICAL, made_up_cost, numbers, without_masses, without
 
 import flexact
 from flexact.core.elements import NodeKind
-from flexact.costs.bars import MOST_CLAMPS, bars_of
-from flexact.costs.charts import charts_of
-from flexact.costs.designs import CostValues
-from flexact.costs.key import choices_of, key_of
+from flexact.costs.charts import MOST_CLAMPS, bars_of, charts_of, choices_of, key_of
+from flexact.costs.designs import CostValues, Number, Released
 from flexact.costs.plot import plot_bytes, plot_of
-from flexact.costs.values import Number, Released
-from flexact.show.charts import apart
-from flexact.show.scale import exact_scale, linear_scale, log_scale
-from flexact.show.series import STYLES
-from flexact.show.units import told, unit_for
+from flexact.show.charts import STYLES, apart, exact_scale, linear_scale, log_scale, told, unit_for
 
 matplotlib = pytest.importorskip("matplotlib")
 SVG = "{http://www.w3.org/2000/svg}"

@@ -16,8 +16,8 @@ import pytest
 
 import flexact
 from flexact import Model, Table, Verdict, analyse, sweep
-from flexact.sweeps.roots import Zero, minimum, sign_change
-from flexact.sweeps.signed import scaled_jacobian
+from flexact.sweeps.evaluate import scaled_jacobian
+from flexact.sweeps.search import Zero, minimum, sign_change
 
 DECKS = Path(__file__).parents[2] / "input_decks"
 BASE = [(math.cos(a), math.sin(a), 0.0) for a in np.radians((0, 120, 240))]
@@ -468,7 +468,7 @@ def test_a_grid_of_positions_is_searched_along_both_labels() -> None:
 def test_models_too_large_to_sign_in_passing_are_signed_when_asked(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("flexact.sweeps.sweeps_worker._MOST_SIGNED", 1)
+    monkeypatch.setattr("flexact.sweeps.evaluate._MOST_SIGNED", 1)
     table = sweep(platform, {"yaw": [70.0, 100.0]}, workers=1)
     assert table.crossings(workers=1).of("yaw") == pytest.approx([90], rel=1e-12)
 

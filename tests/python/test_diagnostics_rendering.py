@@ -8,10 +8,9 @@ from pathlib import Path
 import pytest
 
 import flexact
-from flexact.deck.diagnostics import Diagnostic, Place, Problems, Severity
+from flexact.deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
 from flexact.deck.rendering import render, render_problems
-from flexact.deck.source import Source
-from flexact.util.plain_text import harmless
+from flexact.util.text import harmless
 
 
 def problem(first: int, last: int, line: int = 1, **more: object) -> Diagnostic:

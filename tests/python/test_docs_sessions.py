@@ -14,7 +14,7 @@ from proofs import NEEDS_FLINT
 from test_docs import like
 from wording import AsStored
 
-from flexact.advice.spaces.families import FamilyKind
+from flexact.advice.spaces.screws import FamilyKind
 from flexact.apps.cli.main import main
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -17,7 +17,7 @@ from flexact.show.drawing import (
     move,
     stations,
 )
-from flexact.show.drawing.path import moved_by_screws
+from flexact.show.drawing.movement import moved_by_screws
 from flexact.show.drawing.rotations import matrix_of, vector_of
 
 

@@ -6,8 +6,8 @@ import pytest
 
 import flexact
 from flexact.show.drawing import drawing_of, move
-from flexact.show.drawing.freedoms import way_of
-from flexact.show.drawing.natural import Natural, natural_shape
+from flexact.show.drawing.movement import Natural, natural_shape
+from flexact.show.drawing.selection import way_of
 
 #: A lever on a hinge at node 1 moves the near end of a wire; nothing holds the turns of that end
 #: (node 6) and the far end (node 8) of the wire stands on a fixed point.

@@ -11,8 +11,7 @@ from known_models import twelve_trusses
 from reference_decks import ROOT
 
 import flexact
-from flexact.advice.spaces.families import Family, FamilyKind
-from flexact.advice.spaces.screw_space import ScrewSpace
+from flexact.advice.spaces.screws import Family, FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
 from flexact.show.drawing import SpaceShape, dashes, shape_of_space
 from flexact.show.drawing.spaces import MADE_BY

@@ -18,7 +18,7 @@ from reference_decks import NAMES, ROOT, text_of
 from test_editor_words import GUIDE
 
 from flexact.apps.cli.outcome import ExitCode
-from flexact.deck.errors import DeckError
+from flexact.deck.rendering import DeckError
 from flexact.model.reading import read_bytes
 
 pytest.importorskip("pygls")

@@ -9,17 +9,21 @@ from editor_fuzz import ask_everything, mutated, some_positions
 from reference_decks import NAMES, text_of
 
 import flexact
-from flexact.advice.advising import advice_of
+from flexact.advice.advice import advice_of
 from flexact.apps.editor.actions import edits_between, edits_of, mends_of, remedies_at
 from flexact.apps.editor.completion import complete_at
-from flexact.apps.editor.deck import WARPING
+from flexact.apps.editor.deck import WARPING, Deck
 from flexact.apps.editor.document import Document, Edit, Position
-from flexact.apps.editor.editor_deck import Deck
-from flexact.apps.editor.editor_problems import problems_of
 from flexact.apps.editor.hover import hover_at
-from flexact.apps.editor.navigation import RenameError, definition_at, references_at, rename_at
-from flexact.apps.editor.outline import folds_of, outline_of
-from flexact.apps.editor.problems import advice_on, opinion_on
+from flexact.apps.editor.outline import (
+    RenameError,
+    definition_at,
+    folds_of,
+    outline_of,
+    references_at,
+    rename_at,
+)
+from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
 from flexact.core.elements import element_kinds
 from flexact.deck.keywords import Block
 

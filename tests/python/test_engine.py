@@ -17,8 +17,7 @@ from dask_cluster import is_alive
 
 import flexact
 from flexact.sweeps import pool as local_pool
-from flexact.sweeps.engine_running import Done, EngineError, results_of
-from flexact.sweeps.running import MOST_ITEMS, Source
+from flexact.sweeps.running import MOST_ITEMS, Done, EngineError, Source, results_of
 
 MANY = 2000
 FORKS = pytest.mark.skipif(not local_pool.FORKS, reason="processes are not forked here")
@@ -255,7 +254,7 @@ def test_what_an_executor_has_not_begun_is_taken_back() -> None:
 
 SCRIPT = """
 import os, sys, time
-from flexact.sweeps.engine_running import results_of
+from flexact.sweeps.running import results_of
 
 def work(k):
     time.sleep(0.01 if k < 4 else 60)

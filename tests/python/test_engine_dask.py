@@ -12,7 +12,7 @@ import pytest
 from dask_cluster import Cluster, is_alive, running_cluster
 
 from flexact.sweeps import dask as dask_client
-from flexact.sweeps.engine_running import Done, EngineError, results_of
+from flexact.sweeps.running import Done, EngineError, results_of
 
 distributed = pytest.importorskip("distributed")
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from flexact.apps.cli.verbs import VERBS
+from flexact.apps.cli.command import VERBS
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
@@ -65,7 +65,7 @@ def test_an_offence_is_seen(tmp_path: Path) -> None:
 
     import numpy as np
 
-    from flexact.show.page.packing import floats
+    from flexact.show.page.assets import floats
 
     def offends(make: object) -> bool:
         return bool(offence_of(Output("test", make), "deck", ""))  # type: ignore[arg-type]

@@ -11,8 +11,7 @@ from proofs import CAN_PROVE, NEEDS_FLINT
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.core.arrays import FloatArray
-from flexact.core.basis import Basis
+from flexact.core.arrays import Basis, FloatArray
 
 #: Two cranks of one length side by side, and what joins them; the last bar is parallel to it.
 PARALLELOGRAM = """

@@ -12,8 +12,7 @@ from test_export_values import written
 from vtk_files import LINE, QUAD, VERTEX
 
 import flexact
-from flexact.show.mesh import mesh_content as content
-from flexact.show.mesh import mesh_of
+from flexact.show.mesh import content, mesh_of
 from flexact.show.mesh.file import find_format, mesh_bytes
 
 Read = Callable[[str], flexact.Analysis]

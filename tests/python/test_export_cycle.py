@@ -14,8 +14,7 @@ from vtk_files import LINE, QUAD
 
 import flexact
 from flexact.show.drawing.selection import select_motion
-from flexact.show.mesh.collection import write_collection
-from flexact.show.mesh.cycle import Cycle
+from flexact.show.mesh.collection import Cycle, write_collection
 from flexact.util.outputs import OutputError
 
 #: A rigid arm of length 2 that turns about z at (1, 0, 0).
@@ -174,7 +173,7 @@ def test_a_failing_cycle_leaves_no_folder(tmp_path: Path, monkeypatch: pytest.Mo
     cycle = Cycle(analysis, analysis.motions[0], tmp_path / "x.pvd")
     made = iter((b"first", b"second"))
     monkeypatch.setattr(
-        "flexact.show.mesh.cycle.mesh_bytes", lambda *given: next(made, None) or fail(*given)
+        "flexact.show.mesh.collection.mesh_bytes", lambda *given: next(made, None) or fail(*given)
     )
     with pytest.raises(OutputError, match="not enough memory"):
         write_collection(cycle)
@@ -205,6 +204,6 @@ def test_many_steps_of_a_large_mesh_hold_few_modes(
     analysis = flexact.analyse(ROOT / "input_decks" / "linkages" / "parallelogram_flat.dat")
     assert len(analysis.motions) == 2
     assert "motion_2" in vtk_files.read(steps_of(play(analysis))[0][1]).point_data
-    monkeypatch.setattr("flexact.show.mesh.mesh_content._NUMBERS", 1)
+    monkeypatch.setattr("flexact.show.mesh.content._NUMBERS", 1)
     data = vtk_files.read(steps_of(play(analysis))[0][1]).point_data
     assert "motion_1" in data and "motion_2" not in data

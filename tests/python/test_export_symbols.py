@@ -15,7 +15,7 @@ from vtk_files import QUAD
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.show.mesh.field_data import component_names, field_data_of
+from flexact.show.mesh.content import component_names, field_data_of
 
 CLAMP, PIN, SLIDE, TURN, TRANSLATION, ROTATION = range(6, 12)
 SOME = ["paper/six_folded_sheets", "linkages/sarrus", "flexures/planar_parallel_guide"]

@@ -18,8 +18,7 @@ import flexact
 from flexact.core.elements import Member, Role, element_kinds
 from flexact.show.drawing import Moving
 from flexact.show.mesh import mesh_of
-from flexact.show.mesh.file import find_format, mesh_bytes
-from flexact.show.mesh.polydata import polydata_bytes
+from flexact.show.mesh.file import find_format, mesh_bytes, polydata_bytes
 
 KINDS = {kind.keyword: kind for kind in element_kinds()}
 BEAMS, LINKS, BARS, JOINTS = (

@@ -10,10 +10,10 @@ import pytest
 from reference_decks import ROOT, text_of, transform
 
 import flexact
-from flexact.analysis.sentences import plain
-from flexact.model.models import read_text
-from flexact.motion.advising_extents import extent_in_words, finite_in_words
-from flexact.motion.extents import EvidenceKind, Extents, Kind, Reason, extents_of
+from flexact.analysis.naming import plain
+from flexact.model.reading import read_text
+from flexact.motion.extent import extent_in_words, finite_in_words
+from flexact.motion.finiteness import EvidenceKind, Extents, Kind, Reason, extents_of
 
 FINITE, BEGINS = Kind.FINITE, Kind.INFINITESIMAL
 CERTIFIED, FOLLOWED, FITTED = (

@@ -14,7 +14,7 @@ from wrong_use import code_of
 import flexact
 from flexact import Analysis, Model, analyse
 from flexact.apps.cli.main import main
-from flexact.util import memory
+from flexact.util import machine as memory
 
 LEAST = 5e-324
 HUGE = 1.7976931348623157e308

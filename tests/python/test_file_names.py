@@ -13,7 +13,8 @@ import pytest
 from small_decks import DECKS, write
 
 from flexact.apps.cli.main import main
-from flexact.util import names, outputs
+from flexact.util import outputs
+from flexact.util import outputs as names
 from flexact.util.decks import DeckFile
 from flexact.util.outputs import OutputError, plan_files, write_together
 

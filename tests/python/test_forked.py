@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import flexact
-from flexact.util.cached import cached_property
+from flexact.util.records import cached_property
 
 PACKAGE = Path(flexact.__file__).parent
 

@@ -9,9 +9,9 @@ from reference_decks import text_of
 
 import flexact
 from flexact.advice.holding import Hold, holds_of
-from flexact.advice.spaces.families import FamilyKind
+from flexact.advice.spaces.screws import FamilyKind
 from flexact.show.drawing import drawing_of
-from flexact.show.drawing.holding import shape_of_hold
+from flexact.show.drawing.spaces import shape_of_hold
 from flexact.show.page.drawing import frames_of
 from flexact.show.page.viewer import holds_data
 

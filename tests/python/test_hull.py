@@ -6,7 +6,7 @@ import itertools
 import numpy as np
 import pytest
 
-from flexact.show.drawing.hull import Hull, hull_round, polygon_round
+from flexact.show.drawing.bodies import Hull, hull_round, polygon_round
 
 
 def box(*sizes: float) -> np.ndarray:

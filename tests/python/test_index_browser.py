@@ -10,8 +10,7 @@ from reference_decks import ROOT
 from small_decks import BROKEN, DECKS, write
 
 from flexact.apps.cli.main import main
-from flexact.show.page import Entry
-from flexact.show.page import index as index_page
+from flexact.show.page import Entry, index_page
 
 Keys = pytest.importorskip("selenium.webdriver").Keys
 SHOWN = """return Array.from(document.querySelectorAll(".card")).filter(card => !card.hidden)

@@ -14,9 +14,9 @@ import flexact
 from flexact.core import calls
 from flexact.core.elements import NodeKind, element_kinds
 from flexact.deck import keywords as home
-from flexact.deck import numbers
-from flexact.deck.errors import DeckError
+from flexact.deck import keywords as numbers
 from flexact.deck.keywords import Block, Keyword, find_keyword, keywords, words_of
+from flexact.deck.rendering import DeckError
 from flexact.model.attributes import CrossSection
 
 PAGE = ROOT / "docs" / "decks.md"

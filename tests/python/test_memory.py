@@ -18,7 +18,7 @@ from verdicts import counts
 import flexact
 from flexact.apps.cli.main import main
 from flexact.core import _core
-from flexact.util import memory
+from flexact.util import machine as memory
 
 PAGE = mmap.PAGESIZE
 MB = 2**20

@@ -17,8 +17,8 @@ from flexact import Analysis, Model, analyse
 from flexact.advice.describe import describe
 from flexact.core import calls
 from flexact.core.arrays import FloatArray
-from flexact.show.log import log_text
-from flexact.util import memory
+from flexact.show.spacar_log import log_text
+from flexact.util import machine as memory
 
 
 @pytest.mark.parametrize("method", DENSE)

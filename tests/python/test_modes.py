@@ -15,7 +15,7 @@ import flexact
 from flexact import Motion, analyse
 from flexact.advice.describe import MOST_MODES, describe
 from flexact.show import mesh
-from flexact.show.log import log_text
+from flexact.show.spacar_log import log_text
 
 
 def test_modes_are_like_a_tuple() -> None:

@@ -16,9 +16,8 @@ import pytest
 
 import flexact
 from flexact.analysis.freedoms import FreeMotion
-from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.command import VERBS, parser_of
 from flexact.apps.cli.main import main
-from flexact.apps.cli.verbs import VERBS
 
 #: What arguments that take a point, a part or a degree of freedom are called.
 _POINTS = {"node", "point", "points", "about", "at", "clamp", "stroke", "misalign", "sd", "number"}

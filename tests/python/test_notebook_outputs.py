@@ -14,7 +14,7 @@ from notebook_outputs import ELEMENT, GALLERY, VIEWER, gallery, notebook, shown,
 from pictures import deck
 
 import flexact
-from flexact.show.notebook import given
+from flexact.show.notebook import output as given
 from flexact.show.notebook.output import script, style, tag
 from flexact.show.page import content_of
 
@@ -225,7 +225,8 @@ def test_names_stay_text() -> None:
 
 
 def test_without_packages_for_pictures_the_words_are_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    from flexact.show.notebook import models, stills
+    from flexact.show.notebook import output as stills
+    from flexact.show.notebook import rows as models
 
     for module in (stills, models):
         monkeypatch.setattr(module, "has_packages", lambda: False)

@@ -15,7 +15,7 @@ from pictures import deck
 from reference_decks import ROOT
 
 import flexact
-from flexact.show.notebook import given
+from flexact.show.notebook import output as given
 from flexact.show.notebook.output import script, tag
 from flexact.show.page import page
 

@@ -21,7 +21,7 @@ import json
 import sys
 from pathlib import Path
 import flexact
-from flexact.apps.watch.switches import Session, answered
+from flexact.apps.watch.live_edit import Session, answered
 
 session = Session(Path("deck.dat"))
 session.renew(flexact.analyse(flexact.read_text(Path(sys.argv[1]).read_text())))

@@ -10,9 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.command import VERBS, parser_of
 from flexact.apps.cli.main import main
-from flexact.apps.cli.verbs import VERBS
 
 DECK = "input_decks/flexures/notch_guide.dat"
 #: Values of options that take no choices, by what help calls them.

@@ -27,7 +27,9 @@ from flexact.apps.cli.main import main
 from flexact.apps.watch import worker_pool as crew
 from flexact.sweeps import journal
 from flexact.sweeps import pool as local_pool
-from flexact.util import interruption, memory, plain_text, windows
+from flexact.util import interruption, windows
+from flexact.util import machine as memory
+from flexact.util import text as plain_text
 
 HERE = Path(__file__).parent
 #: Characters of every kind that our words, or a deck, may hold.

@@ -16,8 +16,14 @@ from small_decks import files_in, write
 from flexact.apps.cli.outcome import ExitCode, Outcome, exit_code
 from flexact.util.decks import DeckFile, FolderError, find_decks
 from flexact.util.errors import BatchError
-from flexact.util.outputs import OutputError, plan_files, write_together, written_whole
-from flexact.util.temporary import remove_left, temporary_name
+from flexact.util.outputs import (
+    OutputError,
+    plan_files,
+    remove_left,
+    temporary_name,
+    write_together,
+    written_whole,
+)
 
 
 def test_a_folder_stands_for_its_decks_in_order(tmp_path: Path) -> None:

@@ -21,11 +21,9 @@ from reference_decks import ROOT
 
 import flexact
 from flexact.advice.describe import verdict_in_words
-from flexact.show.page import Entry, broken_page, content, page
-from flexact.show.page import index as index_page
+from flexact.show.page import Entry, broken_page, content, index_page, page
 from flexact.show.page import modes as modes_data
-from flexact.show.page.assets import SCRIPTS, asset, script
-from flexact.show.page.packing import json_for_script
+from flexact.show.page.assets import SCRIPTS, asset, json_for_script, script
 
 PAGE = ROOT / "python" / "flexact" / "page"
 CLAMPED = ROOT / "input_decks" / "paper" / "folded_sheet_clamped.dat"

@@ -14,7 +14,7 @@ from test_page import Elements
 
 import flexact
 from flexact.advice.describe import verdict_in_words
-from flexact.analysis.sentences import Named, sentence
+from flexact.analysis.naming import Named, sentence
 from flexact.show.page import before_and_after
 
 Keys = pytest.importorskip("selenium.webdriver").Keys

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from browser import Browser
 
-from flexact.show.page.terms import TERMS
+from flexact.show.page.assets import TERMS
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = sorted((ROOT / "docs" / "gallery").glob("*.py"))

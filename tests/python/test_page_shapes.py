@@ -12,7 +12,7 @@ from reference_decks import ROOT
 import flexact
 from flexact.core.elements import NodeKind
 from flexact.show.drawing import QUANTITIES, Drawing, drawing_of, move, resultants, solid, stations
-from flexact.show.drawing.freedoms import way_of
+from flexact.show.drawing.selection import way_of
 
 #: Sheets, wires, bars, rigid links, hinges; in space and in the plane; on paths and on screws.
 DECKS = (

@@ -28,11 +28,11 @@ from reference_decks import NAMES, ROOT
 
 import flexact
 from flexact import Analysis, Model, analyse
-from flexact.analysis import result_spaces as spaces
+from flexact.analysis import spaces
 from flexact.analysis import sparse_basis as group_sparse
+from flexact.analysis.decomposition import column_weights, row_duals, row_factors, row_weights
 from flexact.analysis.sparse_basis import columns_of, pieces_of
-from flexact.analysis.weights import column_weights, row_duals, row_factors, row_weights
-from flexact.core.basis import Basis
+from flexact.core.arrays import Basis
 from flexact.core.elements import Dual
 
 _KNOWN: dict[str, Analysis] = {}

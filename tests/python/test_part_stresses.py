@@ -14,7 +14,7 @@ from reference_decks import NAMES, ROOT
 
 from flexact import Analysis, Model, ModelError, SelfStress, analyse
 from flexact.analysis.part_stresses import Load
-from flexact.analysis.wrenches import Wrench, WrenchKind
+from flexact.analysis.screws import Wrench, WrenchKind
 from flexact.model.parts.parts import PartKind, natural
 
 DECKS = [name for name in NAMES if not name.startswith("broken")]

@@ -9,11 +9,11 @@ import pytest
 from small_decks import write
 
 from flexact import analyse
-from flexact.apps.cli import verbs
+from flexact.apps.cli import command as verbs
 from flexact.apps.cli.command import parser_of
 from flexact.apps.cli.main import main
-from flexact.apps.watch.answering import answer_of
-from flexact.apps.watch.watching_messages import Job, Shown
+from flexact.apps.watch.messages import Job, Shown
+from flexact.apps.watch.worker import answer_of
 from flexact.util.errors import FlexactError
 from flexact.util.partial import STRICT, attempted
 

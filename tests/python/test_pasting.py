@@ -22,12 +22,11 @@ import flexact
 from flexact import FlexactError, Model
 from flexact.advice.describe import describe
 from flexact.advice.words import describe as advised
-from flexact.analysis.advice_ways import Coordinate, on_motions
-from flexact.analysis.motions import group_in_words
-from flexact.analysis.naming import part_in_words
+from flexact.analysis.mode_words import group_in_words
+from flexact.analysis.naming import part_in_words, plain
 from flexact.analysis.places import part_words
 from flexact.analysis.screws import ScrewKind
-from flexact.analysis.sentences import plain
+from flexact.analysis.ways import Coordinate, on_motions
 from flexact.apps.cli.main import main
 
 DECK = "BEAM 1 1 2 3 4 0 1 0\nX 3 0.1 0 0\nFIX 1\nFIX 2\nRLSE 1 2 5 6\nEND\nHALT\n"

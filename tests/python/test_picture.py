@@ -17,8 +17,8 @@ from small_decks import COLLINEAR, DECKS, TRIANGLE
 
 import flexact
 from flexact.show.drawing import BENDING, QUANTITIES, Resultants, drawing_of
-from flexact.show.drawing.colours import ARROW, FREEDOM
 from flexact.show.drawing.diagrams import diagrams_of
+from flexact.show.drawing.members import ARROW, FREEDOM
 from flexact.show.drawing.selection import NotThereError
 from flexact.show.drawing.view import view_of
 

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from flexact.show.picture.depth import SAMPLES, Facets, painted, visible
+from flexact.show.picture.canvas import SAMPLES, Facets, painted, visible
 
 SIZE = 60
 RED, GREEN, BLUE = np.eye(3)

@@ -166,7 +166,7 @@ def test_names_are_text_whatever_they_contain(name: str) -> None:
     tags = {element.tag.rpartition("}")[2] for element in root.iter()}
     assert "script" not in tags
     assert not any("onload" in element.attrib for element in root.iter())
-    from flexact.util.plain_text import harmless
+    from flexact.util.text import harmless
 
     told = [element.text for element in root.iter(f"{SVG}text")]
     assert harmless(name) in told

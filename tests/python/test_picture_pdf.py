@@ -17,7 +17,7 @@ from small_decks import COLLINEAR
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.util.plain_text import harmless
+from flexact.util.text import harmless
 
 pytest.importorskip("matplotlib")
 pytest.importorskip("PIL")

@@ -12,7 +12,7 @@ from known_models import ring
 from test_cli_process import process_environment
 
 import flexact
-from flexact.apps.cli import bar
+from flexact.apps.cli import terminal as bar
 from flexact.apps.cli.main import main
 from flexact.core.arrays import IntArray
 from flexact.core.calls import STAGES

@@ -11,9 +11,8 @@ from typing import Any
 import pytest
 
 import flexact
-from flexact.apps.cli.command import parser_of
+from flexact.apps.cli.command import VERBS, parser_of
 from flexact.apps.cli.main import main
-from flexact.apps.cli.verbs import VERBS
 from flexact.util.quantities import _KINDS, QuantityError, measured, quantity
 
 GUIDE = "input_decks/flexures/notch_guide.dat"

@@ -16,13 +16,15 @@ from small_decks import COLLINEAR
 
 import flexact
 from flexact.apps.checks import stored_answer
-from flexact.apps.checks.projections import VECTORS, Images, fixed_vectors
-from flexact.apps.checks.regress_comparison import Tolerances, differences
+from flexact.apps.checks.comparison import Tolerances, differences
 from flexact.apps.checks.stored_answer import (
+    VECTORS,
+    Images,
     Projector,
     StoredAnswer,
     StoredAnswerError,
     answer_of,
+    fixed_vectors,
     read_answer,
     text_of,
 )

@@ -10,8 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from flexact.advice.spaces.families import FamilyKind
-from flexact.advice.spaces.screw_space import ScrewSpace, canonical
+from flexact.advice.spaces.screws import FamilyKind, ScrewSpace, canonical
 
 K = FamilyKind
 X, Y, Z = np.eye(3)

@@ -21,10 +21,8 @@ from small_decks import DECKS, write
 import flexact
 from flexact.apps.cli.main import main
 from flexact.core.elements import NodeKind
-from flexact.show import spacar_matrix
-from flexact.show.spacar_log import spacar_log
-from flexact.show.spacar_matrix import dcc
-from flexact.show.spacar_numbering import SpacarNumbering
+from flexact.show import spacar_log as spacar_matrix
+from flexact.show.spacar_log import SpacarNumbering, dcc, spacar_log
 
 oracle_deck: Any = importlib.import_module("oracle_deck")
 oracle_analysis: Any = importlib.import_module("oracle_analysis")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stiffness_decks import EA, EI, EI_IN, GJ, LENGTH, cross_hinge, deck, elastic, guide
 
-from flexact.elasticity.roots import rises_to
+from flexact.elasticity.tolerance import rises_to
 
 #: The clamps of the guide turn about a line at mid height.
 MIDDLE = (0.0, 0.0, LENGTH / 2)

@@ -6,17 +6,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from flexact.analysis import result_sparse_basis as subspace
-from flexact.analysis.result_sparse_basis import (
+from flexact.analysis import sparse_basis as subspace
+from flexact.analysis.sparse_basis import (
     Sparse,
     norms_of_product,
     orthonormal,
     row_norms,
     support_of,
 )
-from flexact.apps.checks.projections import fixed_vectors, project
-from flexact.core.arrays import FloatArray
-from flexact.core.basis import Basis
+from flexact.apps.checks.stored_answer import fixed_vectors, project
+from flexact.core.arrays import Basis, FloatArray
 
 SIZE = 60
 

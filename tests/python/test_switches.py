@@ -14,11 +14,8 @@ from known_models import guide
 from reference_decks import NAMES, ROOT
 
 import flexact
-from flexact.apps.watch.calls import Calls
-from flexact.apps.watch.editable_model import Board
-from flexact.apps.watch.places import Edit, Place, states_of
-from flexact.apps.watch.statements import EditedDeck, edited
-from flexact.apps.watch.switches import Session, answered
+from flexact.apps.watch.editable_model import Board, Edit, Place, states_of
+from flexact.apps.watch.live_edit import Calls, EditedDeck, Session, answered, edited
 from flexact.core.elements import Class
 from flexact.model.data import ModelData
 

@@ -11,8 +11,7 @@ from test_sweep import platform
 
 import flexact
 from flexact import Model, Verdict, analyse, tolerances
-from flexact.sweeps.misaligned import misaligned, spread_given
-from flexact.sweeps.tolerances import Share
+from flexact.sweeps.tolerances import Share, misaligned, spread_given
 
 
 def guide(beams: int = 1) -> Model:

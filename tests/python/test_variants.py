@@ -10,9 +10,8 @@ import pytest
 import flexact
 from flexact.core.elements import Class
 from flexact.model.variation import positions_given
-from flexact.sweeps.columns import WANTS
+from flexact.sweeps.columns import WANTS, row_of
 from flexact.sweeps.evaluate import swept
-from flexact.sweeps.row import row_of
 
 DECKS = Path(__file__).resolve().parents[2] / "input_decks"
 SAMPLES = (

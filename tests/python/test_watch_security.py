@@ -22,9 +22,9 @@ import pytest
 from test_watch import EXACT, GUIDE
 from watched import ADDRESS, Events, Page, RefusedError, Watched, ask, is_running, until, watching
 
-from flexact.apps.watch import frames
 from flexact.apps.watch import worker_pool as crew
-from flexact.apps.watch.guard import Secrets
+from flexact.apps.watch import worker_pool as frames
+from flexact.apps.watch.server import Secrets
 
 pytestmark = pytest.mark.posix
 
@@ -412,7 +412,7 @@ def test_links_that_are_laid_for_the_key_are_not_followed(
 def test_without_a_home_a_watch_has_a_secret_for_this_time(shared: Path) -> None:
     shared.chmod(0o777)
     code = (
-        "import sys; sys.path[:0] = sys.argv[1:]; from flexact.apps.watch.guard import Secrets; "
+        "import sys; sys.path[:0] = sys.argv[1:]; from flexact.apps.watch.server import Secrets; "
         "made = [Secrets('guide.dat') for _ in range(2)]; door = made[0].door('http://x/'); "
         "print(made[0].token != made[1].token, oct(door.stat().st_mode)[-3:], "
         "oct(door.parent.stat().st_mode)[-3:]); made[0].close(); print(door.parent.exists())"

@@ -14,8 +14,9 @@ from windows_doubles import Function, Kernel
 
 import flexact
 from flexact.model.model import Model
-from flexact.util import memory, windows
-from flexact.util import processors as engine_processors
+from flexact.util import machine as engine_processors
+from flexact.util import machine as memory
+from flexact.util import windows
 
 GB = 2**30
 SIZES = {

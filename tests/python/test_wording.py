@@ -37,14 +37,13 @@ import flexact
 from flexact import Analysis, Model, analyse
 from flexact.advice.describe import describe
 from flexact.analysis.decomposition import Asked
-from flexact.apps.checks.regress_comparison import differences
+from flexact.apps.checks.comparison import differences
 from flexact.apps.checks.stored_answer import StoredAnswerError, answer_of, read_answer
 from flexact.apps.cli.main import main
 from flexact.core import calls
 from flexact.core.arrays import model_arrays
-from flexact.show.log import log_text
-from flexact.show.spacar_log import spacar_log
-from flexact.util import memory
+from flexact.show.spacar_log import log_text, spacar_log
+from flexact.util import machine as memory
 from flexact.util.decks import DeckFile
 from flexact.util.outputs import OutputError, plan_files, write_together
 

@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 import gallery  # noqa: E402
 
 from flexact.show.page.assets import SCRIPTS, asset, script  # noqa: E402
-from flexact.show.page.page import page  # noqa: E402
+from flexact.show.page.content import page  # noqa: E402
 
 #: From disk a page has no origin, so its files are allowed by their scheme.
 POLICY = (

@@ -14,20 +14,18 @@ from ..analysis.change import Change
 from ..analysis.result import Result
 from ..analysis.verdict import Verdict
 from ..core.progress import Progress
-from ..motion.decide import extents_of
 from ..motion.extent import EvidenceKind, Extent, Extents, Kind, Reason
-from ..util.cached import cached_property
+from ..motion.finiteness import extents_of
 from ..util.errors import FlexactError
 from ..util.partial import attempted
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
 from .causes.cause import Cause, CauseKind, Causes
 from .causes.causes import causes_of
 from .describe import MOST_MODES
 from .json import dictionary_of
 from .motions import AdvisedMotion, AdvisedStress
 from .proposal import Proposal, Purpose, tried
-from .releases.declarations import Declarations, declarations_of
-from .releases.releases import Releases, releases_of
+from .releases.releases import Declarations, Releases, declarations_of, releases_of
 from .spaces.spaces import Spaces, spaces_of
 from .steps import Step, together
 from .undeclaring import undeclarations_of

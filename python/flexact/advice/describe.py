@@ -8,16 +8,22 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import NamedTuple
 
-from ..analysis.mode_words import conflict_in_words, stress_in_parts
-from ..analysis.motions import internal_in_words, motion_in_parts
-from ..analysis.naming import counted, in_words
+from ..analysis.mode_words import (
+    conflict_in_words,
+    internal_in_words,
+    motion_in_parts,
+    stress_in_parts,
+)
+from ..analysis.naming import Line, Pieces, counted, filled, in_words, sentence
 from ..analysis.result import Result
-from ..analysis.sentences import Line, Pieces, filled, sentence
-from ..analysis.text_margin import margin_line, verdict_in_short
-from ..analysis.verdict_words import decision, declared_in_words
-from ..analysis.warnings import warnings_of
-from ..util.plain_text import harmless
-from ..util.text import TIE, USUAL, table
+from ..analysis.verdict_words import (
+    decision,
+    declared_in_words,
+    margin_line,
+    verdict_in_short,
+    warnings_of,
+)
+from ..util.text import TIE, USUAL, harmless, table
 from .ways_words import lines_on_motions, lines_on_self_stresses
 
 #: How many motions, and how many self-stresses, are reported one by one on a screen.

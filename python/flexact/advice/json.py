@@ -4,22 +4,71 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..analysis.change import Change
-from ..analysis.json_result import header
+from ..analysis.json import header
+from ..analysis.naming import filled
+from ..analysis.result import Result
+from ..core.arrays import FloatArray
 from ..core.elements import Class
 from .causes.cause import Cause, CauseKind
-from .json_spaces import dictionary_of_spaces
 from .left_out import left_out
 from .motions import AdvisedMotion, dictionary_of_body
 from .proposal import Proposal, Purpose
+from .spaces.screws import Family, ScrewSpace
+from .spaces.spaces import Spaces
+from .spaces.words import spaces_lines
 from .steps import Step
 
 if TYPE_CHECKING:
     from .advice import Advice
 
+
 Entries = dict[str, Any]
+
+
+def dictionary_of_spaces(result: Result, spaces: Spaces, wanted: Sequence[str]) -> Entries:
+    """The names and values of the JSON, in their order."""
+    return {
+        "body": spaces.subject.name,
+        "wanted": list(wanted),
+        "freedom": _space(spaces.freedom),
+        "constraint": _space(spaces.constraint),
+        "statements": [" ".join(filled(line).split()) for line in spaces_lines(result, spaces)],
+    }
+
+
+def _space(space: ScrewSpace) -> Entries:
+    return {
+        "dimension": space.dimension,
+        "about": space.about.tolist(),
+        "basis": space.basis.tolist(),
+        "families": [_family(family) for family in space.families],
+    }
+
+
+def _family(family: Family) -> Entries:
+    return {
+        "kind": family.kind.value,
+        "point": family.point.tolist(),
+        "direction": _vector(family.direction),
+        "normal": _vector(family.normal),
+        "pitch": family.pitch,
+        "lines": [
+            [point.tolist(), along.tolist()]
+            for point, along in zip(family.points, family.directions, strict=True)
+        ],
+    }
+
+
+def _vector(vector: FloatArray) -> list[float] | None:
+    made: list[float] = vector.tolist()
+    return made if np.any(vector) else None
+
 
 #: What is said of the empty set.
 _NOTHING = {

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from ..analysis.naming import counted
 from ..motion.extent import Reason
 from .causes.cause import CauseKind
-from .releases.declarations import Declarations
-from .releases.releases import Releases
+from .releases.releases import Declarations, Releases
 
 if TYPE_CHECKING:
     from .advice import Advice

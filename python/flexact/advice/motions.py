@@ -8,21 +8,110 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ..analysis.body_motions import BodyMotion
+from ..analysis.mode_words import (
+    conflict_in_words,
+    group_in_words,
+    joined,
+    largest_first,
+    motion_in_parts,
+    parts_in_words,
+    pressing_in_words,
+    stress_in_parts,
+)
 from ..analysis.modes import Motion, SelfStress
-from ..analysis.naming import named_node
-from ..analysis.places import joint_node
+from ..analysis.naming import Named, Piece, Pieces, in_words, named_node
+from ..analysis.places import joint_node, with_article
 from ..analysis.result import Result
 from ..analysis.screws import Screw, ScrewKind
-from ..analysis.sentences import Pieces
-from ..motion.advising_extents import extent_in_words
-from ..motion.extent import Extent
-from ..util.cached import cached_property
-from ..util.records import Frozen
-from .advising_motions import motion_in_sentence, moving_groups, nothing_stops
+from ..motion.extent import Extent, extent_in_words
+from ..util.records import Frozen, cached_property
 from .causes.cause import Cause, Causes
 from .causes.words import cause_of_motion_in_words, cause_of_stress_in_words
-from .self_stresses import stress_in_sentence
-from .sentences import in_a_row, sentence
+from .words import begun, ended, in_a_row, sentence
+
+#: How many deformations of a large model are told.
+_MOST_TOLD = 4
+#: How many names stand in a row; they may hold commas.
+_MOST_NAMES = 8
+
+
+def stress_in_sentence(result: Result, stress: SelfStress) -> Pieces:
+    """Which parts fight over what; where that cannot be said in short, what they carry."""
+    conflict = conflict_in_words(stress)
+    if conflict:
+        names = pressing_in_words(stress)
+        return ended((*begun(conflict), *((f": {_row(names)}",) if names else ())))
+    if not result.is_told_by_parts:
+        told = stress_in_parts(stress, _MOST_TOLD)[:_MOST_TOLD]
+        return ended(("Most stressed are ", *joined(told)))
+    parts = stress_in_parts(stress, len(stress.parts))
+    if len(parts) == 1:
+        return sentence(("stressed in itself is ", *parts[0]))
+    many = in_words(len(parts)).capitalize()
+    return ended((f"{many} parts are stressed against each other: ", *joined(parts)))
+
+
+def _row(names: tuple[str, ...]) -> str:
+    rest = len(names) - _MOST_NAMES
+    return "; ".join(names[:_MOST_NAMES]) + (f"; {rest} more" if rest > 0 else "")
+
+
+#: How many things that move are named.
+_MOST_NAMED = 3
+
+
+def motion_in_sentence(result: Result, motion: Motion) -> Pieces:
+    """What moves; joints that bodies take along are not named."""
+    if not result.is_told_by_parts:
+        return joined(motion_in_parts(motion, _MOST_NAMED))
+    if motion.is_internal:
+        if motion.ends:
+            ends = [group_in_words(result, each, len(motion.ends) == 1) for each in motion.ends]
+            return (*joined(ends), ", and nothing else moves")
+        inside = parts_in_words(result, motion.internal_to)
+        return ("inside ", *inside, " something moves, and nothing outside does")
+    told = moving_groups(result, motion)
+    groups = tuple(group_in_words(result, group, len(told) == 1) for group in told)
+    pieces = tuple(map(_called, joined(groups)))
+    is_inside = result.are_between_ends[motion.index]
+    return (*pieces, ", and nothing else moves") if is_inside else pieces
+
+
+def nothing_stops(result: Result, motion: Motion) -> str:
+    """That nothing stops it, or them, to stand behind what moves."""
+    if not result.is_told_by_parts or motion.is_internal:
+        return ": nothing stops it"
+    told = moving_groups(result, motion)
+    is_one = len(told) == 1 and len(told[0].names) == 1
+    return f": nothing stops {'it' if is_one else 'them'}"
+
+
+def moving_groups(result: Result, motion: Motion) -> tuple[BodyMotion, ...]:
+    """What a designer looks at in a motion, the largest first.
+
+    Bodies; where none moves, ends and joints; where none of them does, folds.
+    """
+    groups = largest_first(motion)
+    bodies = tuple(group for group in groups if group.bodies)
+    if bodies:
+        return bodies
+    joints = (_without_folds(group) for group in groups)
+    return tuple(group for group in joints if group.joints) or tuple(groups)
+
+
+def _without_folds(group: BodyMotion) -> BodyMotion:
+    return group._replace(joints=tuple(joint for joint in group.joints if not joint.is_fold))
+
+
+def _called(piece: Piece) -> Piece:
+    """A point that is named "sheet 1, fold" as one says it: the fold of sheet 1."""
+    if not isinstance(piece, Named) or piece.kind != "node":
+        return piece
+    whole, comma, own = piece.words.rpartition(", ")
+    if not comma or not own[:1].islower():
+        return piece
+    return piece._replace(words=f"{with_article(own)} of {with_article(whole)}")
 
 
 class MovingBody(NamedTuple):

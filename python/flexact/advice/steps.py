@@ -8,19 +8,17 @@ from dataclasses import dataclass, fields
 from itertools import chain
 
 from ..analysis.change import Change
-from ..analysis.naming import counts_in_words
+from ..analysis.naming import Pieces, counts_in_words, plain
 from ..analysis.result import Result
-from ..analysis.sentences import Pieces, plain
-from ..deck.errors import model_error
+from ..deck.rendering import model_error
 from ..model.model import Model
-from ..util.cached import cached_property
-from ..util.records import Frozen
-from .advising_undeclaring import undeclaration_in_words
+from ..util.records import Frozen, cached_property
 from .causes.words import mend_in_words
 from .proposal import After, Proposal, Purpose
-from .releases.advising_releases import declaration_in_words, release_in_words
-from .sentences import sentence
+from .releases.words import declaration_in_words, release_in_words
 from .spaces.words import wire_in_words
+from .undeclaring import undeclaration_in_words
+from .words import sentence
 
 _WORDS: dict[Purpose, Callable[[Result, Proposal], Pieces]] = {
     Purpose.MEND: mend_in_words,

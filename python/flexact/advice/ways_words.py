@@ -5,12 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..analysis.advice_ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 from ..analysis.calls import calls_of
-from ..analysis.naming import counts_in_words, in_words, part_in_words
+from ..analysis.naming import (
+    Line,
+    Pieces,
+    counts_in_words,
+    in_words,
+    part_in_words,
+    plain,
+    sentence,
+)
 from ..analysis.places import listed, part_words
 from ..analysis.result import Result
-from ..analysis.sentences import Line, Pieces, plain, sentence
+from ..analysis.ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 
 #: How many parts an advice names.
 _PARTS = 6

@@ -3,28 +3,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from itertools import groupby, islice
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..analysis.motions import internal_in_words
-from ..analysis.naming import counted, counts_in_words
+from ..analysis.mode_words import internal_in_words
+from ..analysis.naming import Line, Named, Piece, Pieces, counted, counts_in_words, filled, plain
+from ..analysis.naming import sentence as line_of
 from ..analysis.places import listed
-from ..analysis.sentences import Line, Pieces, filled, plain, sentence
 from ..analysis.verdict import Verdict
-from ..motion.advising_extents import finite_in_words
-from ..util.plain_text import harmless
-from ..util.text import USUAL
+from ..motion.extent import finite_in_words
+from ..util.text import USUAL, harmless
 from .causes.words import both_in_words
 from .describe import MOST_MODES, verdict_in_words
 from .left_out import left_out
 from .proposal import Purpose
-from .sentences import begun, ended, in_a_row
 from .spaces.words import spaces_lines
 
 if TYPE_CHECKING:
     from .advice import Advice
+
+
+def begun(pieces: Pieces) -> Pieces:
+    """The pieces with a capital first letter, as a sentence begins."""
+    for place, piece in enumerate(pieces):
+        if str(piece):
+            return (*pieces[:place], _capital(piece), *pieces[place + 1 :])
+    return pieces
+
+
+def ended(pieces: Pieces, mark: str = ".") -> Pieces:
+    """The pieces with a mark at their end, in place of the one that is there."""
+    if not pieces:
+        return pieces
+    last = pieces[-1]
+    if isinstance(last, Named):
+        return (*pieces, mark)
+    return (*pieces[:-1], last.rstrip(" .:;") + mark)
+
+
+def sentence(pieces: Pieces) -> Pieces:
+    """The pieces from a capital letter to a full stop; nothing where there are no words."""
+    return ended(begun(pieces)) if plain(pieces).strip() else ()
+
+
+def in_a_row(sentences: Iterable[Pieces]) -> str:
+    """Sentences behind each other, as text."""
+    return " ".join(words for words in map(plain, sentences) if words)
+
+
+def _capital(piece: Piece) -> Piece:
+    words = str(piece)
+    first = words[:1].upper() + words[1:]
+    return piece._replace(words=first) if isinstance(piece, Named) else first
+
 
 #: How many steps of one aim and outcome stand on a screen.
 MOST_STEPS = 6
@@ -100,25 +133,25 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
 
 def _verdict(advice: Advice, width: int) -> str:
     result = advice.analysis
-    words = filled(sentence(str(verdict_in_words(result))), width=width)
+    words = filled(line_of(str(verdict_in_words(result))), width=width)
     return f"{harmless(result.name)}\n{words}" if result.name else words
 
 
 def _motions(advice: Advice, known: _Known) -> Iterator[Told]:
     if not advice.analysis.under_constrained:
         return
-    yield Told(sentence("What nothing stops"))
+    yield Told(line_of("What nothing stops"))
     whole = advice.analysis.with_internal_declared
     told = [each for each in advice.motions if whole is None or not each.motion.is_internal]
     told_at = {each.motion.index + 1: each.sentences for each in told}
     yield from _modes(told_at, "motion", known)
     yield from _more(len(told) - MOST_MODES, "motion", "s")
     if not advice.motions:
-        yield Told(sentence("  None of them is given one by one; the method svd gives all."))
+        yield Told(line_of("  None of them is given one by one; the method svd gives all."))
     if whole is not None and (internal := internal_in_words(advice.analysis)):
         counts = counts_in_words(whole.under_constrained, whole.over_constrained)
         as_one = f"With each of them as one beam (flexact declare) the mechanism is {counts}."
-        yield Told(sentence(f"  {internal} {as_one}"), hangs=True)
+        yield Told(line_of(f"  {internal} {as_one}"), hangs=True)
     for line in finite_in_words(advice.extents) if len(told) > 1 else ():
         yield Told(line._replace(head=("  ", *line.head)), hangs=True)
 
@@ -126,7 +159,7 @@ def _motions(advice: Advice, known: _Known) -> Iterator[Told]:
 def _stresses(advice: Advice, known: _Known) -> Iterator[Told]:
     if not advice.self_stresses:
         return
-    yield Told(sentence("What is stopped twice"))
+    yield Told(line_of("What is stopped twice"))
     told_at = {each.stress.index + 1: each.sentences for each in advice.self_stresses}
     yield from _modes(told_at, "self-stress", known)
     yield from _more(advice.analysis.over_constrained - MOST_MODES, "self-stress", "es")
@@ -144,7 +177,7 @@ def _modes(told_at: Mapping[int, Sequence[Pieces]], what: str, known: _Known) ->
         yield _item(number, (*head, *(piece for each in pieces for piece in each)))
     if of_all:
         words = in_a_row(of_all)
-        yield Told(sentence(f"  Each of them: {words[0].lower()}{words[1:]}"), hangs=True)
+        yield Told(line_of(f"  Each of them: {words[0].lower()}{words[1:]}"), hangs=True)
 
 
 class _Known:
@@ -172,20 +205,20 @@ def _steps(advice: Advice, most: int | None) -> Iterator[Section]:
     if not advice.steps and advice.analysis.verdict is Verdict.EXACT:
         is_had = advice.spaces is None or all(each.is_free for each in advice.spaces.wanted)
         but = "" if is_had else ", but what is wanted is stopped"
-        yield (Told(sentence(f"There is nothing to mend{but}.")),)
+        yield (Told(line_of(f"There is nothing to mend{but}.")),)
     kinds = groupby(advice.steps, lambda one: (_AIMS[one.purpose], one.outcome))
     for (aim, outcome), steps in kinds:
         told = tuple(steps)
         shown = told[:most]
         yield (
-            Told(sentence(f"{aim}; then it is {outcome}"), hangs=True),
+            Told(line_of(f"{aim}; then it is {outcome}"), hangs=True),
             *(_item(step.number, step.pieces) for step in shown),
             *_more(len(told) - len(shown), "such way", "s"),
         )
     if numbers := tuple(map(str, advice.exact_by)):
         how = f"--apply {','.join(numbers)}"
         words = f"Steps {listed(numbers)} together make it exactly constrained ({how})."
-        yield (Told(sentence(words)),)
+        yield (Told(line_of(words)),)
 
 
 def _left_out(advice: Advice) -> Iterator[Told]:
@@ -199,4 +232,4 @@ def _item(number: int, pieces: Pieces) -> Told:
 
 def _more(count: int, what: str, ending: str) -> Iterator[Told]:
     if count > 0:
-        yield Told(sentence(f"  ... and {counted(count, f'more {what}', '', ending)}"))
+        yield Told(line_of(f"  ... and {counted(count, f'more {what}', '', ending)}"))

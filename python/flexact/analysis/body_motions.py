@@ -10,16 +10,39 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..deck.errors import model_error
+from ..deck.rendering import model_error
+from ..model.data import ModelData
 from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Part, PartKind, natural
-from ..util.cached import cached_property
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
 from .carriers import Joint
 from .decomposition import Outcome
 from .locate import part_of, position_of
 from .screws import Screw, screw_of
-from .velocities import Velocities
+
+
+@dataclass(frozen=True, eq=False)
+class Velocities(Frozen):
+    """The velocities of all nodes of a model.
+
+    Attributes:
+        data: The model.
+        displacement: (nodes, 3) of each position [m]; zero rows for orientations.
+        rotation: (nodes, 3) of each orientation [rad]; zero rows for positions.
+    """
+
+    data: ModelData
+    displacement: FloatArray
+    rotation: FloatArray
+
+    def at_all_nodes(self, condensed: Condensed) -> tuple[FloatArray, FloatArray]:
+        """Displacement and rotation at the nodes of the model as it was given."""
+        if not condensed.chains:
+            return self.displacement, self.rotation
+        made = condensed.motion(self.displacement, self.rotation)
+        for array in made:
+            array.flags.writeable = False
+        return made
 
 
 class NodeMotion(NamedTuple):

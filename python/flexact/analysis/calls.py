@@ -10,20 +10,20 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.elements import Class, Member, NodeKind, Role
-from ..deck.errors import ModelError
+from ..deck.rendering import ModelError
 from ..model.data import ModelData
 from ..model.model import Model
-from ..model.model_places import ROUNDING
 from ..model.parts.condensing import condensed
 from ..model.parts.forms import is_member
 from ..model.parts.parts import Part as NamedPart
 from ..model.parts.parts import PartKind, Parts
+from ..model.places import ROUNDING
 from ..model.words import AT_Q
-from .advice_ways import Coordinate, Deformation, Part, Step, Way
 from .change import Change
 from .decomposition import Outcome
 from .deformation_words import bending_of, part_of, role_of
 from .locate import positions_near
+from .ways import Coordinate, Deformation, Part, Step, Way
 
 #: What a method of a model is, by the statement of a deck that does the same.
 _METHODS = {"DYNX": "independent", "FIX": "fix", "RLSE": "release", "DYNE": "independent"}

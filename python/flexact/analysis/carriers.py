@@ -10,7 +10,7 @@ import numpy as np
 from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts, natural
-from ..util.cached import cached_property
+from ..util.records import cached_property
 
 #: How many of the parts that meet at a joint its name names.
 _MOST_NAMED = 3

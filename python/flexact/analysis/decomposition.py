@@ -4,26 +4,106 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core import calls
-from ..core.arrays import FloatArray
+from ..core.arrays import FloatArray, IntArray
+from ..core.elements import Dual, NodeKind, dual_table
 from ..core.raw import RawAnalysis, RawAssembly
+from ..model.attributes import Labels, column_labels, row_labels
 from ..model.data import ModelData
-from ..model.labels import Labels, column_labels, row_labels
 from ..model.parts.condensing import Condensed
 from ..model.parts.parts import Parts
-from ..util import memory
-from ..util.cached import cached_property
-from ..util.records import Frozen
-from .accuracy import Accuracy
+from ..util import machine as memory
+from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
+from ..util.records import Frozen, cached_property
+from ..util.text import in_short
 from .carriers import Carriers
-from .failing import completed
 from .screws import ROUNDING
-from .verdict import ClassCounts, Counts, Gap, Proof, Verdict
+from .verdict import AnalysisError, ClassCounts, Counts, Gap, Margin, Proof, Verdict, completed
+
+#: A length [m], or a length [m] and an angle [rad]; a text says its unit, such as "20um,1mrad".
+AccuracyGiven = Quantity | Iterable[Quantity | None]
+
+_NO_NUMBERS = (bytes, bytearray, memoryview)
+
+
+class Accuracy(NamedTuple):
+    """How far nodes and elements of the machine may lie from where the model has them."""
+
+    length: float
+    """Of nodes [m]."""
+    angle: float | None = None
+    """Of elements [rad]; None where nothing is known of it."""
+
+    def __str__(self) -> str:
+        """As the command takes it, such as "2e-05,0.0001"."""
+        return ",".join(repr(part) for part in self if part is not None)
+
+    def exceeds(self, margin: Margin) -> tuple[bool, bool]:
+        """Whether it is larger than the length, and than the angle, of a margin."""
+        length = margin.length is not None and margin.length < self.length
+        if margin.angle is None or self.angle is None:
+            return length, False
+        return length, margin.angle < self.angle
+
+    def require_within(self, size: float) -> None:
+        """Raise where it is larger than the model: a slip of the unit.
+
+        Args:
+            size: Of the model [m].
+
+        Raises:
+            AnalysisError: it is.
+        """
+        if self.length > size:
+            most = f"the whole model, {size:.3g} m"
+            raise AnalysisError(larger_in_words("the accuracy", f"{self.length:g} m", most, "20um"))
+
+    @classmethod
+    def of(cls, given: AccuracyGiven) -> Accuracy:
+        """An accuracy as it may be given.
+
+        Raises:
+            TypeError: it is neither a number nor two.
+            ValueError: one is not positive, or not finite.
+        """
+        parts: list[Any] = [given]
+        if isinstance(given, str):
+            parts = given.split(",")
+        elif isinstance(given, Iterable) and not isinstance(given, _NO_NUMBERS):
+            parts = list(given)
+            parts = parts[:1] if parts[1:] == [None] else parts
+        if not 1 <= len(parts) <= 2:
+            raise TypeError(
+                "the accuracy is a length [m], or a length and an angle [rad], "
+                f"not {len(parts)} numbers"
+            )
+        return cls(*map(_checked, parts, ("m", "rad")))
+
+
+def _checked(part: Any, unit: str) -> float:
+    if isinstance(part, (*_NO_NUMBERS, bool)):
+        raise TypeError(f"the accuracy must be a number or two, not {type(part).__name__}")
+    try:
+        value = measured(part, unit)
+    except QuantityError as error:
+        raise TypeError(f"the accuracy must be a number or two: {error}") from None
+    except TypeError:
+        raise TypeError(
+            f"the accuracy must be a number or two, not {type(part).__name__}"
+        ) from None
+    except (ValueError, OverflowError):
+        raise ValueError(f"the accuracy must be a number or two, not {in_short(part)}") from None
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(f"the accuracy must be finite and positive, not {value}")
+    return value
+
 
 #: More than this of a null vector is not taken for rounding.
 _LARGEST_ROUNDING = 1.0e-3
@@ -275,3 +355,38 @@ class Outcome(Frozen):
         return calls.assemble(
             self.data.packed, arrays.node_value, np.zeros(arrays.element_number.size)
         )
+
+
+#: Rows or columns of D(c): all of them, or those of an array.
+Places = IntArray | slice
+_ALL = slice(None)
+
+
+def column_weights(analysis: Outcome, columns: Places = _ALL) -> FloatArray:
+    """(columns,) 1 for a displacement, the characteristic length for a rotation."""
+    kinds = analysis.data.arrays.node_kind[analysis.raw.column_label[0, columns] - 1]
+    return np.where(kinds <= NodeKind.POSITION, 1.0, analysis.characteristic_length)
+
+
+def row_duals(analysis: Outcome, rows: Places = _ALL) -> NDArray[np.int32]:
+    """(rows,) `Dual` of rows of D(c)."""
+    element, deformation = analysis.raw.row_label[:, rows] - 1
+    table: NDArray[np.int32] = dual_table()[analysis.data.arrays.element_kind[element], deformation]
+    return table
+
+
+def row_factors(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
+    """(rows,) what makes a force or a moment of a stress resultant: 1, or l0 [m]."""
+    over_length = row_duals(analysis, rows) == Dual.MOMENT_OVER_LENGTH
+    return np.where(
+        over_length, analysis.data.frames.length[analysis.raw.row_label[0, rows] - 1], 1.0
+    )
+
+
+def row_weights(analysis: Outcome, rows: Places = _ALL) -> FloatArray:
+    """(rows,) what makes a stress resultant comparable with a force.
+
+    A moment is divided by the characteristic length.
+    """
+    moment = row_duals(analysis, rows) != Dual.FORCE
+    return row_factors(analysis, rows) / np.where(moment, analysis.characteristic_length, 1.0)

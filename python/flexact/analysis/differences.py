@@ -4,31 +4,89 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import SequenceMatcher
+from enum import IntEnum
 from typing import Any, NamedTuple
 
-from ..deck.errors import ProblemsError
+import numpy as np
+
+from ..core.arrays import FloatArray
+from ..deck.diagnostics import decode
+from ..deck.rendering import ProblemsError
 from ..util.errors import FlexactError
-from ..util.plain_text import harmless
-from . import json_modes
-from .accuracy import Accuracy
-from .mode_words import stress_in_parts
-from .motions import motion_in_parts
-from .naming import counts_in_words
+from ..util.text import harmless
+from . import json as json_modes
+from .decomposition import Accuracy
+from .mode_words import motion_in_parts, stress_in_parts
+from .naming import counts_in_words, plain
 from .result import Result
-from .sentences import plain
-from .statements import Statement, statements_in
-from .text_margin import (
+from .verdict import Margin, Verdict
+from .verdict_words import (
     but_only,
+    certainty_word,
     margin_in_short,
     margin_of_sizes,
     verdict_in_short,
     verdict_word,
     word_of,
 )
-from .verdict import Margin, Verdict
-from .verdict_words import certainty_word
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([de][+-]?\d+)?$", re.IGNORECASE)
+
+
+class Statement(NamedTuple):
+    """A line of a deck that says something."""
+
+    meant: str
+    """What is compared."""
+    written: str
+    line: int
+
+
+class Different(NamedTuple):
+    """A statement that is on one side only."""
+
+    added: bool
+    written: str
+    line: int
+
+
+def statements_in(raw: bytes) -> tuple[Statement, ...]:
+    """The statements of a deck."""
+    made = []
+    for number, line in enumerate(decode(raw).split("\n"), start=1):
+        written = "" if line.startswith("*") else re.split("[%#]", line, maxsplit=1)[0]
+        words = written.split()
+        if words:
+            meant = " ".join(map(_meant, words))
+            made.append(Statement(meant, harmless(" ".join(words)), number))
+    return tuple(made)
+
+
+def differences(
+    before: tuple[Statement, ...], after: tuple[Statement, ...]
+) -> tuple[Different, ...]:
+    """What went and what came, in the order of the decks."""
+    one, other = ([each.meant for each in side] for side in (before, after))
+    made: list[Different] = []
+    matcher = SequenceMatcher(None, one, other, autojunk=False)
+    for what, i, j, k, n in matcher.get_opcodes():
+        if what != "equal":
+            made += [Different(False, each.written, each.line) for each in before[i:j]]
+            made += [Different(True, each.written, each.line) for each in after[k:n]]
+    return tuple(made)
+
+
+def _meant(word: str) -> str:
+    if not _NUMBER.match(word):
+        return word.upper()
+    # Long numbers keep their digits: a float holds seventeen.
+    value = float(re.sub("[dD]", "e", word))
+    return repr(value + 0.0) if len(word) < 17 else word.upper()
+
 
 #: How many parts of a mode its words name.
 _PARTS = 3
@@ -234,3 +292,148 @@ def _largest(made: Mapping[str, Any], owner: str, component: str) -> Iterator[st
     order = sorted(made["components"], key=lambda each: -abs(each["value"]))
     for each in order[:_PARTS]:
         yield f"{each['name'] or f'{owner} {each[owner]}'} {each[component]}"
+
+
+#: Cosine of the angle up to which a direction is the same: 25 degrees, so that small changes of
+#: the geometry keep it.
+_SAME = 0.9
+
+
+def came_and_went(
+    before: Sequence[Mode], after: Sequence[Mode]
+) -> tuple[tuple[Mode, ...], tuple[Mode, ...]]:
+    """The modes that are new, and those that are no more."""
+    labels = sorted({label for mode in (*before, *after) for label in mode.vector})
+    place = {label: k for k, label in enumerate(labels)}
+    bases = [_orthonormal(modes, place) for modes in (before, after)]
+    cosines = np.linalg.svd(bases[0].T @ bases[1], compute_uv=False)
+    common = int(np.count_nonzero(cosines > _SAME))
+    went = _least(before, place, bases[1], bases[0].shape[1] - common)
+    came = _least(after, place, bases[0], bases[1].shape[1] - common)
+    return came, went
+
+
+def _matrix(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatArray:
+    """(labels, modes) unit vectors."""
+    made = np.zeros((len(place), len(modes)))
+    for k, mode in enumerate(modes):
+        for label, value in mode.vector.items():
+            made[place[label], k] = value
+    length = np.linalg.norm(made, axis=0)
+    return np.asarray(made / np.where(length > 0.0, length, 1.0))
+
+
+def _orthonormal(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatArray:
+    left, sizes, _ = np.linalg.svd(_matrix(modes, place), full_matrices=False)
+    return np.asarray(left[:, sizes > 1e-10])
+
+
+def _least(
+    modes: Sequence[Mode], place: dict[tuple[int, str], int], other: FloatArray, count: int
+) -> tuple[Mode, ...]:
+    """So many modes, those of which the least lies in the other space, in their order."""
+    reach = np.linalg.norm(other.T @ _matrix(modes, place), axis=0)
+    rows = np.argsort(np.round(reach, 9), kind="stable")[: max(count, 0)]
+    return tuple(modes[k] for k in sorted(rows.tolist()))
+
+
+_ARROW = " \N{RIGHTWARDS ARROW} "
+
+
+class Gravity(IntEnum):
+    """How grave a change is."""
+
+    NONE = 0
+    STATEMENTS = 1
+    """The deck alone, with the same result."""
+    NUMBERS = 2
+    """Margin or certainty."""
+    COUNTS = 3
+    """Counts, motions or self-stresses."""
+    VERDICT = 4
+
+
+@dataclass(frozen=True)
+class Change:
+    """What changed between two runs of a deck.
+
+    Attributes:
+        gravity: How grave it is.
+        told: What changed, a sentence each.
+        came: What is new, a sentence each.
+        went: What is no more, a sentence each.
+        statements: Statements that are on one side only, of two decks.
+    """
+
+    gravity: Gravity
+    told: tuple[str, ...] = ()
+    came: tuple[str, ...] = ()
+    went: tuple[str, ...] = ()
+    statements: tuple[Different, ...] = ()
+
+    @property
+    def is_none(self) -> bool:
+        """Whether nothing changed that means anything."""
+        return self.gravity is Gravity.NONE
+
+
+def change_of(before: Side, after: Side) -> Change:
+    """What changed."""
+    verdict, counts = list(_of_verdicts(before, after)), list(_of_counts(before, after))
+    numbers = list(_of_numbers(before, after))
+    came: tuple[str, ...] = ()
+    went: tuple[str, ...] = ()
+    if not before.is_broken and not after.is_broken:
+        for what in ("motions", "self_stresses"):
+            new, old = came_and_went(getattr(before, what), getattr(after, what))
+            name = what.replace("_", "-").removesuffix("es" if what != "motions" else "s")
+            came += _named(name, new, getattr(after, what))
+            went += _named(name, old, getattr(before, what))
+    statements: tuple[Different, ...] = ()
+    if before.statements is not None and after.statements is not None:
+        statements = differences(before.statements, after.statements)
+    gravity = next(
+        gravity
+        for gravity, found in (
+            (Gravity.VERDICT, verdict),
+            (Gravity.COUNTS, counts or came or went),
+            (Gravity.NUMBERS, numbers),
+            (Gravity.STATEMENTS, statements),
+            (Gravity.NONE, True),
+        )
+        if found
+    )
+    return Change(gravity, (*verdict, *counts, *numbers), came, went, statements)
+
+
+def _of_verdicts(before: Side, after: Side) -> Iterator[str]:
+    if before.verdict != after.verdict:
+        yield f"{before.words}{_ARROW}{after.words}"
+
+
+def _of_counts(before: Side, after: Side) -> Iterator[str]:
+    if before.is_broken and after.is_broken:
+        if before.error != after.error:
+            yield f"first error: {before.error}{_ARROW}{after.error}"
+        return
+    if before.is_broken or after.is_broken:
+        yield f"first error{' now' * after.is_broken}: {before.error or after.error}"
+        return
+    for name, count in before.numbers.items():
+        if count != after.numbers[name]:
+            yield f"{name}: {count}{_ARROW}{after.numbers[name]}"
+
+
+def _of_numbers(before: Side, after: Side) -> Iterator[str]:
+    if before.is_broken or after.is_broken:
+        return
+    if before.margin != after.margin:
+        yield f"{before.margin}{_ARROW}{after.margin}"
+    if before.certainty != after.certainty:
+        yield f"rank {before.certainty}{_ARROW}{after.certainty}"
+
+
+def _named(name: str, modes: tuple[Mode, ...], every: tuple[Mode, ...]) -> tuple[str, ...]:
+    """Modes in words, with their numbers where there are several."""
+    several = len(every) > 1
+    return tuple(f"{name}{f' {every.index(mode) + 1}' * several}: {mode.words}" for mode in modes)

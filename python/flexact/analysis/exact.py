@@ -16,7 +16,7 @@ from fractions import Fraction
 from ..core import calls
 from ..core.raw import RawEchelon
 from .decomposition import Outcome
-from .failing import AnalysisError
+from .verdict import AnalysisError
 
 Vector = tuple[Fraction, ...]
 _Entries = dict[tuple[int, int], Fraction]

@@ -19,13 +19,11 @@ from ..core.arrays import FloatArray
 from ..core.elements import Class, NodeKind, coordinate_name
 from ..core.raw import RawAnalysis
 from ..model.data import ModelData
-from ..util.cached import cached_property
-from ..util.records import Frozen
-from .body_motions import Moves
+from ..util.records import Frozen, cached_property
+from .body_motions import Moves, Velocities
 from .decomposition import Asked, Outcome
-from .order import coordinate_key, ranked
+from .mode_basis import coordinate_key, ranked
 from .spaces import decompose
-from .velocities import Velocities
 
 #: Independent velocities that depend on each other to within this part cannot be told apart.
 _DEPENDENT = 1.0e-12

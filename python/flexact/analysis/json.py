@@ -3,20 +3,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import json
+from collections.abc import Callable, Iterator
+from functools import cache, partial
 from itertools import islice
-from typing import Any
+from typing import Any, NamedTuple
 
-from ..core.elements import keywords_of
-from .advice_ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
+import numpy as np
+
+from ..core.arrays import Basis, FloatArray, IntArray
+from ..core.elements import Dual, coordinate_name, keywords_of
+from ..model.parts.parts import Part as MechanismPart
+from ..model.parts.parts import PartKind
+from ..util.loading import VERSION
+from .body_motions import BodyMotion
 from .calls import calls_of
+from .carriers import Joint
+from .decomposition import row_duals, row_factors
 from .deformation_words import deformation_word
-from .failing import AnalysisError
 from .freedoms import Freedom
-from .naming import freedom_in_words, node_name, part_in_words, unit_of_coordinate
+from .mode_words import moments_at_ends
+from .naming import freedom_in_words, node_name, part_in_words, plain, unit_of_coordinate
+from .part_stresses import Conflict, PartStress
+from .places import place_words
 from .result import Result
-from .sentences import plain
-from .verdict import Margin
+from .screws import Screw, ScrewKind, Wrench
+from .verdict import AnalysisError, Margin
+from .verdict_words import certainty_word, warnings_of
+from .ways import Coordinate, Part, Step, Way, on_motions, on_self_stresses
 
 #: Of so many declared degrees of freedom, in models of so many elements, the motions are given:
 #: they take one further decomposition.
@@ -181,3 +195,395 @@ def _freedom(result: Result, freedom: Freedom, is_sought: bool) -> Entries:
         # The degree of freedom is there, only its motion could not be found.
         pass
     return made
+
+
+#: With more elements than these the parts are not listed.
+_JSON_MECHANICS_MOST_ELEMENTS = 10_000
+
+
+def parts(result: Result) -> list[Entries] | None:
+    """Sheets, wires, bars, bodies and hinges by their names; None of a large model."""
+    arrays = result.given.arrays
+    if arrays.element_number.size > _JSON_MECHANICS_MOST_ELEMENTS:
+        return None
+    return [
+        {
+            "name": part.name,
+            "kind": part.kind.value,
+            "elements": arrays.element_number[list(part.elements)].tolist(),
+            "nodes": arrays.node_number[list(part.ends)].tolist(),
+        }
+        for part in result.parts.all
+    ]
+
+
+def taken_as_one(result: Result) -> list[Entries] | None:
+    """Parts of several beams that are one beam each in D(c); None of a large model."""
+    if not result.is_told_by_parts:
+        return None
+    number = result.given.arrays.element_number
+    return [
+        {
+            "part": result.parts.of_element(chain.elements[0]).name,
+            "elements": number[list(chain.elements)].tolist(),
+        }
+        for chain in result.condensed.chains
+    ]
+
+
+def internal_motions(result: Result) -> Entries | None:
+    """Motions inside of divided sheets and wires; None where nothing of them is undeclared."""
+    whole = result.with_internal_declared
+    if whole is None:
+        return None
+    inside = {part.name: None for motion in result.motions for part in motion.internal_to}
+    return {
+        "count": result.internal_motions,
+        "parts": list(inside),
+        "declared": {
+            "under_constrained": whole.under_constrained,
+            "over_constrained": whole.over_constrained,
+        },
+    }
+
+
+def of_motion(result: Result, index: int) -> Entries:
+    """What bodies and joints do in a motion."""
+    if not result.is_told_by_parts:
+        return {}
+    motion = result.motions[index]
+    return {
+        "bodies": [_moving(each) for each in motion.bodies],
+        "internal_to": [part.name for part in motion.internal_to],
+    }
+
+
+def of_self_stress(result: Result, index: int) -> Entries:
+    """What parts carry in a self-stress, and what they press on."""
+    if not result.is_told_by_parts:
+        return {}
+    stress = result.self_stresses[index]
+    return {
+        "parts": [_stressed(result, index, each) for each in stress.parts],
+        "conflicts": [_conflict(each) for each in stress.conflicts],
+    }
+
+
+def _moving(group: BodyMotion) -> Entries:
+    return {
+        "bodies": [part.name for part in group.bodies],
+        "joints": [str(joint) for joint in group.joints],
+        **_screw(group.screw),
+    }
+
+
+def _screw(screw: Screw) -> Entries:
+    turns = screw.kind is not ScrewKind.TRANSLATION
+    return {
+        "kind": screw.kind.value,
+        "direction": screw.direction.tolist(),
+        "point": _vector(screw.point, "m") if turns else None,
+        "pitch": {"value": screw.pitch, "unit": "m/rad"} if turns else None,
+        "magnitude": {"value": screw.magnitude, "unit": "rad" if turns else "m"},
+    }
+
+
+def _stressed(result: Result, index: int, one: PartStress) -> Entries:
+    moments: Entries = {}
+    if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
+        moments = {
+            quantity: [{"value": value, "unit": "N m"} for value in values]
+            for quantity, values in moments_at_ends(result.self_stresses[index], one).items()
+        }
+    return {
+        "part": one.part.name,
+        "ends": [_end(result, one, end.position) for end in one.ends],
+        "normal_force": {"value": one.normal_force, "unit": "N"},
+        "twist_moment": {"value": one.twist_moment, "unit": "N m"},
+        "shear_force": _vector(one.shear_force, "N"),
+        "moments": [_vector(moment, "N m") for moment in one.moments],
+        **moments,
+    }
+
+
+def _end(result: Result, one: PartStress, position: int | None) -> Entries:
+    """An end of a part, in the order of its moments."""
+    if position is None:
+        return {"node": None, "words": ""}
+    number = int(result.given.arrays.node_number[position])
+    return {"node": number, "words": place_words(result.parts, position, one.part)}
+
+
+def _conflict(conflict: Conflict) -> Entries:
+    over = conflict.over
+    return {
+        "on": _called(conflict.on),
+        "over": None
+        if over is None
+        else {
+            "kind": over.kind.value,
+            "direction": over.direction.tolist(),
+            "point": _vector(over.point, "m"),
+        },
+        "loads": [
+            {"part": None if load.part is None else load.part.name, **_wrench(load.wrench)}
+            for load in conflict.loads
+        ],
+    }
+
+
+def _called(on: MechanismPart | Joint) -> str:
+    return str(on)
+
+
+def _wrench(wrench: Wrench) -> Entries:
+    return {
+        "kind": wrench.kind.value,
+        "force": _vector(wrench.force, "N"),
+        "moment": _vector(wrench.moment, "N m"),
+        "about": _vector(wrench.about, "m"),
+    }
+
+
+def _vector(vector: FloatArray, unit: str) -> Entries:
+    return {"value": vector.tolist(), "unit": unit}
+
+
+#: Components of a mode below this part of its largest are left out.
+_NEGLIGIBLE = 1.0e-14
+#: How many components are handled at once.
+_AT_ONCE = 100_000
+
+#: One component, its values in the order of the keys.
+Row = tuple[Any, ...]
+#: The columns of components at some places of D(c), with these entries of V or U.
+Columns = Callable[[IntArray, FloatArray], tuple[list[Any], ...]]
+
+
+#: Keys of numbers of nodes and elements, and of those that are written to the last bit.
+_WHOLE, _EXACT = ("node", "element", "deformation"), ("value", "raw")
+
+
+class ModesTable(NamedTuple):
+    """Modes, each as the rows of a table with a component each."""
+
+    keys: tuple[str, ...]
+    basis: Basis
+    columns: Columns
+    more: Callable[[int], dict[str, Any]]
+    """What else is said of a mode, by its index."""
+
+    def dictionaries(self) -> list[dict[str, Any]]:
+        """The modes as the JSON has them."""
+        return [
+            {"components": [dict(zip(self.keys, row, strict=True)) for row in mode]}
+            | self.more(index)
+            for index, mode in enumerate(self._rows(lambda text: text))
+        ]
+
+    def text(self) -> Iterator[str]:
+        """The same as JSON, without a dictionary for each component."""
+        form = ", ".join(f'"{key}": {"%r" if key in _EXACT else "%s"}' for key in self.keys)
+        of_row = f"{{{form}}}".__mod__
+        before = ""
+        yield "["
+        for index, mode in enumerate(self._rows(cache(json.dumps))):
+            more = json.dumps(self.more(index), allow_nan=False)[1:-1]
+            yield f'{before}{{"components": [{", ".join(map(of_row, mode))}]'
+            yield f"{', ' if more else ''}{more}}}"
+            before = ", "
+        yield "]"
+
+    def _rows(self, of_text: Callable[[str], str]) -> Iterator[list[Row]]:
+        """Components of each vector but those that are practically zero, in their order."""
+        basis, begin = self.basis, 0
+        while begin < basis.vectors:
+            room = int(basis.start[begin]) + _AT_ONCE
+            end = max(begin + 1, int(np.searchsorted(basis.start, room, "right")) - 1)
+            part = slice(int(basis.start[begin]), int(basis.start[end]))
+            vector = np.repeat(np.arange(end - begin), np.diff(basis.start[begin : end + 1]))
+            size = np.abs(basis.value[part])
+            largest = np.zeros(end - begin)
+            np.maximum.at(largest, vector, size)
+            kept = size > _NEGLIGIBLE * largest[vector]
+            columns = self.columns(basis.place[part][kept], basis.value[part][kept])
+            rows = zip(
+                *(
+                    column if key in _WHOLE or key in _EXACT else map(of_text, column)
+                    for key, column in zip(self.keys, columns, strict=True)
+                ),
+                strict=True,
+            )
+            for count in np.bincount(vector[kept], minlength=end - begin).tolist():
+                yield list(islice(rows, count))
+            begin = end
+
+
+def motions(result: Result) -> ModesTable:
+    """The motions: displacements [m] and rotations [rad] of nodes."""
+    raw, arrays = result.raw, result.data.arrays
+    # Where no point has a name, nobody has to look for each.
+    named = result.motion_basis.vectors > 0 and any(result.given.node_names)
+    name_of = cache(partial(node_name, result)) if named else lambda _: ""
+
+    def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
+        node, axis = raw.column_label[:, places] - 1
+        kinds = arrays.node_kind[node].tolist()
+        coordinates = list(map(coordinate_name, kinds, axis.tolist()))
+        return (
+            arrays.node_number[node].tolist(),
+            list(map(name_of, node.tolist())),
+            coordinates,
+            value.tolist(),
+            list(map(unit_of_coordinate, coordinates)),
+        )
+
+    keys = ("node", "name", "coordinate", "value", "unit")
+    return ModesTable(keys, result.motion_basis, columns, partial(of_motion, result))
+
+
+def self_stresses(result: Result) -> ModesTable:
+    """The self-stresses: forces [N] and moments [N m], beside the raw entries of U."""
+    arrays = result.given.arrays
+    # Names of a deck are cut out of its text.
+    name_of = cache(result.given.element_names.__getitem__)
+
+    def columns(places: IntArray, value: FloatArray) -> tuple[list[Any], ...]:
+        index, deformations = _in_given(result, places)
+        kinds = arrays.element_kind[index]
+        force = row_duals(result, places) == Dual.FORCE
+        return (
+            arrays.element_number[index].tolist(),
+            list(map(name_of, index.tolist())),
+            list(keywords_of(kinds)),
+            deformations,
+            list(map(deformation_word, kinds.tolist(), deformations)),
+            (value * row_factors(result, places)).tolist(),
+            np.where(force, "N", "N m").tolist(),
+            value.tolist(),
+        )
+
+    keys = ("element", "name", "keyword", "deformation", "word", "value", "unit", "raw")
+    return ModesTable(keys, result.stress_basis, columns, partial(of_self_stress, result))
+
+
+def _in_given(result: Result, places: IntArray) -> tuple[IntArray, list[int]]:
+    """Indices of elements in the model as given, and their deformations, of rows of D(c)."""
+    element, deformation = result.raw.row_label[:, places]
+    condensed = result.condensed
+    if not condensed.chains:
+        return condensed.elements[element - 1], deformation.tolist()
+    found = list(map(cache(condensed.in_given), (element - 1).tolist(), deformation.tolist()))
+    return np.array([index for index, _ in found], np.int32), [own for _, own in found]
+
+
+#: Of the JSON; see `docs/command.md` for when it is raised.
+FORMAT = 2
+
+#: Modes are many: they are written one by one.
+_MODES: dict[str, Callable[[Result], ModesTable]] = {
+    "motions": motions,
+    "self_stresses": self_stresses,
+}
+
+
+def dictionary_of(analysis: Result) -> dict[str, Any]:
+    """The names and values of the JSON, in their order."""
+    made = _without_modes(analysis)
+    for name, modes in _MODES.items():
+        made[name] = modes(analysis).dictionaries()
+    return made
+
+
+def text_of(analysis: Result) -> str:
+    """The same as one line of text, made without a dictionary for each component."""
+    return "".join(_pieces(analysis))
+
+
+def header(name: str) -> dict[str, Any]:
+    """What every object begins with."""
+    # Bytes of a path that are no text are escaped, so that any reader of JSON takes it.
+    deck = name.encode("utf-8", "backslashreplace").decode("utf-8")
+    return {"format": FORMAT, "deck": deck, "flexact": VERSION}
+
+
+def _pieces(analysis: Result) -> Iterator[str]:
+    before = "{"
+    for name, value in _without_modes(analysis).items():
+        yield f"{before}{json.dumps(name)}: "
+        if name in _MODES:
+            yield from _MODES[name](analysis).text()
+        else:
+            yield json.dumps(value, allow_nan=False)
+        before = ", "
+    yield "}"
+
+
+def _without_modes(analysis: Result) -> dict[str, Any]:
+    """The names and values in their order, with nothing for the modes."""
+    return {
+        **header(analysis.name),
+        **_verdict(analysis),
+        **_decision(analysis),
+        **_certainty(analysis),
+        "parts": parts(analysis),
+        "taken_as_one": taken_as_one(analysis),
+        "internal_motions": internal_motions(analysis),
+        "freedoms": list(freedoms(analysis)),
+        **_given("motions", analysis.under_constrained, len(analysis.motions)),
+        **_given("self_stresses", analysis.over_constrained, len(analysis.self_stresses)),
+        "advice": list(advice(analysis)),
+        "warnings": [item.to_dict() for item in warnings_of(analysis)],
+    }
+
+
+def _verdict(analysis: Result) -> dict[str, Any]:
+    """The verdict on the machine, and how far it is from another."""
+    return {
+        "verdict": analysis.verdict.value,
+        "under_constrained": analysis.under_constrained,
+        "over_constrained": analysis.over_constrained,
+        "margin": margin(analysis, analysis.margin),
+        "margins": [margin(analysis, item) for item in analysis.margins],
+        "accuracy": accuracy(analysis),
+        "degrees_of_freedom": analysis.degrees_of_freedom,
+        "counts": {name: part._asdict() for name, part in analysis.counts._asdict().items()},
+        "characteristic_length": quantity(analysis.characteristic_length, "m"),
+    }
+
+
+def _decision(analysis: Result) -> dict[str, Any]:
+    """The rank of D(c), and how it was decided."""
+    rows, columns = analysis.raw.largest_component
+    return {
+        "rank": analysis.rank,
+        "rows": analysis.rows,
+        "columns": analysis.columns,
+        "method": analysis.method,
+        "connected_components": {
+            "count": analysis.components,
+            "largest": {"rows": rows, "columns": columns},
+        },
+        "tolerance": analysis.tolerance,
+        "bound": analysis.bound,
+        "gap": {**analysis.gap._asdict(), "ratio": analysis.gap.ratio},
+        "singular_values": analysis.singular_values.tolist(),
+        "singular_values_given": analysis.singular_values_given,
+        "condition_number": analysis.condition_number,
+    }
+
+
+def _certainty(analysis: Result) -> dict[str, Any]:
+    """What is known of the rank: of the arithmetic, not of the machine."""
+    proof = analysis.proof
+    return {
+        "certainty": certainty_word(analysis),
+        "proof": proof._asdict() if proof else None,
+        "nearly": analysis.nearly._asdict() if analysis.nearly else None,
+        "alternatives": [item._asdict() for item in analysis.alternatives],
+    }
+
+
+def _given(name: str, count: int, given: int) -> dict[str, Any]:
+    """A place for modes, behind their number if not all of them are given."""
+    return {**({f"{name}_given": given} if given < count else {}), name: []}

@@ -12,17 +12,16 @@ import numpy as np
 
 from ..core.arrays import FloatArray, IntArray
 from ..core.elements import Class, NodeKind, element_kinds
-from ..deck.errors import model_error
-from ..model.deformations import find_deformations
-from ..model.division import classes_of_division
+from ..deck.rendering import model_error
+from ..model.deformations import classes_of_division, find_deformations
 from ..model.draft import Draft
 from ..model.handles import Owner
-from ..model.model_places import ROUNDING
 from ..model.names import ambiguous, unknown
-from ..model.part_arguments import of_indices
 from ..model.parts.parts import Part, PartKind, Parts
-from ..util.plain_text import in_short
+from ..model.places import ROUNDING
+from ..model.selection import of_indices
 from ..util.quantities import without_units
+from ..util.text import in_short
 
 #: How many numbers of nodes or elements a message names.
 _MOST = 12

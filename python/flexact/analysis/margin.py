@@ -10,8 +10,7 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from .decomposition import Outcome
-from .rank_evidence import Evidence
-from .sensitivity import Pair
+from .rank_evidence import Evidence, Pair
 from .verdict import Margin
 
 #: A change by less than this part of the scale of the whole matrix is none: no geometry has it.

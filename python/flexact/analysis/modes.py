@@ -12,14 +12,12 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..core.elements import Dual, NodeKind, coordinate_name
-from ..util.cached import cached_property
-from ..util.records import Frozen
-from .body_motions import Moves
-from .order import column_key, ranked, row_key
+from ..util.records import Frozen, cached_property
+from .body_motions import Moves, Velocities
+from .decomposition import column_weights, row_duals, row_factors, row_weights
+from .mode_basis import column_key, ranked, row_key
 from .part_stresses import Conflict, Load, PartStress, Pressing
-from .result_spaces import Spaces
-from .velocities import Velocities
-from .weights import column_weights, row_duals, row_factors, row_weights
+from .spaces import Spaces
 
 #: How many modes of a row stand in its `repr`.
 _TOLD = 12

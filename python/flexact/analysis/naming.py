@@ -3,13 +3,108 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import NamedTuple
+
 from ..core.elements import Dual, dual_table
-from .advice_ways import Coordinate, Part
+from ..util.text import TIE, USUAL, wrapped
 from .decomposition import Outcome
 from .deformation_words import deformation_words
 from .freedoms import Freedom
 from .places import node_words, part_words
-from .sentences import Named, Pieces, plain
+from .ways import Coordinate, Part
+
+_INDENT = "     "
+
+
+class Named(NamedTuple):
+    """An element or a node that a text names."""
+
+    kind: str
+    """"element" or "node"."""
+    number: int
+    words: str
+    """What it is called, such as "sheet 1" or "the stage"."""
+
+    def __str__(self) -> str:
+        """The words."""
+        return self.words
+
+
+Piece = str | Named
+#: Words that follow each other without further blanks.
+Pieces = tuple[Piece, ...]
+
+
+class Line(NamedTuple):
+    """A sentence, or the start of one and what it lists."""
+
+    head: Pieces
+    items: tuple[Pieces, ...] = ()
+    notes: tuple[str, ...] = ()
+    """What stands behind the first items, as many as there are."""
+    more: bool = False
+    """Whether there are more items than these."""
+
+    def shortened(self, most: int) -> Line:
+        """The line with its first items."""
+        return self._replace(items=self.items[:most], more=self.more or len(self.items) > most)
+
+    def listed(self) -> tuple[tuple[Pieces, str], ...]:
+        """The items, each with what stands behind it."""
+        behind = [f" {note}" if note else "" for note in self.notes]
+        behind += [""] * (len(self.items) - len(behind))
+        return tuple(zip(self.items, behind, strict=False))
+
+
+def sentence(*pieces: Piece) -> Line:
+    """A line without items."""
+    return Line(pieces)
+
+
+def plain(pieces: Iterable[Piece]) -> str:
+    """The pieces as text."""
+    return "".join(map(str, pieces))
+
+
+def _tied(words: str, width: int) -> str:
+    """Words that are not to be torn apart, unless they are longer than a row."""
+    return words.replace(" ", TIE) if len(words) < width - 2 * len(_INDENT) else words
+
+
+def filled(line: Line, *, hanging: bool = False, width: int = USUAL) -> str:
+    """A line as text in rows of a width; items are not torn apart.
+
+    Further rows are indented where there are items, or where they are to hang.
+    """
+    items = [
+        _tied(plain(item), width) + note[:1] + _tied(note[1:], width)
+        for item, note in line.listed()
+    ]
+    text = plain(line.head) + "; ".join(items + ["..."] * line.more)
+    return wrapped(text, width, _INDENT if line.items or hanging else "")
+
+
+_LENGTHS = ((1.0, "m"), (1.0e-3, "mm"), (1.0e-6, "um"), (1.0e-9, "nm"))
+_ANGLES = ((1.0, "rad"), (1.0e-3, "mrad"), (1.0e-6, "urad"), (1.0e-9, "nrad"))
+
+
+def length_in_words(length: float) -> str:
+    """A length [m] in two digits, such as "12 um"."""
+    return _in_words(length, _LENGTHS)
+
+
+def angle_in_words(angle: float) -> str:
+    """An angle [rad] in two digits, such as "0.2 mrad"."""
+    return _in_words(angle, _ANGLES)
+
+
+def _in_words(size: float, units: tuple[tuple[float, str], ...]) -> str:
+    # Rounded before the unit is chosen: 999.7 um are 1 mm.
+    rounded = float(f"{size:.2g}")
+    factor, unit = next((each for each in units if rounded >= each[0]), units[-1])
+    return f"{rounded / factor:.4g} {unit}"
+
 
 _NUMBERS = (
     *("no", "one", "two", "three", "four", "five", "six"),

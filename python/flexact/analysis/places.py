@@ -12,7 +12,7 @@ from ..core.arrays import FloatArray
 from ..core.elements import NodeKind
 from ..model.parts.parts import Part, PartKind, Parts
 from .carriers import Joint
-from .order import without_sense
+from .mode_basis import without_sense
 
 #: Names that say themselves what they are.
 _ARTICLES = ("the ", "a ", "an ")

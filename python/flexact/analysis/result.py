@@ -8,31 +8,70 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeVar
 
-from ..core.elements import Class
+import numpy as np
+
+from ..core.elements import Class, Role, role_table
 from ..core.progress import Progress
-from ..deck.errors import ModelError, model_error
+from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
 from ..model.parts.condensing import condensed
-from ..model.parts.declaring import declared
+from ..model.parts.parts import PartKind, declared
 from ..model.variation import with_classes
-from ..util.cached import cached_property
+from ..model.words import AT_P, AT_Q
 from ..util.loading import load
-from ..util.plain_text import in_short
+from ..util.records import cached_property
+from ..util.text import in_short
+from .carriers import Joint
 from .certainty import Assessment, assess
 from .decomposition import Asked
-from .folds import turning_folds
 from .freedoms import Freedom, freedoms_of
 from .locate import elements_of, node_of
 from .margin import least, margins
 from .modes import Modes, Motion, SelfStress
-from .rank_evidence import Evidence
-from .result_spaces import Spaces
-from .sensitivity import Pair
-from .spaces import decompose
+from .rank_evidence import Evidence, Pair
+from .spaces import Spaces, decompose
 from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
+
+
+def turning_folds(result: Result) -> tuple[tuple[int, int], ...]:
+    """Of each fold that turns while nothing else moves the bending of a leaf there.
+
+    Indices of elements in `result.data`, and numbers of their deformations, from 1: what
+    `Model.folded_sheet` declares. None of a model with divided sheets that are not declared.
+    """
+    if not result.under_constrained or not result.is_told_by_parts:
+        return ()
+    if result.with_internal_declared is not None:
+        return ()
+    folds = {joint.orientation: joint for joint in result.carriers.joints if joint.is_fold}
+    moving: dict[Joint, None] = {}
+    count = 0
+    for motion, is_between in zip(result.motions, result.are_between_ends, strict=True):
+        mine = [folds[node] for node in motion.nodes if node in folds] if is_between else []
+        moving.update(dict.fromkeys(mine))
+        count += bool(mine)
+    found = [_bending(result, joint) for joint in moving]
+    made = tuple(place for place in found if place is not None)
+    return made if len(made) == len(found) == count else ()
+
+
+def _bending(result: Result, joint: Joint) -> tuple[int, int] | None:
+    """The bending that the first leaf releases at a fold; None where it is none of two sheets."""
+    if not joint.is_fold or any(part.kind is not PartKind.SHEET for part in joint.parts):
+        return None
+    data = result.data.arrays
+    leaf = min(joint.parts, key=lambda part: part.number)
+    index = int(np.searchsorted(result.condensed.elements, min(leaf.elements)))
+    at = AT_P if leaf.ends[0] == joint.position else AT_Q
+    roles = map(Role, role_table()[data.element_kind[index]].tolist())
+    for number, role in enumerate(roles, start=1):
+        if role in at and data.deformation_class[number - 1, index] == Class.DEPENDENT:
+            return index, number
+    return None
+
 
 #: How many degrees of freedom a message names.
 _MOST_LABELS = 12
@@ -74,7 +113,7 @@ class Result(Spaces):
 
     @cached_property
     def freedoms(self) -> tuple[Freedom, ...]:
-        """The declared degrees of freedom, with the motion of each (`flexact.analysis.freedoms`)."""
+        """The declared degrees of freedom, each with its motion; `flexact.analysis.freedoms`."""
         return freedoms_of(self)
 
     def freedom(self, label: str) -> Freedom:
@@ -124,7 +163,7 @@ class Result(Spaces):
 
     @cached_property
     def folds(self) -> tuple[tuple[int, int], ...]:
-        """What declares the folds that turn about themselves (`flexact.analysis.folds`).
+        """What declares the folds that turn about themselves (`flexact.analysis.result`).
 
         None where that would change more than that they are declared.
         """
@@ -180,7 +219,7 @@ class Result(Spaces):
 
     @property
     def zero_pairs(self) -> tuple[tuple[Pair, ...], ...]:
-        """For each zero what may lift it (`flexact.analysis.sensitivity`)."""
+        """For each zero what may lift it (`flexact.analysis.rank_evidence`)."""
         return self.evidence.zero_pairs
 
     @cached_property

@@ -5,12 +5,158 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .naming import counted, counts_in_words
+import numpy as np
+
+from ..core.elements import NodeKind
+from ..deck.diagnostics import Diagnostic, Severity
+from ..util.text import MOST_TYPED, significant_digits
+from .certainty import CLEARLY, Doubt, DoubtKind
+from .decomposition import Accuracy
+from .naming import (
+    Line,
+    Pieces,
+    angle_in_words,
+    counted,
+    counts_in_words,
+    length_in_words,
+    named_element,
+    named_node,
+    sentence,
+)
 from .places import parts_words
 from .result import Result
-from .sentences import Line, sentence
-from .units import angle_in_words, length_in_words
-from .verdict import Alternative, Certainty, Proof
+from .verdict import Alternative, Certainty, Margin, Proof, Verdict
+
+#: Margins below this angle, or this part of the characteristic length, are small.
+_SMALL = 0.1
+_ALIGNED = "in exact alignment"
+_ANY_MISALIGNMENT = (
+    "none. A motion and a self-stress here depend on exact alignment: any misalignment lifts "
+    "both, however small."
+)
+
+
+def margin_line(result: Result) -> Line:
+    """What would change the verdict, and by how much; then the accuracy, where it was given."""
+    return sentence("Margin: ", *_margin(result), *_accuracy(result.accuracy))
+
+
+def margin_in_short(result: Result) -> str:
+    """The margin in a few words."""
+    if result.margin.exact_alignment:
+        return f"only {_ALIGNED}"
+    return _of_sizes(*_small(result))
+
+
+def margin_of_sizes(
+    length: float | None, angle: float | None, characteristic: float, *, exact: bool
+) -> str:
+    """The margin in the same words, of its numbers alone.
+
+    Args:
+        length: The smallest move of a node [m], None where none changes the verdict.
+        angle: The smallest turn of an element [rad], likewise.
+        characteristic: The characteristic length [m].
+        exact: Whether it is there in exact alignment only.
+    """
+    if exact:
+        return f"only {_ALIGNED}"
+    is_short = length is not None and length < _SMALL * characteristic
+    is_small = angle is not None and angle < _SMALL
+    return _of_sizes(length if is_short else None, angle if is_small else None)
+
+
+def _of_sizes(length: float | None, angle: float | None) -> str:
+    sizes = _sizes(length, angle)
+    return f"margin {' or '.join(sizes)}" if sizes else "no small margin"
+
+
+def margin_cells(result: Result) -> tuple[str, str]:
+    """The margin in the cell of a table: in eight letters or so, and with the angle besides."""
+    if result.margin.exact_alignment:
+        return "aligned", _ALIGNED.removeprefix("in ")
+    sizes = _sizes(*_small(result))
+    return (sizes[0], " or ".join(sizes)) if sizes else ("-", "-")
+
+
+def verdict_in_short(result: Result) -> str:
+    """The verdict as it is stated wherever it is: by how much, and whether the accuracy lifts it.
+
+    Such as "over-constrained by 1, but only by 13 um".
+    """
+    counts = counts_in_words(result.under_constrained, result.over_constrained)
+    return counts + but_only(result.margin, result.accuracy)
+
+
+def but_only(margin: Margin, accuracy: Accuracy | None) -> str:
+    """What the verdict is restricted by where the margin is smaller than the accuracy."""
+    if accuracy is None or not any(accuracy.exceeds(margin)):
+        return ""
+    if margin.exact_alignment:
+        return f", but only {_ALIGNED}"
+    length, angle = accuracy.exceeds(margin)
+    sizes = _sizes(margin.length if length else None, margin.angle if angle else None)
+    return f", but only by {' or '.join(sizes)}"
+
+
+def verdict_word(result: Result) -> str:
+    """The verdict as it is counted in a batch: exactly constrained within the accuracy, or not."""
+    return word_of(result.verdict, is_marginal=result.is_marginal)
+
+
+def word_of(verdict: Verdict, *, is_marginal: bool) -> str:
+    """The same of a verdict alone, and whether its margin is smaller than the accuracy."""
+    if verdict is Verdict.EXACT and is_marginal:
+        return "exactly constrained but by less than the accuracy"
+    return verdict.value
+
+
+def _margin(result: Result) -> Pieces:
+    margin = result.margin
+    of_node: Pieces = (named_node(result, margin.node),) if margin.node is not None else ()
+    of_element: Pieces = (
+        (named_element(result, margin.element),) if margin.element is not None else ()
+    )
+    if margin.exact_alignment:
+        return (_ANY_MISALIGNMENT,)
+    length, angle = _small(result)
+    moving: Pieces = ()
+    turning: Pieces = ()
+    if length is not None:
+        moving = ("moving ", *of_node, f" by {length_in_words(length)}")
+    if angle is not None:
+        turning = ("turning ", *of_element, f" by {angle_in_words(angle)}")
+    if not moving and not turning:
+        return ("no small misalignment of one node or element would change this.",)
+    return (
+        *moving,
+        *((" or ",) if moving and turning else ()),
+        *turning,
+        " would change this, to first order.",
+    )
+
+
+def _small(result: Result) -> tuple[float | None, float | None]:
+    """Length and angle of the margin, None where they are large, and so is the accuracy."""
+    margin, accuracy = result.margin, result.accuracy or Accuracy(0.0)
+    length = max(_SMALL * result.characteristic_length, accuracy.length)
+    angle = max(_SMALL, accuracy.angle or 0.0)
+    return (
+        margin.length if margin.length is not None and margin.length < length else None,
+        margin.angle if margin.angle is not None and margin.angle < angle else None,
+    )
+
+
+def _accuracy(accuracy: Accuracy | None) -> Pieces:
+    if accuracy is None:
+        return ()
+    return (f" The accuracy is {' and '.join(_sizes(*accuracy))}.",)
+
+
+def _sizes(length: float | None, angle: float | None) -> list[str]:
+    sizes = [length_in_words(length)] if length is not None else []
+    return sizes + ([angle_in_words(angle)] if angle is not None else [])
+
 
 #: From this many rows or columns on it is reported into how many components D(c) falls.
 _LARGE = 500
@@ -148,3 +294,115 @@ def _method(result: Result) -> Iterator[Line]:
         below = f"{result.bound:.1e}"
         shown = f"; its factorisation shows at most how many singular values lie below {below}"
     yield sentence(f"Method: {method}{chosen}{pieces}{shown}.")
+
+
+#: A smallest non-zero singular value below this part of the largest is worth a warning.
+_NEARLY_ZERO = 1.0e-5
+_ALL_DIGITS = "give the geometry with all its digits"
+_LOOK = "look at the geometry; far from the origin, move it there"
+
+
+def warnings_of(result: Result) -> tuple[Diagnostic, ...]:
+    """Warnings and notes about the model, then about the decision on its rank."""
+    return (*result.data.problems.kept, *_of_the_decision(result))
+
+
+def _of_the_decision(result: Result) -> Iterator[Diagnostic]:
+    doubts = result.assessment.doubts
+    for doubt in doubts:
+        yield warning_of(result, doubt)
+    small, largest = result.gap.smallest_nonzero, max(result.scaled_singular_values, default=0.0)
+    if small is not None and small < _NEARLY_ZERO * largest and not doubts:
+        yield Diagnostic(
+            Severity.WARNING,
+            "close-decision",
+            f"the smallest singular value that counts as non-zero is {small / largest:.1e} "
+            "of the largest: a small misalignment would change the verdict",
+            help="look at the margin, and at the geometry",
+        )
+
+
+def warning_of(result: Result, doubt: Doubt) -> Diagnostic:
+    """A doubt as a warning: its code, a sentence, and what helps."""
+    sentence, advice = _words(result, doubt)
+    return Diagnostic(Severity.WARNING, doubt.code, sentence, help=advice)
+
+
+def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
+    size = f"{doubt.size:.1e}"
+    match doubt.kind:
+        case DoubtKind.UNCONFIRMED:
+            what = f"the method {result.method} did not confirm the rank by a second route"
+            return what, "analyse with the method svd"
+        case DoubtKind.CLOSE_TO_NOISE:
+            one = doubt.values == 1
+            counts = "a singular value counts" if one else f"{doubt.values} singular values count"
+            return (
+                f"{counts} as non-zero within a factor of {CLEARLY:.0f} of what storing the "
+                f"geometry may make of a zero, {size}",
+                "look at the geometry, or state with a tolerance what is to count as zero",
+            )
+        case DoubtKind.DIGITS_EXPLAIN:
+            full = result.rank == min(result.rows, result.columns)
+            what = "full rank" if full else f"rank {result.rank}"
+            return (
+                f"{what}, but a rounding of the deck's own digits ({_digits(result)}) explains it: "
+                f"those that were left out may make {size} of a zero",
+                _ALL_DIGITS,
+            )
+        case DoubtKind.COORDINATES_ROUNDED:
+            return (
+                f"singular values up to {size} count as zero because the coordinates are given "
+                f"with so few digits ({_digits(result)})",
+                "give the coordinates with all their digits",
+            )
+        case DoubtKind.TOLERANCE_GIVEN:
+            what = f"singular values up to {size} count as zero because the tolerance that was "
+            return what + "given says so", ""
+        case DoubtKind.UNSEEN:
+            one = doubt.values == 1
+            return (
+                f"{'a singular value is' if one else f'{doubt.values} singular values are'} not "
+                "zero in exact arithmetic, but too small to be compared with the rounding of the "
+                "geometry",
+                _LOOK,
+            )
+        case DoubtKind.UNDECIDED:
+            one = doubt.zeros == 1
+            counts = "a singular value counts" if one else f"{doubt.zeros} singular values count"
+            left = f"it is {size}, and storing them makes {doubt.explained:.1e}"
+            unknown = "how large it is was not computed"
+            return (
+                f"{counts} as zero, but for the numbers as they are {'is' if one else 'are'} not: "
+                f"{left if doubt.size else unknown}",
+                _LOOK,
+            )
+        case DoubtKind.ZERO_ABOVE_STORING:
+            return (
+                f"singular values up to {size} count as zero, which is more than the rounding of "
+                "the geometry's last bits would make of a zero",
+                _LOOK,
+            )
+        case DoubtKind.REMAINDER:
+            return (
+                f"of a motion and a self-stress {size} is left in the scaled D(c), of which "
+                f"rounding in the last bits explains {doubt.explained:.1e}: their singular value "
+                "counts as zero, but may be tiny instead",
+                _LOOK,
+            )
+        case DoubtKind.FADING:
+            return (
+                f"a motion fades along the mechanism by {doubt.size:.0f} powers of ten, and so "
+                "does a self-stress: whether its singular value is zero or only tiny is beyond "
+                "the digits of the arithmetic",
+                _LOOK,
+            )
+
+
+def _digits(result: Result) -> str:
+    """How many digits the coordinates were typed with, those aside that are known to the bit."""
+    arrays = result.data.arrays
+    places = arrays.node_value[:3, arrays.node_kind <= NodeKind.POSITION]
+    lengths = {significant_digits(value) for value in np.unique(places).tolist()}
+    typed = [length for length in lengths if length <= MOST_TYPED]
+    return f"at most {max(typed, default=0)}"

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..util.plain_text import in_short
+from ..util.text import in_short
 
 IntArray = NDArray[np.int32]
 FloatArray = NDArray[np.float64]
@@ -158,3 +158,57 @@ def _converted(name: str, given: ArrayLike) -> NDArray[Any]:
     if dtype is np.int32 and array.size and (array.max() >= 2**31 or array.min() < -(2**31)):
         raise ValueError(f"{name} holds a number that does not fit 32 bits")
     return np.array(array, dtype, order="F")
+
+
+class Basis(NamedTuple):
+    """Vectors side by side, of which only the entries that are not zero are stored."""
+
+    size: int
+    """Length of each vector."""
+    start: IntArray
+    """(k + 1,) where the entries of each of the k vectors begin, and where the last one ends."""
+    place: IntArray
+    """(entries,) place in the vector, from 0, ascending within a vector."""
+    value: FloatArray
+    """(entries,)."""
+
+    @property
+    def vectors(self) -> int:
+        """Number of vectors."""
+        return self.start.size - 1
+
+    def vector(self, k: int) -> FloatArray:
+        """(size,) vector k with its zeros."""
+        made = np.zeros(self.size)
+        place, value = self.entries(k)
+        made[place] = value
+        return made
+
+    def entries(self, k: int) -> tuple[IntArray, FloatArray]:
+        """Places and values of what is stored of vector k."""
+        part = slice(int(self.start[k]), int(self.start[k + 1]))
+        return self.place[part], self.value[part]
+
+    def toarray(self) -> FloatArray:
+        """(size, k) all vectors with their zeros."""
+        made = np.zeros((self.size, self.vectors))
+        made[self.place, self.of_entries()] = self.value
+        return made
+
+    def only(self, vectors: IntArray) -> Basis:
+        """Some of the vectors."""
+        counts = np.diff(self.start)[vectors]
+        start = np.concatenate(([0], np.cumsum(counts)))
+        entries = np.repeat(self.start[vectors] - start[:-1], counts) + np.arange(start[-1])
+        return Basis(self.size, start.astype(np.int32), self.place[entries], self.value[entries])
+
+    def of_entries(self) -> IntArray:
+        """(entries,) the vector that each entry belongs to."""
+        return np.repeat(np.arange(self.vectors, dtype=np.int32), np.diff(self.start))
+
+    @classmethod
+    def of_dense(cls, columns: FloatArray) -> Basis:
+        """From the columns of a matrix (size, k)."""
+        vector, index = np.nonzero(columns.T)
+        start = np.searchsorted(vector, np.arange(columns.shape[1] + 1)).astype(np.int32)
+        return cls(columns.shape[0], start, index.astype(np.int32), columns.T[vector, index])

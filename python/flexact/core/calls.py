@@ -13,10 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..util.memory import address_space
+from ..util.machine import address_space
 from . import _core
-from .arrays import FloatArray, IntArray, PackedModel, room_for, unpacked
-from .basis import Basis
+from .arrays import Basis, FloatArray, IntArray, PackedModel, room_for, unpacked
 from .raw import (
     ElementKind,
     RawAnalysis,

@@ -9,7 +9,7 @@ import sys
 from mmap import mmap
 
 from ..util.loading import load
-from ..util.memory import address_space
+from ..util.machine import address_space
 
 #: Below this the threads of BLAS, and their buffers, are a burden [bytes].
 _NARROW = 2.0**31

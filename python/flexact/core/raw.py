@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .arrays import BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
-from .basis import Basis
+from .arrays import Basis, BoolArray, ByteArray, FloatArray, IntArray, ModelArrays
 
 
 class ElementKind(NamedTuple):

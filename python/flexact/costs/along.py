@@ -10,9 +10,8 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..elasticity import Elastic, State, StrokeError
-from .designs import StrokeCurve
-from .measuring import Measures, drives_of, numbers, over_levels
-from .values import Numbers
+from .designs import Numbers, StrokeCurve
+from .elastic_design import Measures, drives_of, numbers, over_levels
 
 
 class Asked(NamedTuple):

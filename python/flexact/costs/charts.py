@@ -3,17 +3,164 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..show.charts import Chart, Curve
-from ..show.scale import Scale, exact_scale, linear_scale, log_scale
-from .designs import CostValues, MisalignmentCurve, StrokeCurve
-from .marks import marks_of
-from .names import short_labels
-from .values import FREQUENCY, Numbers, unit_of_direction, words_of_direction
+from ..show.charts import (
+    Bar,
+    BarChart,
+    Chart,
+    Curve,
+    Group,
+    Mark,
+    Row,
+    Scale,
+    exact_scale,
+    linear_scale,
+    log_scale,
+    told,
+)
+from ..util.text import file_name, harmless
+from .designs import (
+    FREQUENCY,
+    Clamp,
+    CostValues,
+    Design,
+    Misalignment,
+    MisalignmentCurve,
+    Number,
+    Numbers,
+    StrokeCurve,
+    Tolerance,
+    in_words,
+    percent,
+    short_labels,
+    unit_of_direction,
+    words_of_direction,
+)
+
+#: Two values that differ by less than this part of them mirror each other.
+_MIRRORED = 0.02
+
+
+def marks_of(cost: CostValues, curve: Curve) -> Iterable[Mark]:
+    """Where the design as built is shifted by what is allowed, and where it buckles.
+
+    Args:
+        cost: The cost.
+        curve: The first of its chart.
+    """
+    found = _tolerance(cost.as_built)
+    if found is None or curve.series != 0:
+        return
+    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
+    for words, pair in (
+        ("buckles at", (found.critical_negative, found.critical_positive)),
+        (f"{shift} at", (found.negative, found.positive)),
+    ):
+        values = [each.value for each in pair if _is_within(each.value, curve.x)]
+        yield from _marked(curve, words, values, found.misalignment.unit)
+
+
+def _is_within(value: float, x: FloatArray) -> bool:
+    room = 1e-3 * float(x[-1] - x[0])
+    return bool(x[0] - room <= value <= x[-1] + room)
+
+
+def _marked(curve: Curve, words: str, values: Sequence[float], unit: str) -> Iterable[Mark]:
+    """One mark for two values that mirror each other, else one each."""
+    points = [(value, float(np.interp(value, curve.x, curve.y))) for value in values]
+    if len(values) == 2 and abs(sum(values)) < _MIRRORED * abs(values[1]):
+        yield Mark(curve.series, tuple(points), f"{words} ±{told(values[1], unit)}")
+    else:
+        for value, point in zip(values, points, strict=True):
+            yield Mark(curve.series, (point,), f"{words} {told(value, unit)}")
+
+
+def _tolerance(design: Design) -> Tolerance | None:
+    """That of the misalignment which is drawn."""
+    wanted = None if design.curve is None else design.curve.misalignment
+    return next((each for each in design.tolerances if each.misalignment == wanted), None)
+
+
+#: Clamps that are shown; of more those that bear least.
+MOST_CLAMPS = 6
+#: Errors beyond this part of the mechanism's size, or this angle [rad], are drawn without an end:
+#: stress that is in proportion to the error means nothing there, and no workshop is that far off.
+LARGEST = 0.1
+#: Room behind the longest bar for its value, as a part of the axis.
+_BEYOND = 0.2
+
+
+def bars_of(cost: CostValues) -> tuple[BarChart, ...]:
+    """Tolerances of displacements and of rotations, where there are any that matter."""
+    made = (_bars(cost, "m"), _bars(cost, "rad"))
+    return tuple(chart for chart in made if chart is not None)
+
+
+def _bars(cost: CostValues, unit: str) -> BarChart | None:
+    found = [
+        {each.misalignment: each for each in design.tolerances if each.misalignment.unit == unit}
+        for design in cost.designs
+    ]
+    limit = LARGEST * (cost.as_built.size if unit == "m" else 1.0)
+    finite = [
+        each.tightest.value
+        for design in found
+        for each in design.values()
+        if each.tightest.value <= limit
+    ]
+    if not finite:
+        return None
+    clamps, left_out = _clamps(found[0])
+    groups = [
+        Group(
+            clamp.label,
+            tuple(
+                Row(misalignment.direction.removeprefix("r"), _row(misalignment, found, limit))
+                for misalignment in found[0]
+                if misalignment.clamp == clamp
+            ),
+        )
+        for clamp in clamps
+    ]
+    name, what = ("shifts", "displacement") if unit == "m" else ("turns", "rotation")
+    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
+    title = f"Tolerance of a clamp for {what} ({shift})"
+    many = "clamp bears" if left_out == 1 else "clamps bear"
+    more = f"; {left_out} more {many} more" if left_out else ""
+    note = f"Arrows: more than {told(limit, unit, 2)}{more}"
+    scale = log_scale(finite, unit, _BEYOND)
+    return BarChart(name, title, scale, tuple(groups), note)
+
+
+def _row(
+    misalignment: Misalignment, found: Sequence[dict[Misalignment, Tolerance]], limit: float
+) -> tuple[Bar, ...]:
+    made = []
+    for series, tolerances in enumerate(found):
+        each = tolerances.get(misalignment)
+        if each is not None:
+            value, uncertainty = each.tightest
+            is_open = value > limit
+            made.append(Bar(series, *((math.inf, 0.0) if is_open else (value, uncertainty))))
+    return tuple(made)
+
+
+def _clamps(found: dict[Misalignment, Tolerance]) -> tuple[list[Clamp], int]:
+    """The clamps that are shown, in their order; how many are left out."""
+    least: dict[Clamp, float] = {}
+    for misalignment, each in found.items():
+        clamp = misalignment.clamp
+        least[clamp] = min(least.get(clamp, math.inf), each.tightest.value)
+    chosen = sorted(least, key=lambda clamp: least[clamp])[:MOST_CLAMPS]
+    return [clamp for clamp in least if clamp in chosen], max(0, len(least) - MOST_CLAMPS)
+
 
 #: Stiffnesses that differ by more than so many times are drawn on a logarithmic axis.
 _WIDE = 30.0
@@ -188,3 +335,169 @@ def _up(curves: Sequence[Curve], unit: str) -> Scale:
     if unit != "Hz" and (every > 0.0).all() and every.max() > _WIDE * smallest:
         return log_scale(every, unit)
     return linear_scale([0.0, _ABOVE * float(every.max())], unit, from_zero=True)
+
+
+#: What stands where a misalignment does nothing to first order.
+ANY, NEVER = "any error", "never"
+#: Up to this part a number is told in three digits alone; values within it are alike by symmetry.
+_CERTAIN, _ALIKE = 0.02, 1.01
+#: "about x and about z".
+_TWICE = re.compile(r"(along|about) (\w+) and \1 (\w+)")
+
+
+class KeyRow(NamedTuple):
+    """A design in the table."""
+
+    series: int
+    label: str
+    """What stands at its curves."""
+    words: str
+    """What is released."""
+    cells: tuple[str, ...]
+    """As many as there are headings."""
+
+
+class Key(NamedTuple):
+    """The table.
+
+    Attributes:
+        heads: Of the columns for which there are values.
+        rows: A design each.
+    """
+
+    heads: tuple[str, ...]
+    rows: tuple[KeyRow, ...]
+
+
+def key_of(cost: CostValues) -> Key:
+    """The table of a cost: columns of which the deck allows nothing are left out."""
+    shift = f"{100 * cost.shift:+.3g} %".replace("-", "\N{MINUS SIGN}")
+    place = None if cost.tightest is None else cost.tightest.misalignment
+    columns = {
+        f"tolerance ({shift})": [_tightest(each, place) for each in cost.designs],
+        "buckles at": [_buckles(each, place) for each in cost.designs],
+        "worst stiffness kept": [_kept(each) for each in cost.designs],
+        "frequency": [_frequency(each) for each in cost.designs],
+        "lowest parasitic": [_parasitic_of_key(each) for each in cost.designs],
+    }
+    shown = {head: cells for head, cells in columns.items() if any(cells[1:] or cells)}
+    if len(cost.designs) > 1 and len(set(shown.get("frequency", "12"))) == 1:
+        # The same of all: it is told once, and tells nothing here.
+        del shown["frequency"]
+    rows = (
+        KeyRow(
+            series,
+            label,
+            _words(design),
+            tuple(cells[series] for cells in shown.values()),
+        )
+        for series, (label, design) in enumerate(zip(short_labels(cost), cost.designs, strict=True))
+    )
+    return Key(tuple(shown), tuple(rows))
+
+
+def choices_of(cost: CostValues) -> tuple[str, ...]:
+    """What was asked for, in parts: of what, where, and how."""
+    beams = "8 and 16 beams a sheet" if cost.beams == "auto" else f"{cost.beams} beams a sheet"
+    told = (
+        file_name(cost.name),
+        f"at {cost.point.words}",
+        f"held deformations {cost.held}",
+        f"drive {cost.drive}",
+        beams,
+        f"lowest frequency {_frequency(cost.as_built)}" if _frequency(cost.as_built) else "",
+    )
+    return tuple(harmless(each) for each in told if each)
+
+
+def typeset(words: str) -> str:
+    """Words of quantities as they are set in pictures."""
+    for plain, proper in (
+        (" um", " \N{MICRO SIGN}m"),
+        ("/um", "/\N{MICRO SIGN}m"),
+        (" urad", " \N{MICRO SIGN}rad"),
+        ("+-", "\N{PLUS-MINUS SIGN}"),
+        (" -> ", " \N{RIGHTWARDS ARROW} "),
+    ):
+        words = words.replace(plain, proper)
+    return _TWICE.sub(r"\1 \2 and \3", words)
+
+
+def _words(design: Design) -> str:
+    """What is released, and what is alike."""
+    words = design.words.removeprefix("released: ")
+    many = len(design.alike)
+    return f"{words} (and {many} alike)" if many else words
+
+
+def _tightest(design: Design, place: Misalignment | None) -> str:
+    found = design.tightest
+    if found is None:
+        return ANY if design.tolerances else ""
+    return _with_place(found.tightest, found, place)
+
+
+def _buckles(design: Design, place: Misalignment | None) -> str:
+    """Where it buckles; the place is told if no other column tells it."""
+    found = design.buckles_at
+    if found is None:
+        return NEVER if design.tolerances else ""
+    told = place if design.tightest is None else design.tightest.misalignment
+    if _critical(design, told) <= _ALIKE * found.critical.value:
+        return typeset(in_words(_rounded(found.critical), found.misalignment.unit))
+    return _with_place(found.critical, found, place)
+
+
+def _critical(design: Design, place: Misalignment | None) -> float:
+    """At which error of a place it buckles; infinite where none does."""
+    found = (each for each in design.tolerances if each.misalignment == place)
+    return next((each.critical.value for each in found), math.inf)
+
+
+def _with_place(number: Number, found: Tolerance, place: Misalignment | None) -> str:
+    """A misalignment in words; that of which the headline speaks by its size alone."""
+    where = found.misalignment
+    size = typeset(in_words(_rounded(number), where.unit))
+    if where == place:
+        return size
+    direction = where.direction.replace("r", "about ")
+    return f"{size} ({where.clamp.label}, {direction})"
+
+
+def _rounded(number: Number) -> Number:
+    """To three digits where it is that certain; a table is for comparing."""
+    if abs(number.uncertainty) < _CERTAIN * abs(number.value):
+        return Number(float(f"{number.value:.3g}"))
+    return number
+
+
+def _kept(design: Design) -> str:
+    if design.kept is None:
+        return "" if design.released else "100 %"
+    return f"{percent(round(design.kept.smallest.value, 3))} {typeset(design.kept.words)}"
+
+
+def _frequency(design: Design) -> str:
+    if design.frequencies is None or not design.frequencies.value.size:
+        return ""
+    first = Number(*(float(part[0]) for part in design.frequencies))
+    return in_words(_rounded(first), "Hz") if first.value > 0.0 else "buckled"
+
+
+def _parasitic_of_key(design: Design) -> str:
+    """At rest, and where the stroke makes it lowest."""
+    first = design.first_parasitic
+    if first is None:
+        return ""
+    told = in_words(_rounded(first), "Hz")
+    along = None if design.stroke is None else design.stroke.parasitic
+    if along is None or not along.value.size:
+        return told
+    k = int(np.argmin(along.value[:, 0]))
+    least = Number(float(along.value[k, 0]), float(along.uncertainty[k, 0]))
+    if least.value > 0.99 * first.value:
+        return told
+    lowest = in_words(_rounded(least), "Hz")
+    if told.endswith(" Hz") and lowest.endswith(" Hz"):
+        told = told.removesuffix(" Hz")
+    return typeset(f"{told} -> {lowest}")

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from ..model.model import Model
-from ..model.models import read
+from ..model.reading import read
 from ..util.loading import load
 from ..util.outputs import write_together
+from .compute import cost_of
 from .designs import CostValues
-from .json import csv_text
-from .json_cost import dictionary_of, text_of
-from .making import cost_of
+from .json import csv_text, dictionary_of, text_of
 from .request import Asked
 from .saving import save
 from .words import describe, first_line
@@ -81,7 +80,7 @@ class Cost(CostValues):
 
     def _repr_html_(self) -> str:
         # Notebooks alone ask for it.
-        made: str = load("flexact.costs.notebook").html_of(self)
+        made: str = load("flexact.costs.page").html_of(self)
         return made
 
 

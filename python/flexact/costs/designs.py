@@ -3,24 +3,222 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..core.arrays import FloatArray
 from ..model.data import ModelData
 from ..util.records import Frozen
 from .shape import Shape
-from .values import (
-    Clamp,
-    Kept,
-    Misalignment,
-    Number,
-    Numbers,
-    Point,
-    Released,
-    Tolerance,
-    unit_of_direction,
-)
+
+#: Directions of a point or clamp, in the order of all arrays; planar ones have x y rz.
+DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
+PLANAR = ("x", "y", "rz")
+#: What the first frequency is called where the deck has no masses.
+FREQUENCY, STIFFNESS = "first frequency", "lowest stiffness"
+
+
+def unit_of_direction(direction: str) -> str:
+    """Of a displacement or rotation: m or rad."""
+    return "rad" if direction.startswith("r") else "m"
+
+
+def words_of_direction(direction: str) -> str:
+    """Such as "along x" or "about z"."""
+    return f"about {direction[1:]}" if direction.startswith("r") else f"along {direction}"
+
+
+class Number(NamedTuple):
+    """A number and what refinement leaves open of it.
+
+    The value may be infinite, where no misalignment reaches what is asked for; its uncertainty is
+    0 then. With a fixed number of beams the uncertainty is 0, and `Cost.beams` says so.
+    """
+
+    value: float
+    uncertainty: float = 0.0
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether there is such a value."""
+        return math.isfinite(self.value)
+
+
+class Numbers(NamedTuple):
+    """Numbers of one kind: values and uncertainties, two arrays of one shape."""
+
+    value: FloatArray
+    uncertainty: FloatArray
+
+
+class Point(NamedTuple):
+    """The point at which stiffness is measured."""
+
+    node: int
+    """Number of its position node."""
+    orientation: int | None
+    """Number of its orientation node; None where it has none: only displacements count then."""
+    words: str
+    """Such as "the stage" or "node 1"."""
+    reason: str
+    """Why it was taken: "as asked for", "the driven point", "where most parts meet"."""
+
+
+class Clamp(NamedTuple):
+    """A support that may be misaligned: position and orientation node, both of them held."""
+
+    node: int
+    """Number of its position node."""
+    orientation: int | None
+    """Number of its orientation node; None of a support that holds no rotation."""
+    words: str
+    """Such as "clamp 11" or "the clamp of sheet 1"."""
+    label: str
+    """Short, for tables and axes: a name, or "clamp 11"."""
+
+
+class Misalignment(NamedTuple):
+    """A clamp moved or turned."""
+
+    clamp: Clamp
+    direction: str
+    """One of x y z rx ry rz."""
+    about: int | None = None
+    """Number of the position node through which the axis of a turn goes; None: the clamp's own."""
+
+    @property
+    def unit(self) -> str:
+        """Of its size: m or rad."""
+        return unit_of_direction(self.direction)
+
+    @property
+    def words(self) -> str:
+        """Such as "clamp 11 along x"."""
+        pivot = "" if self.about is None else f" through node {self.about}"
+        return f"{self.clamp.words} {words_of_direction(self.direction)}{pivot}"
+
+
+class Tolerance(NamedTuple):
+    """What a clamp may be off in one direction.
+
+    Stresses are taken in proportion to the error, about the undeformed state.
+    """
+
+    misalignment: Misalignment
+    negative: Number
+    """The error below zero that shifts the measure by `Cost.shift`; -infinity where none does."""
+    positive: Number
+    """Likewise above zero."""
+    critical_negative: Number
+    """The error below zero at which the design buckles; -infinity where none does."""
+    critical_positive: Number
+    """Likewise above zero."""
+
+    @property
+    def tightest(self) -> Number:
+        """The smaller in size of both, as a size."""
+        first = min(self.negative, self.positive, key=lambda each: abs(each.value))
+        return Number(abs(first.value), first.uncertainty)
+
+    @property
+    def critical(self) -> Number:
+        """The smaller in size of both critical errors, as a size."""
+        first = min(self.critical_negative, self.critical_positive, key=lambda n: abs(n.value))
+        return Number(abs(first.value), first.uncertainty)
+
+
+class Released(NamedTuple):
+    """A deformation that a design releases."""
+
+    element: int
+    """Number of the element."""
+    deformation: int
+    """From 1."""
+    notch: float
+    """Stiffness of the notch [N m/rad; of an elongation N/m]; 0: ideal."""
+    words: str
+    """Such as "sheet 1: in-plane bending at its clamp"."""
+
+    @property
+    def label(self) -> str:
+        """Such as "1:5" or "1:5=3.5"."""
+        return f"{self.element}:{self.deformation}" + (f"={self.notch:g}" if self.notch else "")
+
+
+class Kept(NamedTuple):
+    """What a design keeps of the stiffness as built at the point: C_before v = mu C_after v."""
+
+    mu: Numbers
+    """(directions that can move,) ascending; 1: all of it is kept."""
+    worst: FloatArray
+    """(6,), of planar models and points without orientation (3,): load v of the smallest mu
+    [N, N m], its largest entry 1 with lengths in units of the model's size."""
+    words: str
+    """The direction, such as "about z" or "along x with a turn about y"."""
+
+    @property
+    def smallest(self) -> Number:
+        """The smallest mu."""
+        return Number(float(self.mu.value[0]), float(self.mu.uncertainty[0]))
+
+
+#: Prefixes by unit; other units have none.
+_PREFIXES: dict[str, tuple[tuple[float, str], ...]] = {
+    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")),
+    "rad": ((1.0, "rad"), (1e-3, "mrad"), (1e-6, "urad"), (1e-9, "nrad")),
+    "Hz": ((1e3, "kHz"), (1.0, "Hz")),
+    "N/m": ((1e6, "N/um"), (1e3, "N/mm"), (1.0, "N/m")),
+    "N": ((1e3, "kN"), (1.0, "N"), (1e-3, "mN")),
+    "J": ((1.0, "J"), (1e-3, "mJ"), (1e-6, "uJ"), (1e-9, "nJ")),
+    "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+}
+#: Digits of a number whose uncertainty is below this part of it.
+_DIGITS, _CERTAIN = 4, 0.5e-4
+#: Decimals of a number that stand before it is written with an exponent.
+_MOST_DECIMALS = 8
+
+
+def in_words(number: Number, unit: str = "", *, none: str = "none") -> str:
+    """Such as "132.7 +- 0.2 um"; digits that are uncertain are left out.
+
+    Args:
+        number: The number; infinite where there is none.
+        unit: The SI unit: a prefix is found for m, rad, Hz, N/m, N, J and Pa.
+        none: What stands for a number that is infinite.
+    """
+    if not number.is_finite:
+        return none
+    factor, name = scale_of(number.value, unit)
+    value, off = number.value / factor, abs(number.uncertainty) / factor
+    text = _rounded(value, off)
+    return f"{text} {name}" if name else text
+
+
+def scale_of(value: float, unit: str) -> tuple[float, str]:
+    """The prefix with which a value is between 1 and 1000, as its factor and its name."""
+    prefixes = _PREFIXES.get(unit, ((1.0, unit),))
+    size = abs(float(f"{value:.3g}"))
+    if size == 0.0:
+        return 1.0, unit
+    return next((each for each in prefixes if size >= each[0]), prefixes[-1])
+
+
+def _rounded(value: float, off: float) -> str:
+    if not off > _CERTAIN * abs(value):
+        return f"{value:.{_DIGITS}g}"
+    # One digit of the uncertainty, rounded up.
+    digits = -math.floor(math.log10(off))
+    off = math.ceil(off * 10.0**digits - 1.0e-9) / 10.0**digits
+    if digits > _MOST_DECIMALS or digits < 0:
+        return f"{value:.{_DIGITS}g} +- {off:.1g}"
+    return f"{value:.{digits}f} +- {off:.{digits}f}"
+
+
+def percent(part: float) -> str:
+    """A part such as 0.05 as "5 %"."""
+    return f"{100.0 * part:.3g} %"
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,3 +469,15 @@ class CostValues(Frozen):
     def tightest(self) -> Tolerance | None:
         """The smallest tolerance as built; None where misalignment costs nothing."""
         return self.as_built.tightest
+
+
+#: The longest label that stands at a curve.
+_LONGEST = 11
+
+
+def short_labels(cost: CostValues) -> tuple[str, ...]:
+    """What stands at the curves and bars of designs: their labels, or letters if one is long."""
+    labels = [each.label for each in cost.designs]
+    if max(map(len, labels)) <= _LONGEST:
+        return tuple(labels)
+    return (labels[0], *(chr(ord("A") + k) for k in range(len(labels) - 1)))

@@ -5,12 +5,27 @@ from __future__ import annotations
 
 import csv
 import io
+import json
+import math
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from ..core.arrays import FloatArray
-from .designs import CostValues, Design, Effect, StrokeCurve
-from .values import Misalignment, Number, Numbers, unit_of_direction
+from ..util.loading import VERSION
+from .designs import (
+    Clamp,
+    CostValues,
+    Design,
+    Effect,
+    Misalignment,
+    Number,
+    Numbers,
+    StrokeCurve,
+    Tolerance,
+    unit_of_direction,
+)
 
 Cell = str | int | float
 
@@ -172,3 +187,168 @@ def stiffness_unit(direction: str) -> str:
 
 def _force_unit(direction: str) -> str:
     return "(N m)" if unit_of_direction(direction) == "rad" else "N"
+
+
+#: Of the JSON of a cost; raised where an entry is taken away, renamed, or means something else.
+FORMAT = 1
+
+
+def dictionary_of(cost: CostValues) -> dict[str, Any]:
+    """The names and values of the JSON, in their order; what is infinite is null."""
+    deck = cost.name.encode("utf-8", "backslashreplace").decode("utf-8")
+    return {
+        "format": FORMAT,
+        "deck": deck,
+        "flexact": VERSION,
+        "choice": {
+            "held": cost.held,
+            "drive": cost.drive,
+            "beams": cost.beams,
+            "shift": cost.shift,
+            "measure": cost.measure,
+        },
+        "point": cost.point._asdict(),
+        "directions": list(cost.directions),
+        "clamps": [_clamp(each) for each in cost.clamps],
+        "stroke": None if cost.stroke is None else _stroke_of_json_cost(cost),
+        "misaligned": [
+            {**_where_of_json_cost(each), "value": value, "unit": each.unit}
+            for each, value in cost.misaligned
+        ],
+        "designs": [_design(cost, each) for each in cost.designs],
+        "left_out": list(cost.left_out),
+    }
+
+
+def text_of(cost: CostValues) -> str:
+    """The same as one line of text."""
+    return json.dumps(dictionary_of(cost), allow_nan=False)
+
+
+def _design(cost: CostValues, design: Design) -> dict[str, Any]:
+    kept = design.kept
+    return {
+        "label": design.label,
+        "released": [each._asdict() for each in design.released],
+        "alike": list(design.alike),
+        "under_constrained": design.under_constrained,
+        "over_constrained": design.over_constrained,
+        "compliance": _numbers_of_json_cost(design.compliance),
+        "kept": None
+        if kept is None
+        else {
+            "mu": _numbers_of_json_cost(kept.mu),
+            "worst": kept.worst.tolist(),
+            "words": kept.words,
+        },
+        "frequencies": None
+        if design.frequencies is None
+        else {
+            **_numbers_of_json_cost(design.frequencies),
+            "unit": "Hz",
+            "is_drive": list(design.is_drive),
+        },
+        "tightest": _maybe(design.tightest),
+        "buckles_at": _maybe(design.buckles_at),
+        "tolerances": [_tolerance(each) for each in design.tolerances],
+        "curve": None
+        if design.curve is None
+        else {
+            **_where_of_json_cost(design.curve.misalignment),
+            "unit": design.curve.misalignment.unit,
+            "values": design.curve.values.tolist(),
+            "measure": _numbers_of_json_cost(design.curve.measure),
+        },
+        "stroke": None if design.stroke is None else _along(cost, design.stroke),
+        "effect": None if design.effect is None else _effect_of_json_cost(cost, design.effect),
+        "remarks": list(design.remarks),
+    }
+
+
+def _stroke_of_json_cost(cost: CostValues) -> dict[str, Any]:
+    made = cost.stroke
+    assert made is not None
+    return {
+        "node": made.node,
+        "coordinate": made.coordinate,
+        "words": made.words,
+        "unit": made.unit,
+        "rest": made.rest,
+        "asked": list(made.asked),
+        "reached": list(made.reached),
+        "why": made.why,
+    }
+
+
+def _along(cost: CostValues, curve: StrokeCurve) -> dict[str, Any]:
+    return {
+        "values": curve.values.tolist(),
+        "stiffness": {**_numbers_of_json_cost(curve.stiffness), "units": _units(cost)},
+        "kept": _numbers_of_json_cost(curve.kept),
+        "drive_stiffness": _numbers_of_json_cost(curve.drive_stiffness),
+        "force": _numbers_of_json_cost(curve.force),
+        "frequencies": _numbers_or_null(curve.frequencies),
+        "parasitic": _numbers_or_null(curve.parasitic),
+        "is_stable": list(curve.is_stable),
+        "under_constrained": list(curve.under_constrained),
+        "over_constrained": list(curve.over_constrained),
+    }
+
+
+def _effect_of_json_cost(cost: CostValues, effect: Effect) -> dict[str, Any]:
+    return {
+        "frequencies": _numbers_or_null(effect.frequencies),
+        "stiffness": {**_numbers_of_json_cost(effect.stiffness), "units": _units(cost)},
+        "energy": _numbers_of_json_cost(effect.energy),
+        "resultants": _numbers_of_json_cost(effect.resultants),
+        "peak": _numbers_or_null(effect.peak),
+        "where": effect.where,
+        "kept": _number_of_json_cost(effect.kept),
+        "is_stable": effect.is_stable,
+        "reached": effect.reached,
+    }
+
+
+def _units(cost: CostValues) -> list[str]:
+    return [stiffness_unit(each) for each in cost.directions]
+
+
+def _maybe(tolerance: Tolerance | None) -> dict[str, Any] | None:
+    return None if tolerance is None else _tolerance(tolerance)
+
+
+def _tolerance(each: Tolerance) -> dict[str, Any]:
+    return {
+        **_where_of_json_cost(each.misalignment),
+        "unit": each.misalignment.unit,
+        "negative": _number_of_json_cost(each.negative),
+        "positive": _number_of_json_cost(each.positive),
+        "critical_negative": _number_of_json_cost(each.critical_negative),
+        "critical_positive": _number_of_json_cost(each.critical_positive),
+    }
+
+
+def _where_of_json_cost(each: Misalignment) -> dict[str, Any]:
+    return {"clamp": each.clamp.node, "direction": each.direction, "about": each.about}
+
+
+def _clamp(each: Clamp) -> dict[str, Any]:
+    return {"node": each.node, "orientation": each.orientation, "words": each.words}
+
+
+def _number_of_json_cost(number: Number) -> dict[str, Any]:
+    value = number.value if math.isfinite(number.value) else None
+    return {"value": value, "uncertainty": number.uncertainty}
+
+
+def _numbers_of_json_cost(numbers: Numbers) -> dict[str, Any]:
+    return {"value": _finite(numbers.value), "uncertainty": _finite(numbers.uncertainty)}
+
+
+def _numbers_or_null(numbers: Numbers | None) -> dict[str, Any] | None:
+    return None if numbers is None else _numbers_of_json_cost(numbers)
+
+
+def _finite(array: FloatArray) -> list[Any]:
+    """Nested lists, with null in place of what is infinite."""
+    return np.where(np.isfinite(array), array, None).tolist()  # type: ignore[call-overload, no-any-return]

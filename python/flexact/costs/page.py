@@ -3,22 +3,20 @@
 
 from __future__ import annotations
 
-from ..show.page import Compared, Side, Told
-from ..show.page import designs as designs_page
-from ..show.page.bars_part import bars_svg
-from ..show.page.charts import chart_svg
-from ..show.page.shapes_data import Shape as Played
-from ..show.page.shapes_data import Shaped
+from html import escape
+
+from ..show.page import Compared, Side, Told, designs_page
+from ..show.page.assets import image, text
+from ..show.page.charts import bars_svg, chart_svg
+from ..show.page.viewer import Shape as Played
+from ..show.page.viewer import Shaped
 from ..show.picture import has_packages, shape_bytes
-from ..util.plain_text import file_name, harmless
-from .bars import LARGEST, bars_of
-from .charts import charts_of
-from .designs import CostValues, Design
-from .key import Key, choices_of, key_of, typeset
-from .quantities import in_words
+from ..util.text import file_name, harmless
+from .charts import LARGEST, Key, bars_of, charts_of, choices_of, key_of, typeset
+from .designs import CostValues, Design, Number, in_words
+from .plot import plot_bytes
 from .shape import Shape
-from .values import Number
-from .words import first_line
+from .words import describe, first_line
 
 #: Designs that are drawn: the one as built, and beside it the best that has shapes.
 _DRAWN = 2
@@ -108,3 +106,16 @@ def _notes(cost: CostValues) -> list[str]:
     """Remarks on the designs, and what the deck does not allow."""
     remarks = [f"{design.label}: {remark}" for design in cost.designs for remark in design.remarks]
     return [harmless(each) for each in (*remarks, *cost.left_out)]
+
+
+def html_of(cost: CostValues) -> str:
+    """The cost as HTML; without a picture where matplotlib is missing."""
+    words = first_line(cost)
+    picture = ""
+    if has_packages():
+        made = image(plot_bytes(cost), words)
+        picture = made.replace("<img ", '<img style="width:100%;max-width:1200px" ', 1)
+    return (
+        f"<div><p><b>{text(words)}</b></p>{picture}"
+        f"<details><summary>In words</summary><pre>{escape(describe(cost))}</pre></details></div>"
+    )

@@ -3,22 +3,201 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
-from ..show.charts import BarChart, Chart
-from ..show.picture.bar_charts import bars_height, draw_bars
-from ..show.picture.charts import draw_chart
-from ..show.picture.files import png_bytes, still_bytes
-from ..show.picture.loading import load_matplotlib
+from ..show.charts import BarChart, Chart, style_of
+from ..show.picture.charts import INK, SOFT, bars_height, draw_bars, draw_chart, width_of, written
+from ..show.picture.files import load_matplotlib, png_bytes, still_bytes
 from ..show.picture.make import check_packages
-from ..util.plain_text import file_name
-from .bars import bars_of
-from .charts import charts_of
+from ..util.text import file_name, harmless
+from .charts import Key, KeyRow, bars_of, charts_of, choices_of, key_of, typeset
 from .designs import CostValues
-from .key import key_of, typeset
-from .plot_head import draw_head, draw_notes, head_height, notes_of
-from .plot_table import HEAD, table_of
 from .words import first_line
+
+
+class Head(NamedTuple):
+    """Measures of the head [inch], and sizes of its letters [pt]."""
+
+    left: float = 0.3
+    label: float = 0.8
+    end: float = 11.8
+    top: float = 0.2
+    line: float = 0.31
+    row: float = 0.245
+    second: float = 0.17
+    room: float = 0.12
+    headline: float = 16.0
+    words: float = 10.5
+    small: float = 9.0
+
+
+HEAD = Head()
+#: Least and most room between columns [inch]; what is released takes at most so many lines.
+_GAP, _MOST_GAP, _LINES = 0.2, 0.4, 2
+
+
+class Table(NamedTuple):
+    """The table as it is drawn.
+
+    Attributes:
+        heads: Of the columns.
+        rows: The designs.
+        words: What each releases, in lines.
+        place: Where these begin [inch].
+        cells: Where the columns begin [inch].
+        heights: Of the rows [inch].
+        headline: Above it, in lines.
+    """
+
+    heads: tuple[str, ...]
+    rows: tuple[KeyRow, ...]
+    words: tuple[list[str], ...]
+    place: float
+    cells: list[float]
+    heights: tuple[float, ...]
+    headline: list[str]
+
+
+def table_of(figure: Any, key: Key, headline: str) -> Table:
+    """The table as wide as the figure; what is released has the room that is left.
+
+    Args:
+        figure: Any figure, with which letters are measured.
+        key: What it says.
+        headline: What stands above.
+    """
+
+    def width(words: Iterable[str], weight: str = "normal") -> float:
+        return max((width_of(figure, each, HEAD.words, weight) for each in words), default=0.0)
+
+    first = HEAD.label + width((row.label for row in key.rows), "bold") + _GAP
+    wide = [
+        max(
+            width([head]),
+            width([key.rows[0].cells[k]], "bold"),
+            width(row.cells[k] for row in key.rows[1:]),
+        )
+        for k, head in enumerate(key.heads)
+    ]
+    told = [row.words if row.words != row.label else "" for row in key.rows]
+    left = max(HEAD.end - first - sum(wide) - _GAP * (len(wide) + 1), 1.0)
+    words = tuple(wrapped(figure, each, left, HEAD.words) for each in told)
+    needed = width(line for lines in words for line in lines)
+    # What is not needed goes between the columns.
+    gap = _GAP + max(0.0, min((left - needed) / (len(wide) + 1), _MOST_GAP - _GAP))
+    place, cells = first + needed + gap * (needed > 0.0), []
+    for each in wide:
+        cells.append(place)
+        place += each + gap
+    heights = (HEAD.row + HEAD.second * max(len(lines) - 1, 0) for lines in words)
+    lines = wrapped(figure, headline, HEAD.end - HEAD.left, HEAD.headline, "bold")
+    return Table(key.heads, key.rows, words, first, cells, tuple(heights), lines)
+
+
+def wrapped(figure: Any, text: str, room: float, size: float, weight: str = "normal") -> list[str]:
+    """Words in two lines that fit; what does not fit into the last is cut."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        is_last = len(lines) == _LINES
+        if lines and (is_last or width_of(figure, longer, size, weight) <= room + 0.02):
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return [_cut(figure, line, room, size, weight) for line in lines]
+
+
+def _cut(figure: Any, line: str, room: float, size: float, weight: str) -> str:
+    told = line
+    while len(line) > 1 and width_of(figure, told, size, weight) > room + 0.02:
+        line = line[:-1].rstrip(" ;:,-")
+        told = f"{line}\N{HORIZONTAL ELLIPSIS}"
+    return told
+
+
+#: How many notes stand in the picture; the words have them all.
+_NOTES = 4
+
+
+def head_height(table: Table) -> float:
+    """How high the head is [inch]."""
+    lines = HEAD.line * len(table.headline)
+    return HEAD.top + lines + 2 * HEAD.row + sum(table.heights) + HEAD.room
+
+
+def draw_head(figure: Any, cost: CostValues, table: Table) -> None:
+    """The headline, how it was found, and the table."""
+    top = HEAD.top
+    for line in table.headline:
+        _text(figure, HEAD.left, top, line, HEAD.headline, INK, fontweight="bold")
+        top += HEAD.line
+    top += 0.04
+    _text(figure, HEAD.left, top, ", ".join(choices_of(cost)), HEAD.words, SOFT)
+    top += HEAD.row + 0.1
+    for place, head in zip(table.cells, table.heads, strict=True):
+        _text(figure, place, top, head, HEAD.words - 0.5, SOFT)
+    top += HEAD.row
+    for row, told, height in zip(table.rows, table.words, table.heights, strict=True):
+        _draw_row(figure, table, row, told, top)
+        top += height
+
+
+def notes_of(figure: Any, cost: CostValues) -> list[str]:
+    """What the deck does not allow, in lines that fit; measured on any figure."""
+    room = HEAD.end - HEAD.left
+    return [
+        line
+        for note in cost.left_out[:_NOTES]
+        for line in wrapped(figure, harmless(f"{note[:1].upper()}{note[1:]}."), room, HEAD.small)
+    ]
+
+
+def draw_notes(figure: Any, notes: list[str]) -> None:
+    """Lines at the lower edge."""
+    top = figure.get_figheight() - HEAD.second * len(notes) - HEAD.room
+    for line in notes:
+        _text(figure, HEAD.left, top, line, HEAD.small, SOFT)
+        top += HEAD.second
+
+
+def _draw_row(figure: Any, table: Table, row: KeyRow, told: list[str], top: float) -> None:
+    from matplotlib.lines import Line2D
+
+    look = style_of(row.series)
+    whole, wide = figure.get_figheight(), figure.get_figwidth()
+    middle = 1.0 - (top + 0.09) / whole
+    figure.add_artist(
+        Line2D(
+            [HEAD.left / wide, (HEAD.label - 0.1) / wide],
+            [middle, middle],
+            color=look.colour,
+            lw=look.width,
+            ls=(0, look.dashes) if look.dashes else "-",
+        )
+    )
+    weight = "bold" if row.series == 0 else "normal"
+    _text(figure, HEAD.label, top, row.label, HEAD.words, look.colour, fontweight=weight)
+    for k, line in enumerate(told):
+        _text(figure, table.place, top + k * HEAD.second, line, HEAD.words, INK)
+    for place, cell in zip(table.cells, row.cells, strict=True):
+        _text(figure, place, top, cell, HEAD.words, INK, fontweight=weight)
+
+
+def _text(
+    figure: Any, left: float, top: float, words: str, size: float, colour: str, **more: Any
+) -> None:
+    figure.text(
+        left / figure.get_figwidth(),
+        1.0 - top / figure.get_figheight(),
+        written(words),
+        fontsize=size,
+        color=colour,
+        ha="left",
+        va="top",
+        **more,
+    )
+
 
 #: Width [inch] and pixels an inch: 1200 pixels wide.
 _WIDTH, _DPI = 12.0, 100

@@ -8,24 +8,21 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..analysis.naming import filled, sentence
 from ..analysis.places import part_words
 from ..analysis.result import Result
-from ..analysis.sentences import filled, sentence
 from ..core.arrays import BoolArray, FloatArray
 from ..elasticity import ElasticError
-from ..elasticity.resultants import resultants_of
+from ..elasticity.reduced import resultants_of
 from ..elasticity.solution import Solution
 from ..elasticity.state import peak_of
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
-from ..util.plain_text import harmless
-from ..util.text import TIE, USUAL
-from .designs import smallest
+from ..util.text import TIE, USUAL, harmless
+from .designs import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance, in_words, smallest
 from .elastic_design import MISMATCH, Bench, Choice, Level, has_stiffness
-from .quantities import in_words
 from .resolve import Places
 from .tolerances import extrapolated, tolerances_of
-from .values import FREQUENCY, STIFFNESS, Misalignment, Number, Tolerance
 from .words import costs, costs_nothing, off
 
 #: Of more elements, or errors, it would no longer be a glance.

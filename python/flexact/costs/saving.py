@@ -10,8 +10,7 @@ from ..show.picture.make import check_packages
 from ..util.loading import load
 from ..util.outputs import OutputError, write_together
 from .designs import CostValues
-from .json import csv_text
-from .json_cost import text_of
+from .json import csv_text, text_of
 
 #: Suffixes of pictures, of pages, and of all files.
 PICTURES, PAGES = (".png", ".svg", ".pdf"), (".html", ".htm")

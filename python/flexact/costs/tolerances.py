@@ -15,9 +15,8 @@ import numpy as np
 
 from ..core.arrays import FloatArray
 from ..elasticity import Elastic, Estimate
-from .designs import MisalignmentCurve
+from .designs import Misalignment, MisalignmentCurve, Number, Numbers, Tolerance
 from .elastic_design import Bench, Level
-from .values import Misalignment, Number, Numbers, Tolerance
 
 #: Errors of so many sizes of the model, or radians, are none that anybody makes, and far beyond
 #: where the stress is in proportion to them.

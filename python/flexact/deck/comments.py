@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ..core.elements import element_kinds
-from .source import Source, decode
+from .diagnostics import Source, decode
 
 #: Statements by what they are written as again, and the number of their node or element.
 Key = tuple[str, int]

@@ -2,9 +2,8 @@
 """Elastic states, strokes and misalignment; uses `core`, `model`, `deck` and `result`."""
 
 from .elastic import Elastic, elastic
-from .errors import Estimate
+from .errors import ElasticError, Estimate, StrokeError, StrokeWarning, UnknownError
 from .state import State
-from .stiffness_errors import ElasticError, StrokeError, StrokeWarning, UnknownError
 
 __all__ = [
     "Elastic",

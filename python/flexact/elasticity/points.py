@@ -12,10 +12,10 @@ from ..core.arrays import FloatArray, IntArray
 from ..core.elements import AXES, Class, NodeKind, coordinate_name
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from ..util.cached import cached_property
-from ..util.plain_text import in_short
 from ..util.quantities import without_units
-from .stiffness_errors import UnknownError
+from ..util.records import cached_property
+from ..util.text import in_short
+from .errors import UnknownError
 
 #: How many numbers of nodes or elements a message names.
 _MOST = 12

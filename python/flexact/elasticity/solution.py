@@ -4,24 +4,384 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core import calls, elastic
-from ..core.arrays import BoolArray, FloatArray
-from ..core.elastic import ElasticState, RawLinear, RawModes, Waypoint
-from ..core.elements import Class, NodeKind
-from ..util.cached import cached_property
-from .compliance import Compliance, compliance_at
-from .points import Coordinate, Point
-from .policy import NO_STIFFNESS
-from .solver import Held, Solver
-from .stiffness_errors import ElasticError
+from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
+from ..core.elastic import (
+    ElasticArrays,
+    ElasticState,
+    RawLinear,
+    RawModes,
+    Waypoint,
+    element_stiffness,
+)
+from ..core.elements import Class, Dual, NodeKind, dual_table
+from ..model.data import ModelData
+from ..util.quantities import NOTCH, Quantity, without_units
+from ..util.records import Frozen, cached_property
+from ..util.text import in_short
+from .errors import ElasticError
+from .mesh import Mesh, bending_pairs, rigid_of_pieces
+from .points import Coordinate, Point, Points
+
+HELD = ("elastic", "rigid")
+DRIVES = ("free", "locked")
+
+#: Deformations that are released, as users give them.
+Release = Iterable[tuple[object, ...]] | Mapping[tuple[object, ...], Quantity]
+#: Stiffness [N m/rad; N/m of an elongation] by indices of element and deformation, from 0.
+Releases = dict[tuple[int, int], float]
+
+
+def choice(given: object, known: tuple[str, ...], what: str) -> str:
+    """One of some words.
+
+    Raises:
+        ElasticError: it is none of them.
+    """
+    if given not in known or not isinstance(given, str):
+        raise ElasticError(f"{what} must be {' or '.join(map(repr, known))}, not {in_short(given)}")
+    return given
+
+
+def releases_given(points: Points, given: object) -> Releases:
+    """Releases with the stiffness of each notch, 0 where none is given.
+
+    Raises:
+        UnknownError: there is no such element or deformation.
+        ElasticError: a stiffness is negative or not finite.
+        TypeError: it is neither pairs nor a mapping of them.
+    """
+    if isinstance(given, Mapping):
+        pairs = list(given.items())
+    elif isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
+        pairs = [_with_stiffness(pair) for pair in given]
+    else:
+        raise TypeError(_WANTED + in_short(given))
+    made: Releases = {}
+    for pair, stiffness in pairs:
+        if not isinstance(pair, (tuple, list)) or len(pair) not in (2, 3):
+            raise TypeError(_WANTED + in_short(pair))
+        stiffness = without_units(stiffness, NOTCH)
+        number = stiffness if isinstance(stiffness, (int, float, np.number)) else math.nan
+        if isinstance(stiffness, bool) or not (math.isfinite(number) and number >= 0.0):
+            raise ElasticError(
+                f"the stiffness of a release must be a number from 0 in N m/rad (of an elongation "
+                f"in N/m), not {in_short(stiffness)}"
+            )
+        made.update(dict.fromkeys(points.deformations(*pair), float(number)))
+    return made
+
+
+def _with_stiffness(given: object) -> tuple[object, object]:
+    """A pair without a stiffness, or a pair with its own."""
+    if isinstance(given, (tuple, list)) and given and isinstance(given[0], (tuple, list)):
+        return (given[0], given[1]) if len(given) == 2 else (given, 0.0)
+    return given, 0.0
+
+
+NO_STIFFNESS = (
+    "no element has a stiffness: give ESTIFF in the deck's dynamics block, or a material with a "
+    "section"
+)
+_WANTED = "releases are pairs of an element and a deformation, or a mapping of them, not "
+
+
+@dataclass(frozen=True, eq=False)
+class Policy(Frozen):
+    """What is rigid in a model, and what its elements are made of.
+
+    Attributes:
+        arrays: Stiffness and mass of the deck's elements; notches in N m/rad, N/m, by element.
+        rigid: (6, elements) which deformations are rigid, those with a notch too: that is in
+            series.
+        stiff: (6, elements) which have a stiffness of their own.
+    """
+
+    arrays: ElasticArrays
+    rigid: BoolArray
+    stiff: BoolArray
+
+    @property
+    def has_stiffness(self) -> bool:
+        """Whether any stiffness is given at all."""
+        return bool(self.stiff.any() or np.nan_to_num(self.arrays.notch).any())
+
+
+def policy_of(data: ModelData, held: str, releases: Releases) -> Policy:
+    """What is rigid: fixed deformations; with held "elastic" only those without a stiffness."""
+    arrays = data.arrays
+    notch = np.full(arrays.deformation_class.shape, np.nan, order="F")
+    plain = elastic_arrays(data, notch)
+    # What is rigid has none in the core: here all of it is asked for.
+    free = np.where(arrays.deformation_class == Class.NONE, Class.NONE, Class.DEPENDENT)
+    asked = arrays._replace(deformation_class=np.asfortranarray(free, np.int32))
+    own, _ = element_stiffness(packed(asked), plain)
+    stiff = np.diagonal(own, axis1=1, axis2=2).T > 0.0
+    rigid = arrays.deformation_class == Class.FIXED
+    if held == "elastic":
+        rigid &= ~stiff
+    for (element, k), stiffness in releases.items():
+        notch[k, element] = stiffness
+    return Policy(elastic_arrays(data, notch), rigid, stiff)
+
+
+def elastic_arrays(data: ModelData, notch: FloatArray) -> ElasticArrays:
+    """Stiffness and mass of a model, as the core takes them; NaN where nothing is given."""
+    given, ne = data.properties, data.arrays.element_number.size
+    if given is None:
+        return ElasticArrays(
+            np.full((6, ne), np.nan, order="F"),
+            np.full((5, ne), np.nan, order="F"),
+            np.full((6, data.arrays.node_number.size), np.nan, order="F"),
+            notch,
+        )
+    return ElasticArrays(
+        np.asfortranarray(given.stiffness.T),
+        np.asfortranarray(given.mass.T),
+        np.asfortranarray(given.node_mass.T),
+        notch,
+    )
+
+
+def notch_in_units(data: ModelData, notch: FloatArray) -> FloatArray:
+    """Notches in the units of the deformations: of lengths that are angles, over length squared."""
+    by_length = (dual_table()[data.arrays.element_kind] == Dual.MOMENT_OVER_LENGTH).T
+    length = np.where(data.frames.length > 0.0, data.frames.length, 1.0)
+    return np.asfortranarray(np.where(by_length, notch / length**2, notch))
+
+
+def numbered(data: ModelData, releases: Releases) -> dict[tuple[int, int], float]:
+    """Releases by numbers of elements and deformations, from 1, instead of indices."""
+    numbers = data.arrays.element_number
+    return {(int(numbers[e]), k + 1): value for (e, k), value in releases.items()}
+
+
+def indexed(data: ModelData, release: Mapping[tuple[int, int], float]) -> Releases:
+    """The other way round."""
+    return {(data.element_index[e], k - 1): value for (e, k), value in release.items()}
+
+
+#: Below this part of the largest, with rotations times a length, a compliance is none.
+_NONE = 1.0e-13
+#: Components of unit vectors below this are rounding.
+_ROUNDING = 1.0e-9
+#: A point rests in a motion without stiffness that moves others by 1 and it by less.
+_RESTS = 1.0e-8
+
+
+class Compliance(NamedTuple):
+    """What a point does under unit loads, rotations times a length of the model.
+
+    Attributes:
+        finite: (n, n) the compliance but for motions without stiffness.
+        loose: (n, l) orthonormal motions of the point without any stiffness.
+        scale: (n,) what makes a length of each coordinate.
+        is_held: (n,) which are held.
+    """
+
+    finite: FloatArray
+    loose: FloatArray
+    scale: FloatArray
+    is_held: BoolArray
+
+    @property
+    def matrix(self) -> FloatArray:
+        """Compliance in SI units; 0 for what is held, infinite for motions without stiffness."""
+        made = self.finite / np.outer(self.scale, self.scale)
+        return _with_infinity(made, self.loose @ self.loose.T)
+
+    @property
+    def stiffness(self) -> FloatArray:
+        """Stiffness in SI units: infinite for what is held, 0 for motions without stiffness."""
+        across = _complement(self.loose)
+        inner = across.T @ self.finite @ across
+        values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
+        none = np.abs(values) <= _NONE * np.abs(values).max(initial=0.0)
+        turned = across @ vectors
+        some = turned[:, ~none]
+        made = (some / values[~none]) @ some.T * np.outer(self.scale, self.scale)
+        return _with_infinity(made, turned[:, none] @ turned[:, none].T)
+
+
+def compliance_at(
+    moved: FloatArray, loose: FloatArray, scale: FloatArray, is_held: BoolArray, least: float
+) -> Compliance:
+    """Of displacements (n, n) under unit loads, and motions without stiffness (n, m).
+
+    Args:
+        moved: Displacements and turns.
+        loose: Displacements and turns.
+        scale: (n,) what makes a length of each.
+        is_held: (n,) which are held.
+        least: A compliance [m/N] below which all of it is rounding.
+    """
+    finite = moved * np.outer(scale, scale)
+    finite = (finite + finite.T) / 2.0
+    finite[is_held] = 0.0
+    finite[:, is_held] = 0.0
+    if np.abs(finite).max(initial=0.0) < least:
+        finite[:] = 0.0
+    free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
+    return Compliance(finite, _span(free), scale, is_held)
+
+
+def kept(before: Compliance, after: Compliance) -> FloatArray:
+    """All mu of C_before v = mu C_after v, ascending, without held directions.
+
+    A motion that the release leaves without stiffness gives 0; one without stiffness before,
+    too, is left out.
+    """
+    free = ~after.is_held
+    scale = before.scale / after.scale
+    across = _complement(after.loose[free])
+    inner = across.T @ after.finite[np.ix_(free, free)] @ across
+    values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
+    some = values > _NONE * np.abs(values).max(initial=0.0)
+    root = across @ (vectors[:, some] / np.sqrt(values[some]))
+    first = (before.finite * np.outer(1.0 / scale, 1.0 / scale))[np.ix_(free, free)]
+    reduced = root.T @ first @ root
+    made = np.linalg.eigvalsh((reduced + reduced.T) / 2.0)
+    lost = max(after.loose.shape[1] - before.loose.shape[1], 0)
+    return np.sort(np.concatenate([np.zeros(lost), np.maximum(made, 0.0)]))
+
+
+def _span(vectors: FloatArray) -> FloatArray:
+    """(n, r) an orthonormal basis of what columns (n, m) span."""
+    if not vectors.size:
+        return np.zeros((vectors.shape[0], 0))
+    left, values, _ = np.linalg.svd(vectors, full_matrices=False)
+    made: FloatArray = left[:, values > _RESTS]
+    return made
+
+
+def _complement(basis: FloatArray) -> FloatArray:
+    """(n, n - r) an orthonormal basis of what is across another one."""
+    left, _, _ = np.linalg.svd(basis, full_matrices=True)
+    made: FloatArray = left[:, basis.shape[1] :]
+    return made
+
+
+def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:
+    """The matrix with infinity, signed, where a projector has entries."""
+    there = np.abs(along) > _ROUNDING
+    return np.where(there, np.copysign(np.inf, along), finite)
+
+
+#: Part of the compliance of all elements in parallel that is rounding.
+_SOLVER_ROUNDING = 1.0e-6
+
+Held = frozenset[Coordinate]
+
+
+class Solver:
+    """What the core needs of a divided model; nothing of it changes."""
+
+    def __init__(self, mesh: Mesh, policy: Policy) -> None:
+        """Of a mesh, with the policy of its deck's elements."""
+        self.mesh, self.policy = mesh, policy
+        self._models: dict[Held, PackedModel] = {}
+        data, owner = mesh.data, mesh.owner
+        place = np.arange(owner.size)
+        is_first, is_last = place == mesh.first[owner], place == mesh.last[owner]
+        kinds = mesh.own.arrays.element_kind
+        rigid = rigid_of_pieces(policy.rigid, owner, is_first, is_last, kinds)
+        self._classes = np.where(
+            data.arrays.deformation_class == Class.NONE,
+            Class.NONE,
+            np.where(rigid, Class.FIXED, Class.DEPENDENT),
+        ).astype(np.int32)
+        self.arrays: ElasticArrays = elastic_arrays(data, self._notches(is_first, is_last))
+        #: (6, pieces) which deformations are no multipliers: those with a notch neither.
+        self.is_elastic: BoolArray = ~rigid | (self.arrays.notch >= 0.0)
+
+    def _notches(self, is_first: BoolArray, is_last: BoolArray) -> FloatArray:
+        """Notches of the pieces: at q those of the last, all others of the first."""
+        mesh = self.mesh
+        own = self.policy.arrays.notch[:, mesh.owner]
+        there = np.repeat(is_first[None, :], 6, axis=0)
+        for _, q, bends in bending_pairs(mesh.own.arrays.element_kind):
+            there[q] = np.where(bends[mesh.owner], is_last, is_first)
+        return notch_in_units(mesh.data, np.where(there, own, np.nan))
+
+    def model(self, held: Held) -> PackedModel:
+        """The model in which fixed coordinates and these are held, and all others free."""
+        if held not in self._models:
+            arrays = self.mesh.data.arrays
+            given = arrays.coordinate_class
+            classes = np.where(given > Class.FIXED, np.int32(Class.DEPENDENT), given)
+            for node, axis in held:
+                classes[axis, node] = Class.FIXED
+            self._models[held] = packed(
+                arrays._replace(
+                    coordinate_class=np.asfortranarray(classes, np.int32),
+                    deformation_class=np.asfortranarray(self._classes),
+                )
+            )
+        return self._models[held]
+
+    @property
+    def nodes(self) -> int:
+        """How many nodes the divided model has."""
+        return int(self.mesh.data.arrays.node_number.size)
+
+    @property
+    def elements(self) -> int:
+        """How many pieces it has."""
+        return int(self.mesh.data.arrays.element_number.size)
+
+    @cached_property
+    def at_rest(self) -> ElasticState:
+        """As the deck gives it, without stress."""
+        value = np.asfortranarray(self.mesh.data.arrays.node_value)
+        return ElasticState(value, self.no_misfit, self.no_force)
+
+    @cached_property
+    def nothing(self) -> Waypoint:
+        """All held coordinates where the deck has them, no load, no misfit."""
+        return Waypoint(self.at_rest.configuration, self.no_misfit, self.no_force, np.zeros(3))
+
+    @cached_property
+    def no_misfit(self) -> FloatArray:
+        """(6, pieces) zeros."""
+        return np.zeros((6, self.elements), order="F")
+
+    @cached_property
+    def no_force(self) -> FloatArray:
+        """(3, nodes) zeros."""
+        return np.zeros((3, self.nodes), order="F")
+
+    @cached_property
+    def elastic(self) -> tuple[FloatArray, FloatArray]:
+        """Stiffness (pieces, 6, 6) without what is rigid, and torsion-elongation constants."""
+        return element_stiffness(self.model(frozenset()), self.arrays)
+
+    @cached_property
+    def least_compliance(self) -> float:
+        """What is more compliant than this [m/N] is so for a reason; 0 without any stiffness."""
+        stiffness = np.diagonal(self.elastic[0], axis1=1, axis2=2)
+        whole = float(stiffness[self.is_elastic.T].sum())
+        return _SOLVER_ROUNDING / whole if whole > 0.0 else 0.0
+
+    def loads(self, factor: float) -> tuple[FloatArray, FloatArray]:
+        """(3, nodes) forces and (3,) gravity of the deck, times a factor."""
+        given = self.mesh.own.loads
+        force, gravity = self.no_force.copy(order="F"), np.zeros(3)
+        if given is not None:
+            force[:, : self.mesh.nodes] = factor * (given.force + given.increment).T
+            gravity = factor * np.array(given.gravity)
+        return force, gravity
+
 
 #: How many frequencies and multipliers are computed.
 FREQUENCIES, MULTIPLIERS = 10, 20
 #: Multipliers so many times the nearest are those of stresses that are rounding.
-_ROUNDING = 1.0e10
+_SOLUTION_ROUNDING = 1.0e10
 
 
 class Solution:
@@ -150,7 +510,7 @@ class Solution:
             s.model(self.held), s.arrays, self.raw, self.way.gravity, MULTIPLIERS
         )
         size = np.abs(found.values)
-        some = size < _ROUNDING * size.min(initial=math.inf)
+        some = size < _SOLUTION_ROUNDING * size.min(initial=math.inf)
         return found._replace(values=found.values[some], modes=found.modes[:, :, some])
 
     @cached_property

@@ -3,22 +3,283 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.arrays import FloatArray
-from ..core.elements import NodeKind
+from ..core.elements import AXES, NodeKind, coordinate_name
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from ..util.cached import cached_property
-from .errors import Estimate
-from .reduced import Reduced
-from .response import Response
-from .resultants import Resultants, peak_stress, resultants_of
-from .rotations import Angle, vector_of
-from .solution import Solution
-from .stiffness_drives import force_of, reaction_of, value_at
+from ..util.records import Frozen, cached_property
+from .drives import force_of, reaction_of, value_at
+from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign
+from .imperfections import Angle, vector_of
+from .points import Coordinate
+from .reduced import Reduced, Resultants, peak_stress, resultants_of
+from .solution import Compliance, Solution
 from .verdicts import Verdict
-from .words import describe
+
+if TYPE_CHECKING:
+    from .elastic import Elastic
+
+
+#: A node rests that moves by less, where the farthest moves by one.
+_RESTS = 1.0e-6
+#: How many coordinates are named.
+_MOST = 4
+
+
+@dataclass(frozen=True, eq=False)
+class LooseMotion(Frozen):
+    """A motion without any stiffness.
+
+    Attributes:
+        displacement: (nodes, 3) displacements and turns of the finer mesh; the largest is one.
+        coordinates: Node and coordinate of what moves in the deck, the most first.
+    """
+
+    displacement: FloatArray
+    coordinates: tuple[tuple[int, str], ...]
+
+    def __str__(self) -> str:
+        """Such as "y of node 2 and z of node 2"."""
+        shown = [f"{name} of node {node}" for node, name in self.coordinates[:_MOST]]
+        more = len(self.coordinates) - len(shown)
+        if more > 0:
+            shown.append(f"{more} more")
+        return " and ".join(filter(None, [", ".join(shown[:-1]), *shown[-1:]])) or "inner nodes"
+
+
+def loose_motions(at: Solution) -> tuple[LooseMotion, ...]:
+    """All motions without stiffness of a state."""
+    return tuple(_motion(at, k) for k in range(at.tangent.loose.shape[2]))
+
+
+def _motion(at: Solution, k: int) -> LooseMotion:
+    mesh = at.solver.mesh
+    arrays = mesh.own.arrays
+    moved = at.unit_motions(at.tangent.loose)[:, :, k]
+    size = np.abs(moved) * at.scale
+    found = []
+    for node in range(mesh.nodes):
+        kind = int(arrays.node_kind[node])
+        found += [
+            (float(size[axis, node]), int(arrays.node_number[node]), coordinate_name(kind, axis))
+            for axis in AXES[kind]
+            if size[axis, node] > _RESTS
+        ]
+    # Of equal ones the first of the deck; rounding does not decide.
+    found.sort(key=lambda each: -round(each[0], 6))
+    return LooseMotion(moved.T.copy(), tuple((node, name) for _, node, name in found))
+
+
+Mine = TypeVar("Mine", bound="OnMeshes")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OnMeshes(Frozen):
+    """A state: where everything is and what is stressed, and how it answers to small changes.
+
+    Whatever is asked is computed once. With beams="auto" there are two meshes, and numbers are
+    extrapolated from both (`estimate` has the uncertainty); eigenvalues are matched by their
+    order.
+
+    Attributes:
+        model: The elastic model.
+        label: What the state is, such as "undeformed".
+        drive: The coordinate that was driven here, if one was.
+        meshes: The state of each mesh, the coarser first.
+    """
+
+    model: Elastic
+    label: str
+    drive: Coordinate | None
+    meshes: tuple[Solution, ...]
+
+    @property
+    def finest(self) -> Solution:
+        """The state of the finer mesh, for pictures and further computations."""
+        return self.meshes[-1]
+
+    def estimate(self: Mine, quantity: Callable[[Mine], ArrayLike]) -> Estimate:
+        """A quantity of this state with its uncertainty, from 8 and 16 beams a sheet.
+
+        Args:
+            quantity: What is wanted of a state, such as `lambda s: s.frequencies[0]`.
+        """
+        if len(self.alone) == 1:
+            return Estimate.fixed(quantity(self.alone[0]))
+        return Estimate.of(*map(quantity, self.alone))
+
+    @cached_property
+    def alone(self: Mine) -> tuple[Mine, ...]:
+        """This state with each of its meshes alone."""
+        if len(self.meshes) == 1:
+            return (self,)
+        return tuple(replace(self, meshes=(at,)) for at in self.meshes)
+
+    def best(self, of: Callable[[Solution], ArrayLike]) -> FloatArray:
+        """Numbers of the state of a mesh, extrapolated from those of both."""
+        values = [np.asarray(of(each), np.float64) for each in self.meshes]
+        made = values[0] if len(values) == 1 else Estimate.of(*values).value
+        # A zero has no sign.
+        return np.array(made) + 0.0
+
+    def eigenvalues(
+        self,
+        of: Callable[[Solution], FloatArray],
+        match: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]],
+    ) -> FloatArray:
+        """Eigenvalues likewise, of which `match` finds for each its like; ascending."""
+        values = [of(each) for each in self.meshes]
+        made = values[0] if len(values) == 1 else Estimate.of(*match(*values)).value
+        return np.sort(made) + 0.0
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response(OnMeshes):
+    """A state that is asked how it answers to small changes."""
+
+    def compliance(self, node: object) -> FloatArray:
+        """Displacements and small turns of a point under unit forces and moments there.
+
+        Args:
+            node: Position or orientation node of the point, or its name.
+
+        Returns:
+            (6, 6) in the order x y z rx ry rz [m/N, rad/N = 1/N, rad/(N m)]; without an
+            orientation (3, 3) x y z, planar (3, 3) x y rz, or (2, 2) x y. What is held or locked
+            has 0; what moves without any stiffness is infinite.
+
+        Raises:
+            UnknownError: there is no such node.
+            ElasticError: nothing has a stiffness.
+        """
+        return self.best(lambda at: self._compliance(at, node).matrix)
+
+    def stiffness(self, node: object) -> FloatArray:
+        """The inverse of `compliance`: forces and moments for a unit motion, all else free.
+
+        What is held, or rigid, is infinite; what has no stiffness is 0.
+
+        Raises:
+            UnknownError: there is no such node.
+            ElasticError: nothing has a stiffness.
+        """
+        return self.best(lambda at: self._compliance(at, node).stiffness)
+
+    def _compliance(self, at: Solution, node: object) -> Compliance:
+        at.require_stiffness()
+        point = self.model.points.of(node)
+        return at.compliance(point, self.model.points.coordinates(point))
+
+    @cached_property
+    def frequencies(self) -> FloatArray:
+        """Natural frequencies [Hz], ascending: the ten lowest, or all that there are.
+
+        Negative where the square is: an unstable motion. 0 of a motion without stiffness.
+
+        Raises:
+            ElasticError: nothing has a mass, or nothing a stiffness.
+        """
+        self.model.require_mass()
+        for at in self.meshes:
+            at.require_stiffness()
+        return self.eigenvalues(lambda at: at.frequencies, matched_by_order)
+
+    @cached_property
+    def modes(self) -> FloatArray:
+        """(modes, nodes, 3) displacements and turns of the finer mesh, see `data`."""
+        self.model.require_mass()
+        return np.moveaxis(self.finest.squares.modes, (0, 1, 2), (2, 1, 0))
+
+    @cached_property
+    def multipliers(self) -> FloatArray:
+        """By how much the stresses of this state would grow until it buckles, ascending.
+
+        Of both signs, those nearest to zero, ten or more where there are so many: det(K + m G) = 0
+        with G of the stresses here. Empty without stress.
+
+        Raises:
+            ElasticError: nothing has a stiffness.
+        """
+        for at in self.meshes:
+            at.require_stiffness()
+        return self.eigenvalues(lambda at: at.buckling.values, matched_by_sign)
+
+    @cached_property
+    def buckling_modes(self) -> FloatArray:
+        """(modes, nodes, 3) of the finer mesh, of its own multipliers."""
+        return np.moveaxis(self.finest.buckling.modes, (0, 1, 2), (2, 1, 0))
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether no motion has a negative stiffness; without one, see `loose`."""
+        return self.finest.tangent.negative == 0
+
+    @cached_property
+    def loose(self) -> tuple[LooseMotion, ...]:
+        """Motions without any stiffness."""
+        return loose_motions(self.finest)
+
+
+#: How many eigenvalues are told.
+_WORDS_MOST = 6
+#: An uncertainty below this part of the value is not told.
+_SHOWN = 1.0e-6
+
+
+def describe(state: State) -> str:
+    """What a state is, its verdict, whether it is stable, frequencies and multipliers."""
+    lines = [f"{state.label[:1].upper()}{state.label[1:]}; {state.model.words}."]
+    over, under = state.over_constrained, state.under_constrained
+    lines.append(
+        f"Over-constrained by {over}, under-constrained by {under}, by the deck's classes."
+    )
+    if state.drive is not None:
+        lines.append(f"Force of the drive: {state.force:.6g}.")
+    lines.append(f"Elastic energy: {state.energy:.6g} J.")
+    lines.append(_stability(state))
+    if state.model.has_mass:
+        lines.append(f"Frequencies: {_listed(state, 'frequencies')} Hz.")
+    else:
+        lines.append("Nothing has a mass (EM, XM): there are no frequencies.")
+    if state.finest.is_stressed:
+        try:
+            lines.append(f"Multipliers: {_listed(state, 'multipliers') or 'none'}.")
+        except ElasticError as error:
+            lines.append(f"Multipliers: {error}.")
+    lines += [f"Note: {note}." for note in state.notes]
+    return "\n".join(lines)
+
+
+def _stability(state: State) -> str:
+    if not state.is_stable:
+        return "Buckled: this state is unstable."
+    if state.loose:
+        several = "s" * (len(state.loose) > 1)
+        motions = "; ".join(map(str, state.loose[:_WORDS_MOST]))
+        return f"{len(state.loose)} motion{several} without stiffness: {motions}."
+    return "Stable."
+
+
+def _listed(state: State, name: str) -> str:
+    """Such as "9.92 (+- 0.01), 403"; the nearest to zero, ascending."""
+    every = [getattr(each, name) for each in state.alone]
+    match = matched_by_sign if name == "multipliers" else matched_by_order
+    found = Estimate.of(*match(*every)) if len(every) > 1 else Estimate.fixed(every[0])
+    least = _SHOWN * np.abs(found.value)
+    nearest = np.argsort(np.abs(found.value), kind="stable")[:_WORDS_MOST]
+    chosen = sorted(nearest.tolist(), key=lambda k: float(found.value[k]))
+    return ", ".join(
+        f"{found.value[k]:.5g}"
+        + (f" (+- {found.uncertainty[k]:.1g})" if found.uncertainty[k] > least[k] else "")
+        for k in chosen
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -14,8 +14,8 @@ from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind
 from ..model.data import ModelData
-from ..util.cached import cached_property
-from .stiffness_errors import ElasticError
+from ..util.records import cached_property
+from .errors import ElasticError
 
 #: Away from the reference, scaled singular values up to here are zero: rounding and the residual
 #: of an equilibrium are in its places.

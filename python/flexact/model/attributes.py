@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..core.arrays import BoolArray, FloatArray, IntArray
-from ..core.raw import RawAppearance
+from ..core.arrays import BoolArray, FloatArray, IntArray, ModelArrays
+from ..core.elements import coordinate_name
+from ..core.raw import RawAppearance, RawLoads, RawProperties
 from ..util.records import Frozen
 
 
@@ -64,3 +66,114 @@ class Appearance(Frozen):
         choice, value = raw
         sizes, colour, edge_colour = (value[part].T.copy() for part in np.s_[0:2, 2:5, 5:8])
         return cls(choice[0].copy(), sizes, colour, edge_colour, value[8].copy(), choice[1] == 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Loads(Frozen):
+    """Dead loads; whether a mechanism is exactly constrained does not depend on them.
+
+    Zero where nothing is given. A position has forces along x, y, z [N], an orientation
+    moments about x, y, z [N m], which work on small rotations about these fixed axes; in a
+    planar model there are forces along x and y, and the moment about z.
+
+    Attributes:
+        force: (nodes, 3) of XF.
+        increment: (nodes, 3) of DELXF, which is added to XF in the course of loading.
+        gravity: (3,) of GRAVITY, the acceleration of free fall [m/s^2].
+
+    Raises:
+        ValueError: a shape is wrong, or a number is not finite.
+    """
+
+    force: FloatArray
+    increment: FloatArray
+    gravity: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check the arrays and make them read-only."""
+        super().__post_init__()
+        for name, shape in (
+            ("force", (len(self.force), 3)),
+            ("increment", (len(self.force), 3)),
+            ("gravity", (3,)),
+        ):
+            array = getattr(self, name)
+            if array.shape != shape:
+                raise ValueError(f"{name} has shape {array.shape}, but must have {shape}")
+            if not np.isfinite(array).all():
+                raise ValueError(f"{name} has a number that is not finite")
+
+    @classmethod
+    def of(cls, raw: RawLoads) -> Loads | None:
+        """What a deck says; None where all of it is zero."""
+        if not any(part.any() for part in raw):
+            return None
+        return cls(raw.force.T.copy(), raw.increment.T.copy(), raw.gravity.copy())
+
+
+#: How many numbers an element or a node has at most of each.
+NUMBERS = {"stiffness": 6, "mass": 5, "node_mass": 6}
+
+
+@dataclass(frozen=True, eq=False)
+class Properties(Frozen):
+    """Stiffness and mass; whether a mechanism is exactly constrained does not depend on them.
+
+    A row holds the numbers of one statement of the deck language, in its order, and NaN
+    behind them. A row of NaN: nothing is given.
+
+    Attributes:
+        stiffness: (elements, 6) of ESTIFF. Of a beam EA [N], G It, E Iy, E Iz [N m^2] and the
+            shear E Iy / (G A k), E Iz / (G A k) [m^2]; of a planar beam EA, EI and shear; of a
+            truss EA; of a hinge the stiffness about its axis [N m/rad] and about the others.
+        mass: (elements, 5) of EM. Of a beam mass [kg/m], then Jxx, Jyy, Jzz, Jyz [kg m] per
+            length; of a planar beam mass and J; of a truss or a rigid link mass.
+        node_mass: (nodes, 6) of XM. Of a position its mass [kg]; of an orientation Jxx, Jxy,
+            Jxz, Jyy, Jyz, Jzz, of a planar one J [kg m^2].
+
+    Raises:
+        ValueError: a shape is wrong, or a number stands behind one that is not given.
+    """
+
+    stiffness: FloatArray
+    mass: FloatArray
+    node_mass: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check the arrays and make them read-only."""
+        super().__post_init__()
+        for name, numbers in NUMBERS.items():
+            array = getattr(self, name)
+            if array.ndim != 2 or array.shape[1] != numbers:
+                raise ValueError(f"{name} has shape {array.shape}, but must have (…, {numbers})")
+            missing = np.isnan(array)
+            if np.isinf(array).any() or (missing[:, :-1] & ~missing[:, 1:]).any():
+                raise ValueError(f"{name} has a number behind one that is not given, or infinity")
+
+    @classmethod
+    def of(cls, raw: RawProperties) -> Properties | None:
+        """What a deck says; None where no number of it is used."""
+        if all(np.isnan(part).all() for part in raw):
+            return None
+        # What was read lies in a larger array.
+        return cls(*(part.T.copy() for part in raw))
+
+
+Labels = tuple[tuple[int, str], ...]
+
+
+def row_labels(arrays: ModelArrays, label: NDArray[np.integer]) -> tuple[tuple[int, int], ...]:
+    """Element numbers and deformations from 1 of (2, m) their indices, both from 0."""
+    numbers = arrays.element_number[label[0]].tolist()
+    return tuple(zip(numbers, (label[1] + 1).tolist(), strict=True))
+
+
+def column_labels(arrays: ModelArrays, label: NDArray[np.integer]) -> Labels:
+    """Node numbers and coordinate names of (2, n) node indices and axes, both from 0."""
+    numbers = arrays.node_number[label[0]].tolist()
+    kinds = arrays.node_kind[label[0]].tolist()
+    axes = label[1].tolist()
+    return tuple(
+        (number, coordinate_name(kind, axis))
+        for number, kind, axis in zip(numbers, kinds, axes, strict=True)
+    )

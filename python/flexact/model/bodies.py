@@ -5,21 +5,69 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ..deck.errors import model_error
-from ..util.plain_text import in_short
+from ..deck.rendering import model_error
 from ..util.quantities import Quantity
-from . import arguments
+from ..util.text import in_short
+from . import selection as arguments
 from . import selection as points
-from .appearance_arguments import Section, numbers_of_size, shape_of
-from .draft import Draft
-from .flexures import FlexureMethods
-from .handles import Body, Element, Node
-from .making import call
+from .coordinates import ClassMethods
+from .draft import NO_VECTOR, Draft, Vector
+from .elements import call
+from .flexures import FlexureMethods, normal_to, span
+from .handles import Body, Element, FoldedSheet, Node
 from .names import part_name
-from .part_arguments import named as named_part
-from .rigid_components import RigidComponents
-from .sections import Make
-from .selection import Point
+from .sections import Make, MaterialLike
+from .selection import Direction, Point, Section, is_rigid, named_part, numbers_of_size, shape_of
+
+
+class RigidComponents:
+    """Points joined by rigid links, as sets that are merged.
+
+    A point is known by the number of its orientation; a point that a link of a deck carries
+    without its orientation (RBEAM) by its position number, negative.
+    """
+
+    def __init__(self) -> None:
+        """Of no elements so far."""
+        self._parent: dict[int, int] = {}
+        self._anchor: dict[int, Node] = {}
+        #: How many elements of the draft were looked at.
+        self.seen = 0
+
+    @classmethod
+    def of(cls, draft: Draft) -> RigidComponents:
+        """Those of a draft as it is now; elements that are new since the last time are added."""
+        if draft.components is None:
+            draft.components = cls()
+        made = draft.components
+        for index in range(made.seen, len(draft.kinds)):
+            if is_rigid(draft, index):
+                p, op, q, oq = draft.slots[index]
+                if not oq:
+                    made._anchor[-q] = Node(p, op, draft.owner)
+                made._merge(op, oq or -q)
+        made.seen = len(draft.kinds)
+        return made
+
+    def _root(self, key: int) -> int:
+        self._parent.setdefault(key, key)
+        while (above := self._parent[key]) != key:
+            self._parent[key] = self._parent[above]
+            key = above
+        return key
+
+    def _merge(self, a: int, b: int) -> None:
+        self._parent[self._root(a)] = self._root(b)
+
+    def carrier(self, node: Node) -> Node:
+        """The point with an orientation by which a link takes hold of the body of a point."""
+        if node.orientation in self._parent:
+            return node
+        return self._anchor.get(-node.position, node)
+
+    def joined(self, a: Node, b: Node) -> bool:
+        """Whether one body carries both points, given by their carriers."""
+        return self._root(a.orientation) == self._root(b.orientation)
 
 
 class BodyMethods(FlexureMethods):
@@ -165,3 +213,73 @@ def _inertia(given: Quantity | Sequence[Quantity] | None, planar: bool) -> tuple
     if len(values) == 3:
         return values[0], 0.0, 0.0, values[1], 0.0, values[2]
     return values
+
+
+class FoldedSheetMethods(BodyMethods, ClassMethods):
+    """The method that makes folded sheets."""
+
+    def folded_sheet(
+        self,
+        a: Point,
+        fold: Point,
+        b: Point,
+        width: Direction | None = None,
+        name: str = "",
+        *,
+        beams: int = 1,
+        section: Sequence[Quantity] | None = None,
+        thickness: Quantity | None = None,
+        breadth: Quantity | None = None,
+        material: MaterialLike | None = None,
+        warping: bool | float = False,
+    ) -> FoldedSheet:
+        """A folded sheet: two sheets in series, which take one translation, along the fold.
+
+        The fold can turn about itself while both ends stand still: this internal motion is
+        declared, as the bending of the first leaf at the fold (section 4.2 of the paper).
+
+        Args:
+            a: One end: a point, its name, or its place (x, y, z) [m].
+            fold: Where the leaves meet.
+            b: The other end.
+            width: Direction of the fold line; by default normal to the plane of the points.
+            name: What it is called; its leaves are "name, leaf 1" and "name, leaf 2", the
+                point where they meet is "name, fold".
+            beams: Into how many beams each leaf is divided, see `sheet`.
+            section: Breadth (along the fold line) and thickness [m].
+            thickness: The thickness [m], instead of `section`.
+            breadth: The size along the fold line [m], instead of `section`.
+            material: See `wire`.
+            warping: Of each leaf, see `sheet`.
+
+        Raises:
+            ModelError: something of it is wrong, such as three points on a line and no width.
+        """
+        draft = self._change()
+        with call("folded_sheet", name):
+            name = arguments.text(name, "the name of a folded sheet")
+            make = self._sheet_make(section, thickness, breadth, material)
+            start, middle, end = (points.point(draft, each) for each in (a, fold, b))
+            if width is None and not self._planar:
+                arms = span(draft, middle, start), span(draft, middle, end)
+                width = across(normal_to(*arms), "the two leaves are in one plane")
+            names = [f"{name}, leaf {k}" if name else "" for k in (1, 2)]
+            first = self._sheet(start, middle, width, beams, names[0], make, warping)
+            second = self._sheet(middle, end, width, beams, names[1], make, warping)
+            self.independent(first, "out-of-plane bending", at="q")
+            if name and not middle.name:
+                draft.name_node(middle.position, points.checked_name(f"{name}, fold"))
+        return FoldedSheet((first, second), (start, middle, end))
+
+
+def across(normal: Vector, why: str) -> Vector:
+    """The width that follows from the geometry.
+
+    Raises:
+        ModelError: none follows.
+    """
+    if normal == NO_VECTOR:
+        raise model_error(
+            "missing-vector", f"{why}, so that no width follows", "give width=(x, y, z)"
+        )
+    return normal

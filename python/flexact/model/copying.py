@@ -3,18 +3,242 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import zip_longest
 
-from ..core.elements import AXES, NodeKind, is_position
-from .draft import Draft, Vector
-from .loads_draft import LoadsDraft
-from .model_places import Places
-from .selection import pivot, whole_point
-from .transform import Transform
-from .turning import axes_of, check_axes, check_classes, vector
+from ..core.elements import AXES, Class, NodeKind, Role, element_kinds, is_position
+from ..core.elements import Vector as StatedVector
+from ..deck.rendering import model_error
+from ..util.text import in_short
+from .draft import NO_VECTOR, Draft, LoadsDraft, Vector
+from .places import ROUNDING, Places
+from .selection import Direction, cross, direction, is_rigid, pivot, unit, whole_point
+
+Matrix = tuple[Vector, Vector, Vector]
+IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_PLANES = {"xy": "z", "yx": "z", "yz": "x", "zy": "x", "zx": "y", "xz": "y"}
+#: Where the sine is known to the last bit, in steps of 30 degrees.
+_SINES = (0.0, 0.5, math.sqrt(0.75), 1.0)
+#: An entry of an image is no whole number beyond this.
+_ROUNDING = 1.0e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """x goes to matrix x + shift; the matrix is orthogonal.
+
+    Attributes:
+        matrix: (3, 3) rows.
+        shift: (3,) [m].
+    """
+
+    matrix: Matrix
+    shift: Vector
+
+    def place(self, x: Vector) -> Vector:
+        """The image of a place."""
+        a, b, c = self.turned(x)
+        return a + self.shift[0], b + self.shift[1], c + self.shift[2]
+
+    def turned(self, v: Vector) -> Vector:
+        """The image of a direction."""
+        a, b, c = (row[0] * v[0] + row[1] * v[1] + row[2] * v[2] for row in self.matrix)
+        return a, b, c
+
+    def turned_axially(self, v: Vector) -> Vector:
+        """The image of a rotation or a moment, which a mirror image reverses."""
+        a, b, c = self.turned(v)
+        return (-a, -b, -c) if self.is_mirror else (a, b, c)
+
+    @property
+    def is_mirror(self) -> bool:
+        """Whether it turns a right hand into a left one."""
+        (a, b, c), (d, e, f), (g, h, i) = self.matrix
+        return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0
+
+    def euler(self, value: tuple[float, ...]) -> tuple[float, ...]:
+        """Euler parameters of the image of an orientation; unturned stays unturned."""
+        x, y, z = self.turned((value[1], value[2], value[3]))
+        sign = -1.0 if self.is_mirror else 1.0
+        return value[0], sign * x, sign * y, sign * z
+
+    def inertia(self, value: tuple[float, ...]) -> tuple[float, ...]:
+        """Jxx, Jxy, Jxz, Jyy, Jyz, Jzz of the image of a body."""
+        xx, xy, xz, yy, yz, zz = value
+        rows = [self.turned(column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
+        columns = list(zip(*rows, strict=True))
+        made = [self.turned((c[0], c[1], c[2])) for c in columns]
+        return made[0][0], made[0][1], made[0][2], made[1][1], made[1][2], made[2][2]
+
+    def axes(self, chosen: set[int]) -> set[int] | None:
+        """The axes that span the image of some axes; None where no axes do."""
+        found = set()
+        for k in range(3):
+            size = sum(self.matrix[k][j] ** 2 for j in chosen)
+            if abs(size - 1.0) < _ROUNDING:
+                found.add(k)
+            elif size > _ROUNDING:
+                return None
+        return found
+
+
+def rotation(axis: Direction, degrees: float, at: Vector) -> Transform:
+    """The rotation about an axis through a point; exact for multiples of 30 degrees about x, y, z.
+
+    Args:
+        axis: "x", "y", "z" or a vector.
+        degrees: The angle, right-handed [degrees].
+        at: A point of the axis [m].
+    """
+    n = unit(direction(axis, "axis"))
+    s, c = sine(degrees), sine(degrees + 90.0)
+    rows = []
+    for i in range(3):
+        row = []
+        for j in range(3):
+            k = 3 - i - j
+            skew = 0.0 if i == j else (n[k] if (j - i) % 3 == 2 else -n[k])
+            row.append((c if i == j else 0.0) + (1.0 - c) * n[i] * n[j] + s * skew)
+        rows.append((row[0], row[1], row[2]))
+    return _about((rows[0], rows[1], rows[2]), at)
+
+
+def reflection(plane: Direction, at: Vector) -> Transform:
+    """The mirror image in a plane through a point.
+
+    Args:
+        plane: "xy", "yz" or "zx", or its normal as a vector.
+        at: A point of the plane [m].
+
+    Raises:
+        ModelError: it is no plane.
+    """
+    if isinstance(plane, str):
+        name = plane.strip().lower()
+        if name not in _PLANES:
+            raise model_error(
+                "bad-number",
+                f"a plane is xy, yz or zx, or its normal as a vector, not {in_short(plane)}",
+            )
+        plane = _PLANES[name]
+    n = unit(direction(plane, "normal of the plane"))
+    rows = [tuple((1.0 if i == j else 0.0) - 2.0 * n[i] * n[j] for j in range(3)) for i in range(3)]
+    return _about((rows[0], rows[1], rows[2]), at)  # type: ignore[arg-type]
+
+
+def translation(by: Vector) -> Transform:
+    """The shift by a vector [m]."""
+    return Transform(IDENTITY, by)
+
+
+def _about(matrix: Matrix, at: Vector) -> Transform:
+    moved = Transform(matrix, (0.0, 0.0, 0.0)).turned(at)
+    return Transform(matrix, (at[0] - moved[0], at[1] - moved[1], at[2] - moved[2]))
+
+
+def sine(degrees: float) -> float:
+    """The sine of an angle in degrees, right to the last bit for multiples of 30."""
+    angle = math.fmod(degrees, 360.0)
+    steps = round(angle / 30.0)
+    if angle != 30.0 * steps:
+        return math.sin(math.radians(angle))
+    steps %= 12
+    sign = -1.0 if steps > 6 else 1.0
+    steps %= 6
+    return sign * _SINES[min(steps, 6 - steps)] + 0.0
+
+
+def on_circle(centre: Vector, radius: float, degrees: float) -> Vector:
+    """The point of a circle about z at an angle from x [degrees]."""
+    x, y = radius * sine(degrees + 90.0), radius * sine(degrees)
+    return centre[0] + x, centre[1] + y, centre[2]
+
+
+def vector(source: Draft, index: int, move: Transform) -> Vector:
+    """The vector of an element's image; one that had none gets the image of its default."""
+    given = source.vectors[index]
+    kind = element_kinds()[source.kinds[index] - 1]
+    optional = kind.vector == StatedVector.OPTIONAL
+    if given == NO_VECTOR and optional and not source.planar and not is_rigid(source, index):
+        p, _, q, _ = source.slots[index]
+        a, b = source.node_value[p], source.node_value[q]
+        given = _default((b[0] - a[0], b[1] - a[1], b[2] - a[2]))
+    return given if given == NO_VECTOR else move.turned(given)
+
+
+def _default(along: Vector) -> Vector:
+    """The global axis along which a direction is smallest, from which a frame is made."""
+    parts = unit(along)
+    least = min(range(3), key=lambda k: abs(parts[k]))
+    x, y, z = (float(k == least) for k in range(3))
+    return x, y, z
+
+
+#: What an element with an axis does across it, in a frame that no statement gives.
+_ACROSS = ((Role.TILT_Y, Role.TILT_Z), (Role.OFFSET_Y, Role.OFFSET_Z))
+
+
+def check_axes(source: Draft, indices: Iterable[int], move: Transform) -> None:
+    """Raise where a joint does different things across its axis, which do not turn with it."""
+    for index in indices:
+        kind = element_kinds()[source.kinds[index] - 1]
+        if kind.vector != StatedVector.REQUIRED:
+            continue
+        classes = dict(zip(kind.role, source.classes[index], strict=True))
+        axis = source.vectors[index]
+        alike = all(classes.get(a) == classes.get(b) for a, b in _ACROSS)
+        if alike or _along(move.turned(_default(axis)), _default(move.turned(axis))):
+            continue
+        raise model_error(
+            "turned-class",
+            f"{source.element_words(index)} has classes across its axis that would not turn",
+            "copy first and give the classes afterwards",
+        )
+
+
+def _along(a: Vector, b: Vector) -> bool:
+    return math.hypot(*cross(unit(a), unit(b))) <= ROUNDING
+
+
+def check_classes(
+    source: Draft, nodes: Iterable[int], move: Transform, shared: bool = False
+) -> None:
+    """Raise where coordinates that were given a class are not along the axes after a move.
+
+    Where nodes that stay at their places are `shared`, these keep their classes as they are.
+    """
+    for number in nodes:
+        for value, axes in axes_of(source, number).items():
+            if move.axes(axes) is None:
+                here = _place(source, number)
+                stays = math.dist(move.place(here), here) <= ROUNDING * math.hypot(*here)
+                if not (shared and stays):
+                    raise model_error(
+                        "turned-class",
+                        f"{source.node_words(number)} has {value.name.lower()} coordinates that "
+                        "are not along x, y or z any more",
+                        "copy first and give the class afterwards",
+                    )
+
+
+def _place(source: Draft, number: int) -> Vector:
+    position = source.position_of.get(number, number)
+    x, y, z = source.node_value[position][:3]
+    return x, y, z
+
+
+def axes_of(source: Draft, number: int) -> dict[Class, set[int]]:
+    """Axes of a node by the classes that they were given."""
+    found: dict[Class, set[int]] = {}
+    axes = AXES[source.node_kind[number]]
+    for axis in axes:
+        value = source.coordinate_class.get((number, axis))
+        if value is not None:
+            found.setdefault(Class(value), set()).add(axis)
+    return found
 
 
 @dataclass

@@ -3,23 +3,244 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import IntArray, model_arrays
+from ..core.arrays import FloatArray, IntArray, model_arrays
 from ..core.elements import AXES, Class, NodeKind, coordinate_name, is_position, kind_of
 from ..core.raw import ElementKind
-from ..deck.diagnostics import Diagnostic, Problems, Severity
-from ..deck.errors import ModelError, model_error
-from ..deck.source import Source
-from ..util.plain_text import in_short
-from .appearance_draft import AppearanceDraft, Shape
+from ..deck.diagnostics import Diagnostic, Problems, Severity, Source
+from ..deck.rendering import ModelError, model_error
+from ..util.text import in_short
+from .attributes import NUMBERS, Appearance, Loads, Properties
 from .data import ModelData
 from .handles import Owner
-from .loads_draft import LoadsDraft
 from .places import Lookup
-from .properties_draft import PropertiesDraft
+
+Colour = tuple[float, float, float]
+
+#: What is given of an element, and how many.
+_NUMBERS: dict[str, tuple[int, ...]] = {"colour": (3,), "edge_colour": (3,), "opacity": ()}
+
+
+class Shape(NamedTuple):
+    """A cross-section: its kind and its sizes along local y and z [m]."""
+
+    kind: int
+    y: float
+    z: float
+
+
+#: What is said about drawing an element: shape, colour, edge_colour, opacity, drawn, each if given.
+Said = dict[str, Any]
+
+
+class AppearanceDraft:
+    """What was said about drawing elements, by their indices."""
+
+    def __init__(self) -> None:
+        """Nothing is said yet."""
+        self.said: dict[int, Said] = {}
+
+    @classmethod
+    def of(cls, appearance: Appearance) -> AppearanceDraft:
+        """The draft that gives this appearance."""
+        draft = cls()
+        for i in np.flatnonzero(appearance.cross_section).tolist():
+            sizes = appearance.dimensions[i].tolist()
+            draft.give([i], {"shape": Shape(int(appearance.cross_section[i]), *sizes)})
+        for name in _NUMBERS:
+            values = getattr(appearance, name)
+            rows = values.reshape(len(values), -1)[:, 0]
+            for i in np.flatnonzero(~np.isnan(rows)).tolist():
+                draft.give([i], {name: values[i].tolist()})
+        draft.give(np.flatnonzero(~appearance.drawn).tolist(), {"drawn": False})
+        return draft
+
+    def give(self, indices: Iterable[int], said: Said) -> None:
+        """Say something about elements; what is not said now stays as it was."""
+        if said:
+            for i in indices:
+                self.said.setdefault(i, {}).update(said)
+
+    def freeze(self, elements: int) -> Appearance | None:
+        """The appearance of this number of elements; None where nothing is said."""
+        if all(said == {"drawn": True} for said in self.said.values()):
+            return None
+        shapes, drawn = np.zeros((elements, 3)), np.ones(elements, bool)
+        numbers = {name: np.full((elements, *size), np.nan) for name, size in _NUMBERS.items()}
+        for i, said in self.said.items():
+            shapes[i] = said.get("shape", 0.0)
+            drawn[i] = said.get("drawn", True)
+            for name in said.keys() & _NUMBERS.keys():
+                numbers[name][i] = said[name]
+        kinds = shapes[:, 0].astype(np.int32)
+        return Appearance(kinds, shapes[:, 1:].copy(), **numbers, drawn=drawn)
+
+
+_Load = tuple[float, float, float]
+_NONE: _Load = (0.0, 0.0, 0.0)
+
+
+class LoadsDraft:
+    """What was said about loads, by numbers of nodes; x, y, z of each, zero where not given."""
+
+    def __init__(self) -> None:
+        """Nothing is said yet."""
+        self.force: dict[int, _Load] = {}
+        self.increment: dict[int, _Load] = {}
+        self.gravity: _Load = _NONE
+
+    @classmethod
+    def of(cls, loads: Loads, node_numbers: Sequence[int]) -> LoadsDraft:
+        """The draft that gives these loads."""
+        draft = cls()
+        draft.force = _rows(loads.force, node_numbers)
+        draft.increment = _rows(loads.increment, node_numbers)
+        x, y, z = loads.gravity.tolist()
+        draft.gravity = x, y, z
+        return draft
+
+    @property
+    def nodes(self) -> list[int]:
+        """Numbers of the nodes that bear something."""
+        both = (*self.force.items(), *self.increment.items())
+        return list(dict.fromkeys(number for number, load in both if any(load)))
+
+    def drop(self, number: int) -> None:
+        """Say nothing of a node any more."""
+        self.force.pop(number, None)
+        self.increment.pop(number, None)
+
+    def on(self, numbers: Iterable[int]) -> LoadsDraft:
+        """The loads on some nodes, without gravity."""
+        chosen, made = set(numbers), LoadsDraft()
+        made.force = {n: load for n, load in self.force.items() if n in chosen}
+        made.increment = {n: load for n, load in self.increment.items() if n in chosen}
+        return made
+
+    def add(
+        self, loads: LoadsDraft, new: Mapping[int, int], moved: Callable[[int, _Load], _Load]
+    ) -> None:
+        """Add the loads on nodes after a move to those that their images bear.
+
+        Args:
+            loads: Of which only those on nodes that have an image are taken.
+            new: Numbers of the images.
+            moved: The image of a load on a node.
+        """
+        for said, there in ((loads.force, self.force), (loads.increment, self.increment)):
+            for number, load in said.items():
+                if number in new:
+                    a, b, c = there.get(new[number], _NONE)
+                    x, y, z = moved(number, load)
+                    there[new[number]] = (a + x, b + y, c + z)
+
+    def freeze(self, node_numbers: Sequence[int]) -> Loads | None:
+        """The loads on these nodes; None where all are zero."""
+        loaded = self.nodes
+        place = {number: i for i, number in enumerate(node_numbers)} if loaded else {}
+        if not (any(number in place for number in loaded) or any(self.gravity)):
+            return None
+        rows = len(node_numbers)
+        force, increment = (_table(each, place, rows) for each in (self.force, self.increment))
+        return Loads(force, increment, np.array(self.gravity))
+
+
+def _rows(table: FloatArray, node_numbers: Sequence[int]) -> dict[int, _Load]:
+    made = {}
+    for i in np.flatnonzero(table.any(axis=1)).tolist():
+        x, y, z = table[i].tolist()
+        made[node_numbers[i]] = (x, y, z)
+    return made
+
+
+def _table(said: Mapping[int, _Load], place: Mapping[int, int], rows: int) -> FloatArray:
+    table = np.zeros((rows, 3))
+    for number, load in said.items():
+        if number in place:
+            table[place[number]] = load
+    return table
+
+
+_Numbers = tuple[float, ...]
+
+
+class PropertiesDraft:
+    """What was said about stiffness and mass, by indices of elements and numbers of nodes."""
+
+    def __init__(self) -> None:
+        """Nothing is said yet."""
+        self.stiffness: dict[int, _Numbers] = {}
+        self.mass: dict[int, _Numbers] = {}
+        self.node_mass: dict[int, _Numbers] = {}
+
+    @classmethod
+    def of(cls, properties: Properties, node_numbers: Sequence[int]) -> PropertiesDraft:
+        """The draft that gives these properties."""
+        draft = cls()
+        draft.stiffness = dict(rows_of(properties.stiffness))
+        draft.mass = dict(rows_of(properties.mass))
+        draft.node_mass = {node_numbers[i]: row for i, row in rows_of(properties.node_mass)}
+        return draft
+
+    def give(self, index: int, stiffness: _Numbers | None, mass: _Numbers | None) -> None:
+        """Say something about an element; what is not said now stays as it was."""
+        if stiffness is not None:
+            _require("stiffness", stiffness)
+        if mass is not None:
+            self.mass[index] = _require("mass", mass)
+        if stiffness is not None:
+            self.stiffness[index] = stiffness
+
+    def give_node(self, number: int, values: _Numbers) -> None:
+        """Say something about a node."""
+        self.node_mass[number] = _require("node_mass", values)
+
+    def renumber(self, new: Mapping[int, int]) -> None:
+        """Give elements new indices; of those that get none nothing is said any more."""
+        self.stiffness = {new[i]: row for i, row in self.stiffness.items() if i in new}
+        self.mass = {new[i]: row for i, row in self.mass.items() if i in new}
+
+    def freeze(self, elements: int, node_numbers: Sequence[int]) -> Properties | None:
+        """The properties of these elements and nodes; None where nothing is said."""
+        if not (self.stiffness or self.mass or self.node_mass):
+            return None
+        place = {number: i for i, number in enumerate(node_numbers)} if self.node_mass else {}
+        at_nodes = {place[n]: row for n, row in self.node_mass.items() if n in place}
+        return Properties(
+            _table_of_properties_draft("stiffness", elements, self.stiffness),
+            _table_of_properties_draft("mass", elements, self.mass),
+            _table_of_properties_draft("node_mass", len(node_numbers), at_nodes),
+        )
+
+
+def rows_of(table: FloatArray) -> Iterable[tuple[int, _Numbers]]:
+    """Index and numbers of each row of which something is given."""
+    for i in np.flatnonzero(~np.isnan(table[:, 0])).tolist():
+        yield i, tuple(value for value in table[i].tolist() if value == value)
+
+
+def _table_of_properties_draft(name: str, rows: int, said: Mapping[int, _Numbers]) -> FloatArray:
+    table = np.full((rows, NUMBERS[name]), np.nan)
+    for i, row in said.items():
+        table[i, : len(row)] = row
+    return table
+
+
+def _require(name: str, values: _Numbers) -> _Numbers:
+    what = "mass" if name == "node_mass" else name
+    if not 1 <= len(values) <= NUMBERS[name]:
+        raise model_error(
+            "bad-number", f"a {what} is 1 to {NUMBERS[name]} numbers, not {len(values)}"
+        )
+    if not all(map(math.isfinite, values)):
+        raise model_error("bad-number", f"a number of the {what} is not finite")
+    return values
+
 
 Vector = tuple[float, float, float]
 

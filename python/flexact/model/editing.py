@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from ..core.elements import element_kinds
 from ..deck.comments import ELEMENT, DeckComments
-from ..deck.errors import DeckError
+from ..deck.rendering import DeckError
 from .data import ModelData
 from .reading import read_bytes
 from .writing import deck_of, dynamics_of, statements_of

@@ -3,23 +3,164 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from copy import copy
+from dataclasses import replace
 
-from ..core.elements import Class
-from ..deck.errors import model_error
+from ..core.elements import Class, kind_of
+from ..core.raw import ElementKind
+from ..deck.diagnostics import Problems
+from ..deck.rendering import ModelError, model_error
 from ..util.quantities import Quantity
-from . import arguments, sections
+from ..util.text import in_short
+from . import sections
+from . import selection as arguments
 from . import selection as points
-from .appearance_arguments import Section, numbers_of_size, shape_of
-from .arguments import Direction
+from .data import ModelData
 from .deformations import deformations
-from .draft import NO_VECTOR
-from .handles import Element, Node, Notch
-from .making import call
-from .material import MaterialLike
-from .points import PointMethods
-from .sections import Make
-from .selection import Point
+from .draft import NO_VECTOR, Draft
+from .handles import Element, Node, Notch, Owner
+from .sections import Make, MaterialLike
+from .selection import Direction, Point, Section, numbers_of_size, shape_of
+
+
+class Making:
+    """A model in the making."""
+
+    def __init__(self, *unnamed: object, planar: bool = False, name: str = "") -> None:
+        """Start an empty model.
+
+        Raises:
+            TypeError: something is given without its name.
+        """
+        if unnamed:
+            given = in_short(unnamed[0])
+            raise TypeError(
+                f"what a Model begins with is named: Model(name={given}), planar=True; the model "
+                f"of a deck is flexact.read({given})"
+            )
+        self._start(bool(planar), arguments.text(name, "the name of a model"))
+
+    def _start(self, planar: bool, name: str) -> None:
+        self._name = name
+        self._planar = planar
+        self._owner = Owner()
+        self._draft: Draft | None = Draft(planar, self._owner)
+        self._data: ModelData | None = None
+
+    def _change(self) -> Draft:
+        """The draft, to be changed; arrays that were made are dropped."""
+        if self._draft is None:
+            self._draft = Draft.of(self.data, self._owner)
+        self._data = None
+        return self._draft
+
+    @property
+    def data(self) -> ModelData:
+        """The model as it is now; later changes do not touch it."""
+        if self._data is None:
+            assert self._draft is not None
+            self._data = self._draft.freeze(self._name)
+        return self._data
+
+    def _kind(self, keyword: str) -> ElementKind:
+        return kind_of("PL" + keyword if self._planar else keyword)
+
+
+@contextmanager
+def all_or_nothing(draft: Draft) -> Iterator[None]:
+    """Leave the draft as it was where an error is raised; takes time for all that there is."""
+    before = {name: copy(value) for name, value in vars(draft).items() if name not in _KEPT}
+    said = dict(draft.appearance.said)
+    try:
+        yield
+    except ModelError:
+        vars(draft).update(before)
+        draft.appearance.said = said
+        draft.changed_names_or_places()
+        raise
+
+
+#: Of a draft: what is no table of its own.
+_KEPT = ("owner", "appearance", "components")
+
+
+@contextmanager
+def call(method: str, name: object = "") -> Iterator[None]:
+    """Begin the message of an error with the call and the part that it was about."""
+    try:
+        yield
+    except ModelError as error:
+        name = name if isinstance(name, str) else getattr(name, "name", "")
+        if not isinstance(name, str) or not name or len(error.diagnostics) != 1:
+            raise
+        (problem,) = error.diagnostics
+        start = f"{method} {in_short(name)}: "
+        if problem.message.startswith(f"{method} "):
+            raise
+        told = replace(problem, message=start + problem.message)
+        raise ModelError(Problems.of([told])) from None
+
+
+class PointMethods(Making):
+    """Methods about points."""
+
+    def node(
+        self,
+        x: Quantity | Sequence[Quantity],
+        y: Quantity | None = None,
+        z: Quantity | None = None,
+        *,
+        name: str = "",
+    ) -> Node:
+        """Add a point [m]; its orientation is used only if an element needs it.
+
+        It is a new one also where there is one already: `point` finds that. Where nothing joins
+        two points at one place, a warning of the model says so.
+
+        Args:
+            x: Its first coordinate, or a vector or array of all of them.
+            y: Its second coordinate.
+            z: Its third coordinate, 0 by default.
+            name: What the point is called, such as "clamp 1"; not "x", "rz" or the like.
+
+        Raises:
+            ModelError: a coordinate is no finite number, or the name is none.
+        """
+        draft = self._change()
+        given = x if y is None and z is None else (x, y, 0.0 if z is None else z)
+        with call("node", name):
+            value = points.place(draft, given)  # type: ignore[arg-type]
+            made = points.checked_name(name)
+            node = points.add_point(draft, value)
+            draft.name_node(node.position, made)
+        return node
+
+    def pivot(self, node: Point) -> Node:
+        """Another point at the position of `node`, with an orientation of its own."""
+        draft = self._change()
+        return points.pivot(draft, points.position(draft, node))
+
+    def handle(self, position: int, orientation: int = 0) -> Node:
+        """The point made of two nodes by their numbers, for a model from a deck.
+
+        Raises:
+            ModelError: there is no such node, or it is of the other kind.
+        """
+        return points.handle(self._change(), position, orientation)
+
+    def point(self, point: Point) -> Node:
+        """The point of this name, or at this place.
+
+        Args:
+            point: Its name, (x, y, z) [m], within 1e-9 of the model's largest coordinate, a
+                handle, or a body, whose first point it is.
+
+        Raises:
+            ModelError: there is none, or several have this name; the nearest names are told.
+        """
+        return points.existing(self._change(), point)
 
 
 class ElementMethods(PointMethods):

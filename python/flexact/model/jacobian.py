@@ -12,11 +12,10 @@ from ..core import calls
 from ..core.arrays import FloatArray, IntArray, ModelArrays, floats
 from ..core.elements import Class
 from ..core.raw import RawAssembly
-from ..util.cached import cached_property
 from ..util.errors import require_kind
-from ..util.records import Frozen
+from ..util.records import Frozen, cached_property
+from .attributes import Labels, column_labels, row_labels
 from .configuration import Configuration
-from .labels import Labels, column_labels, row_labels
 from .model import Model
 
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterable
 
 from ..core.elements import POSITION_NAMES, ROTATION_NAMES
-from ..deck.errors import ModelError, model_error
+from ..deck.rendering import ModelError, model_error
 from ..util.loading import load
-from ..util.plain_text import in_short
+from ..util.text import in_short
 
 #: Names of coordinates, which no point can have.
 COORDINATES = frozenset((*POSITION_NAMES, *ROTATION_NAMES))

@@ -11,16 +11,13 @@ from dataclasses import replace
 from typing import BinaryIO
 
 from ..core import calls
-from ..deck.diagnostics import Diagnostic, Place, Problems, Severity, problems_of
-from ..deck.errors import DeckError
-from ..deck.source import Source
+from ..deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, problems_of
+from ..deck.rendering import DeckError
 from ..util.decks import DeckFile
 from ..util.loading import load
-from .attributes import Appearance
-from .data import DeckNames, ModelData
-from .loads import Loads
-from .properties import Properties
-from .slips import slips_in
+from .attributes import Appearance, Loads, Properties
+from .data import DeckNames, ModelData, slips_in
+from .model import Model
 
 LARGEST_DECK = 2**31 - 2
 _UTF8_MARK = b"\xef\xbb\xbf"
@@ -59,7 +56,7 @@ def file_bytes(path: str) -> bytes:
     """
     try:
         is_windows = sys.platform == "win32"
-        place = load("flexact.util.names").reachable(path) if is_windows else path
+        place = load("flexact.util.outputs").reachable(path) if is_windows else path
         status = os.stat(place)
         if stat.S_ISDIR(status.st_mode):
             raise _file_error(
@@ -164,3 +161,38 @@ def _too_large(name: str) -> DeckError:
 def _file_error(name: str, code: str, message: str, hint: str = "") -> DeckError:
     item = Diagnostic(Severity.ERROR, code, message, *Place(0, 0, 0), help=hint)
     return DeckError(Problems.of([item]), name, None)
+
+
+def read(path: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> Model:
+    """Read a deck from a file.
+
+    Warnings and notes are kept in `Model.diagnostics`.
+
+    Args:
+        path: A regular file.
+
+    Raises:
+        DeckError: anything is wrong with the deck or the file.
+        TypeError: `path` is no path.
+    """
+    return Model.from_data(read_file(path))
+
+
+def read_text(text: str | bytes, name: str = "deck") -> Model:
+    """Read a deck from its text.
+
+    Args:
+        text: The deck.
+        name: What it is called in results and problems.
+
+    Raises:
+        DeckError: anything is wrong with the deck.
+        TypeError: the text or the name is none.
+    """
+    if not isinstance(name, str):
+        raise TypeError(f"the name of a deck must be text, not {type(name).__name__}")
+    if isinstance(text, str):
+        return Model.from_data(read_bytes(text.encode("utf-8", "replace"), name))
+    if isinstance(text, (bytes, bytearray, memoryview)):
+        return Model.from_data(read_bytes(bytes(text), name))
+    raise TypeError(f"the text of a deck must be text or bytes, not {type(text).__name__}")

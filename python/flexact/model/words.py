@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from ..core.elements import Role
 from ..core.raw import ElementKind
-from ..deck.errors import ModelError, model_error
-from ..util.plain_text import in_short
+from ..deck.rendering import ModelError, model_error
+from ..util.text import in_short
 from .names import nearest
 
 _XZ = (Role.BENDING_XZ_P, Role.BENDING_XZ_Q)

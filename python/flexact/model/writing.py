@@ -12,8 +12,8 @@ from ..core.elements import AXES, Class, NodeKind, keywords_of
 from ..deck.comments import ELEMENT, GRAVITY, DeckComments, comments_of
 from .attributes import Appearance, CrossSection
 from .data import ModelData
+from .draft import rows_of
 from .places import one_line
-from .properties_draft import rows_of
 
 _IDENTITY = {
     NodeKind.ANGLE: [0.0, 0.0, 0.0, 0.0],

@@ -2,11 +2,8 @@
 """Configurations in which the held deformations stay zero: where a motion leads."""
 
 from .constraints import MOST_COORDINATES, Held, Place, is_followed
-from .ending import Ending, Stop
-from .follow import follow, follow_both_ways
-from .followed import Followed, Wishes
-from .station import Station
-from .stations import Least, least_error
+from .follow import Ending, Followed, Stop, Wishes, follow, follow_both_ways
+from .stations import Least, Station, least_error
 
 __all__ = [
     "MOST_COORDINATES",

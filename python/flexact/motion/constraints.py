@@ -11,20 +11,95 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.velocities import Velocities
+from ..analysis.body_motions import Velocities
 from ..core import calls
-from ..core.arrays import FloatArray, packed
+from ..core.arrays import FloatArray, ModelArrays, packed
 from ..core.elements import Class, Dual, NodeKind, Role, dual_table, role_table
 from ..core.raw import RawAssembly
 from ..model.configuration import Configuration
 from ..model.data import ModelData
-from ..util.cached import cached_property
-from ..util.records import Frozen
-from .rotations import left_jacobian, rotation_between
-from .sizes import scaled_arrays, sizes_of
+from ..util.records import Frozen, cached_property
+
+
+def rotation_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """(k, 3) rotation vectors that turn Euler parameters (k, 4) into others."""
+    a, u = one[:, :1], one[:, 1:]
+    b, v = other[:, :1], other[:, 1:]
+    scalar = b * a + np.sum(u * v, axis=1, keepdims=True)
+    vector = v * a - b * u - np.cross(v, u)
+    sine = np.linalg.norm(vector, axis=1, keepdims=True)
+    flip = np.where(scalar < 0.0, -1.0, 1.0)
+    angle = 2.0 * np.arctan2(sine, np.abs(scalar))
+    size = np.where(sine > 0.0, sine, 1.0)
+    factor = np.where(sine > 1.0e-9, angle / size, 2.0 / np.where(scalar == 0.0, 1.0, abs(scalar)))
+    return np.asarray(flip * factor * vector)
+
+
+def left_jacobian(vector: FloatArray) -> FloatArray:
+    """(k, 3, 3) T(v) with exp(v + dv) = exp(T dv) exp(v), of rotation vectors (k, 3)."""
+    angle = np.linalg.norm(vector, axis=1)[:, None, None]
+    cross = np.zeros((len(vector), 3, 3))
+    x, y, z = vector.T
+    cross[:, 0, 1], cross[:, 0, 2], cross[:, 1, 2] = -z, y, -x
+    cross -= np.swapaxes(cross, 1, 2)
+    small = angle < 1.0e-4
+    safe = np.where(small, 1.0, angle)
+    first = np.where(small, 0.5 - angle**2 / 24, 0.5 * np.sinc(angle / (2 * np.pi)) ** 2)
+    second = np.where(small, 1 / 6 - angle**2 / 120, (safe - np.sin(safe)) / safe**3)
+    return np.asarray(np.eye(3) + first * cross + second * (cross @ cross))
+
+
+#: Of more positions than so many not all pairs are looked at.
+_MANY = 1_500
+
+
+class Sizes(NamedTuple):
+    """What the model is measured by."""
+
+    size: float
+    """The largest distance between positions [m]; 1 where they are one point."""
+    unit: float
+    """The power of two next to it [m]: nothing is rounded when it is divided by."""
+    middle: FloatArray
+    """(3,) what is taken off all positions [m]."""
+
+
+def sizes_of(arrays: ModelArrays, size: float | None = None) -> Sizes:
+    """The sizes of a model; `size` in place of its own."""
+    placed = arrays.node_kind <= NodeKind.POSITION
+    there = arrays.node_value[:3, placed]
+    if not there.size:
+        return Sizes(1.0 if size is None else size, 1.0, np.zeros(3))
+    low, high = there.min(axis=1), there.max(axis=1)
+    across = float(_extent(there) or 1.0) if size is None else size
+    unit = 2.0 ** round(math.log2(across))
+    middle = low / 2 + high / 2
+    # Near the origin the numbers are best left as they were typed.
+    return Sizes(across, unit, np.where(np.abs(middle) > across, middle, 0.0))
+
+
+def _extent(there: FloatArray) -> float:
+    """The largest distance between two positions, (3, k); of many twice that to their mean.
+
+    It does not change when the model is turned.
+    """
+    if there.shape[1] > _MANY:
+        return 2.0 * float(np.linalg.norm(there - there.mean(axis=1, keepdims=True), axis=0).max())
+    apart = there[:, :, None] - there[:, None, :]
+    return float(np.sqrt((apart**2).sum(axis=0).max()))
+
+
+def scaled_arrays(arrays: ModelArrays, sizes: Sizes) -> ModelArrays:
+    """The arrays with positions about the middle, in the unit."""
+    placed = arrays.node_kind <= NodeKind.POSITION
+    value = arrays.node_value.copy(order="F")
+    value[:3, placed] = (value[:3, placed] - sizes.middle[:, None]) / sizes.unit
+    return arrays._replace(node_value=value)
+
 
 #: More coordinates than these are not followed: each step solves a dense system.
 MOST_COORDINATES = 1_000

@@ -8,20 +8,199 @@ D(x) = 0 across it. A step that fails is halved; they grow again.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
 
-from ..analysis.velocities import Velocities
+from ..analysis.body_motions import Velocities
 from ..core.arrays import FloatArray
-from .branches import branch_about, branch_between, sign_between
-from .chart import Chart, Near
+from ..model.configuration import Configuration
+from ..util.records import Frozen
 from .constraints import Held
-from .ending import Ending, Stop
-from .followed import Followed, Wishes
-from .passing import passing
-from .station import Between, Station, arc_between, station_at
-from .stations import least_near
+from .stations import (
+    Between,
+    Chart,
+    Near,
+    Station,
+    arc_between,
+    least_near,
+    passing,
+    station_at,
+    touching,
+)
+
+
+class Ending(str, Enum):
+    """Why a path was not followed farther."""
+
+    LENGTH = "length"
+    """It was followed as far as was asked."""
+    CLOSED = "closed"
+    """It came back to where it began."""
+    BRANCHES = "branches"
+    """Directions in which it may go on are more than before: others branch off."""
+    TURNS_BACK = "turns back"
+    """It comes to a point from which no direction leads on but the one back."""
+    NOT_ZERO = "not zero"
+    """No configuration near, ahead of it, has held deformations of zero."""
+    ELEMENT = "element"
+    """An element has left its range."""
+    STEPS = "steps"
+    """As many steps were taken as are allowed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stop(Frozen):
+    """Why a path was not followed farther, and by how much it failed.
+
+    Attributes:
+        ending: Which it is.
+        step: The last step that was tried [size].
+        residual: The largest held deformation that was left after it [size]; 0 without.
+        directions: How many independent directions are possible there.
+        element: Index of the element that has left its range; -1 without.
+        range: "length" or "bending" of it; empty without.
+    """
+
+    ending: Ending
+    step: float = 0.0
+    residual: float = 0.0
+    directions: int = 0
+    element: int = -1
+    range: str = ""
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """How a path is to be followed.
+
+    Lengths are in sizes of the model, of the node that moves farthest; rotations in radians.
+
+    Attributes:
+        length: How far each way.
+        first: The first step.
+        largest: The largest step.
+        least: The least step; where one of it fails the path ends.
+        steps: How many steps each way at most.
+        through: Whether to go straight on where other paths branch off.
+    """
+
+    length: float = 0.1
+    first: float = 0.01
+    largest: float = 0.02
+    least: float = 1.0e-5
+    steps: int = 2_000
+    through: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Followed(Frozen):
+    """A path from the reference one way.
+
+    Attributes:
+        stations: The first is the reference.
+        stop: Why it was not followed farther.
+        branches: Where other paths branch off, also the one where it stops.
+    """
+
+    stations: tuple[Station, ...]
+    stop: Stop
+    branches: tuple[Station, ...] = ()
+
+    @property
+    def length(self) -> float:
+        """How far it was followed [size]."""
+        return self.stations[-1].arc
+
+    @property
+    def residual(self) -> float:
+        """The largest held deformation on it [size]."""
+        return max(each.residual for each in self.stations)
+
+
+#: At a branch singular values up to here are zero: its place is known to about as many digits.
+_ZERO_AT_BRANCH = 1.0e-7
+#: A singular value may touch zero if it is no more than so many times what it falls in a step.
+_MAY_REACH = 1.5
+
+
+def sign_between(one: Chart, other: Chart) -> float:
+    """-1 where a singular value passes zero between two charts, with its left or right vector.
+
+    U' D V of one chart is regular at its middle; its determinant at the other's has the sign of
+    the products below, since U' D V = (U' U2) S2 (V2' V).
+    """
+    if one.right.shape[1] != other.right.shape[1]:
+        return 1.0
+    left = np.linalg.slogdet(one.left.T @ other.left)[0]
+    right = np.linalg.slogdet(one.right.T @ other.right)[0]
+    return float(left * right) or 1.0
+
+
+class Signed:
+    """The smallest singular value that is not zero near a configuration, with a sign."""
+
+    def __init__(self, held: Held, middle: Configuration, rank: int) -> None:
+        """Take the sign there as positive."""
+        self.held, self.rank = held, rank
+        self.chart = Chart(held, middle, rank)
+
+    def __call__(self, where: Configuration) -> float:
+        """The value at a configuration."""
+        if not self.rank:
+            return 0.0
+        jacobian = self.held.at(where).jacobian
+        sign = np.linalg.slogdet(self.chart.left.T @ jacobian @ self.chart.right)[0]
+        return float(sign * self.held.values(where)[self.rank - 1])
+
+
+def branch_between(held: Held, one: Station, other: Station, zero: float) -> Station | None:
+    """The station between two at which other paths branch off; None without any."""
+    if other.rank < one.rank:
+        return other
+    if one.rank != other.rank or one.signed * other.signed >= 0.0:
+        return None
+    way = Between(held, one, other)
+    signed = Signed(held, way.base.within, way.base.rank)
+    found = passing(way, lambda near: signed(near.place.configuration))
+    if found is None:
+        return None
+    return station_there(held, found.where, found.arc, found.tangent, zero)
+
+
+def branch_about(
+    held: Held, one: Station, middle: Station, other: Station, zero: float
+) -> Station | None:
+    """The station near the middle one of three at which singular values touch zero.
+
+    So they do where two pass it together: the sign stays.
+    """
+    if not one.rank == middle.rank == other.rank or one.signed * other.signed <= 0.0:
+        return None
+    values = np.abs([one.signed, middle.signed, other.signed])
+    falls = max(values[0], values[2]) - values[1]
+    if values[1] > min(values[0], values[2]) or values[1] > _MAY_REACH * falls:
+        return None
+    way = Between(held, middle, other)
+    signed = Signed(held, middle.within, middle.rank)
+    low = -(middle.arc - one.arc) / (other.arc - middle.arc)
+    found = touching(way, lambda near: signed(near.place.configuration), low)
+    if found is None:
+        return None
+    made = station_there(held, found.where, found.arc, found.tangent, zero)
+    return made if made.rank < middle.rank else None
+
+
+def station_there(
+    held: Held, where: Configuration, arc: float, along: FloatArray, zero: float
+) -> Station:
+    """The station at a singular place that was found between two others."""
+    values = held.values(where)
+    rank = int(np.count_nonzero(values > max(zero, _ZERO_AT_BRANCH)))
+    residual = held.at(where).residual
+    return station_at(held, where, rank, along, arc, residual, 0.0, values)
+
 
 #: Held deformations up to this part of the size are zero.
 TRUE = 1.0e-12

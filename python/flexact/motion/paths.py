@@ -7,26 +7,203 @@ little off these again. How many directions of those are independent is the dime
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.arrays import FloatArray
-from .extents_reduced import Here, Reduced, across
-from .follow import TRUE
-from .least import least_along
-from .orders import fit_of, measured
+from .extent import EvidenceKind, Extent, Fit, Kind, Reason
+from .follow import TRUE, Ending, Wishes, follow
+from .reduced import Here, Reduced, across
+
+#: Where several motions begin there may be several ways: the steps begin at so many further
+#: places, so far beside the motion, and end no farther beside it than that.
+_STARTS, _BESIDE, _ASIDE = 6, 0.1, 0.3
+#: A strain that is rounding.
+_ROUNDING = 1.0e-15
+
+
+def least_along(reduced: Reduced, unit: FloatArray, share: float) -> Here | None:
+    """The least strain after a motion has gone by a share, of the positions across it.
+
+    Args:
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
+        share: How far, of one sign.
+
+    Returns:
+        None where the least is met along other motions.
+    """
+    base = across(unit[:, None])
+    starts = [share * unit]
+    if base.shape[1]:
+        random = np.random.default_rng(unit.size)
+        off = base @ random.standard_normal((base.shape[1], _STARTS))
+        off *= _BESIDE * share / np.linalg.norm(off, axis=0)
+        starts += list((starts[0][:, None] + off).T)
+    best: Here | None = None
+    for start in starts:
+        found = reduced.least(start, base, _ASIDE * abs(share))
+        if found is None or beside(found, unit, share) > _ASIDE:
+            continue
+        if best is None or found.strain < best.strain:
+            best = found
+        if best.strain <= _ROUNDING:
+            break
+    return best
+
+
+def beside(here: Here, unit: FloatArray, share: float) -> float:
+    """How far other motions have gone, as a part of a share of this one."""
+    return float(np.linalg.norm(here.shares - share * unit)) / abs(share)
+
+
+#: How far along the motion the least strain is measured, in parts of the size.
+_SHARES = 0.3 * 10.0 ** (-0.2 * np.arange(20))
+#: Strains below this are too near to rounding to be fitted.
+_LEAST = 1.0e-14
+#: So many powers of ten of the share are fitted, from the smallest on, and so many are needed.
+_MOST_DECADES, _LEAST_DECADES = 2.0, 1.0
+_LEAST_POINTS = 5
+#: An order is taken for whole within this, where the fit leaves no more than this.
+_WHOLE, _SPREAD = 0.06, 0.03
+
+
+class Measured(NamedTuple):
+    """The least strains along a motion one way."""
+
+    share: FloatArray
+    strain: FloatArray
+    aside: bool
+    """Whether somewhere the least is met along other motions."""
+
+
+def measured(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Measured:
+    """The least strains along a motion, where they are above rounding.
+
+    Args:
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
+        sign: 1 or -1.
+        floor: What the rounding of the geometry strains for each unit of the share.
+    """
+    aside = False
+    shares, strains = [], []
+    for share in _SHARES.tolist():
+        found = least_along(reduced, unit, sign * share)
+        if found is None:
+            aside = True
+            continue
+        if found.strain < max(_LEAST, 30.0 * floor * share):
+            continue
+        shares.append(share)
+        strains.append(found.strain)
+    return Measured(np.array(shares), np.array(strains), aside)
+
+
+def fit_of(found: Measured) -> Fit | None:
+    """The order, a whole number within the fit; None where there is none."""
+    if found.share.size < _LEAST_POINTS:
+        return None
+    chosen = found.share <= found.share.min() * 10.0**_MOST_DECADES * 1.001
+    share, strain = found.share[chosen], found.strain[chosen]
+    if np.log10(share.max() / share.min()) < _LEAST_DECADES - 1.0e-9:
+        return None
+    # Terms of the next orders bend the line at its upper end.
+    design = np.stack([np.ones(share.size), np.log(share), share, share**2], axis=1)
+    columns = 4 if share.size >= 7 else 3
+    solution = np.linalg.lstsq(design[:, :columns], np.log(strain), rcond=None)[0]
+    left = np.log(strain) - design[:, :columns] @ solution
+    spread = float(np.sqrt(np.mean(left**2)))
+    order = float(solution[1])
+    is_whole = abs(order - round(order)) <= _WHOLE and round(order) >= 2
+    if not is_whole or spread > _SPREAD:
+        return None
+    return Fit(order, spread, float(np.log10(strain.max() / strain.min())))
+
+
+#: How far a path is followed, in parts of the size, and in how large steps.
+GOAL, _STEP, _LEAST_STEP = 0.1, 0.02, 2.0e-4
+#: Corrections of a step may be this part of it.
+_FARTHEST = 0.5
+#: Where a motion has gone so far, others that it takes along have gone this part of it at most.
+_NEAR, _WALKING_BESIDE = 1.0e-4, 0.05
+#: What may be left is this multiple of what rounding of the geometry explains.
+_ROUNDED = 10.0
+
+
+class Walk(NamedTuple):
+    """How far a path was followed one way."""
+
+    gone: float
+    """Length of the path of the node that moves farthest, in parts of the size."""
+    strain: float
+    """The largest on the path."""
+
+    arrived: bool
+    """Whether it went as far as it was to go, or came back to where it began."""
+
+
+def walk(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> Walk:
+    """Follow a motion one way.
+
+    Args:
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
+        sign: 1 or -1.
+        floor: What the rounding of the geometry strains for each unit of the way.
+    """
+    if unit.size > 1 and not _begins(reduced, unit, sign, floor):
+        return Walk(0.0, 0.0, False)
+    here, gone, worst, step = reduced.at(np.zeros(unit.size)), 0.0, 0.0, _STEP
+    ahead = sign * unit
+    while here is not None and gone < GOAL:
+        limit = TRUE + _ROUNDED * floor * (gone + step)
+        if not gone:
+            there = least_along(reduced, unit, sign * step)
+        else:
+            start = here.shares + step * ahead
+            there = reduced.least(start, across(ahead[:, None]), _FARTHEST * step)
+            if there is not None and _norm(there.shares - start) > _FARTHEST * step:
+                there = None
+        if there is None or there.strain > limit:
+            step /= 2.0
+            if step < _LEAST_STEP:
+                break
+            continue
+        gone, worst = (
+            gone + reduced.felt.held.reach(there.change - here.change),
+            max(worst, there.strain),
+        )
+        ahead = (there.shares - here.shares) / _norm(there.shares - here.shares)
+        here, step = there, min(2.0 * step, _STEP)
+    return Walk(gone, worst, gone >= GOAL)
+
+
+def _begins(reduced: Reduced, unit: FloatArray, sign: float, floor: float) -> bool:
+    """Whether there is a path near, on which other motions fall behind."""
+    found = least_along(reduced, unit, sign * _NEAR)
+    limit = TRUE / 100.0 + _ROUNDED * floor * _NEAR
+    if found is None or found.strain > limit:
+        return False
+    return beside(found, unit, sign * _NEAR) <= _WALKING_BESIDE
+
+
+def _norm(vector: FloatArray) -> float:
+    return float(np.linalg.norm(vector))
+
 
 #: How far off, from the reference, farther, and from the positions that were found.
-_OFF, _FAR, _NEAR = 0.03, 0.1, 5.0e-4
+_OFF, _FAR, _PATHS_NEAR = 0.03, 0.1, 5.0e-4
 #: A position has not come back to the reference where this part of that is left.
 _AWAY = 0.15
 #: Where all paths begin with one motion, how far off, too.
 _NEARER = (0.01, 0.003)
 #: How far other motions may have gone beside those that are given, as a part of them.
-_BESIDE = 0.3
+_PATHS_BESIDE = 0.3
 #: Strains up to here are rounding.
-_ROUNDING = 1.0e-14
+_PATHS_ROUNDING = 1.0e-14
 #: Directions are independent where a singular value is above the second part of the largest.
 _DEPENDENT, _INDEPENDENT = 0.03, 0.2
 #: About so many positions it is measured; in components of more motions nowhere.
@@ -55,7 +232,7 @@ def is_without_strain(reduced: Reduced, cone: FloatArray) -> bool:
         found = reduced.least(start, base, share)
         if found is None or found.strain > TRUE / 10.0:
             return False
-        if _norm(found.shares - start) > _BESIDE * share:
+        if _norm(found.shares - start) > _PATHS_BESIDE * share:
             return False
     return True
 
@@ -79,7 +256,7 @@ def positions_near(reduced: Reduced, cone: FloatArray, also: list[FloatArray]) -
     for start in starts:
         found = reduced.least(_OFF * start / np.linalg.norm(start), np.eye(many), _OFF)
         far = np.inf if found is None else _norm(found.shares) / _OFF
-        if found is None or found.strain > _ROUNDING or far <= _AWAY:
+        if found is None or found.strain > _PATHS_ROUNDING or far <= _AWAY:
             continue
         if looked_at == _MOST_LOOKED_AT:
             break
@@ -102,7 +279,7 @@ def _along(reduced: Reduced, unit: FloatArray) -> Near:
     """Where all paths begin with one motion: whether there is one, to one side at least."""
     for sign in (1.0, -1.0):
         every = [least_along(reduced, unit, sign * share) for share in _NEARER]
-        if all(found is not None and found.strain <= _ROUNDING for found in every):
+        if all(found is not None and found.strain <= _PATHS_ROUNDING for found in every):
             return Near(1, (unit,))
     fits = [fit_of(measured(reduced, unit, sign, 0.0)) for sign in (1.0, -1.0)]
     return Near(None if None in fits else 0, ())
@@ -111,8 +288,10 @@ def _along(reduced: Reduced, unit: FloatArray) -> Near:
 def _refined(reduced: Reduced, gone: FloatArray) -> FloatArray:
     """(N,) the direction in which a path begins that has gone somewhere, of unit norm."""
     for share in (0.1, 0.1, 0.1):
-        found = reduced.least(share * gone, np.eye(gone.size), _BESIDE * _norm(share * gone))
-        if found is None or _norm(found.shares - share * gone) > _BESIDE * _norm(share * gone):
+        found = reduced.least(share * gone, np.eye(gone.size), _PATHS_BESIDE * _norm(share * gone))
+        if found is None or _norm(found.shares - share * gone) > _PATHS_BESIDE * _norm(
+            share * gone
+        ):
             break
         gone = found.shares
     return np.asarray(gone / np.linalg.norm(gone))
@@ -124,11 +303,11 @@ def _dimension_at(reduced: Reduced, here: Here, random: np.random.Generator) -> 
     ways = []
     for _ in range(many + 2):
         off = random.standard_normal(many)
-        off *= _NEAR / np.linalg.norm(off)
-        found = reduced.least(here.shares + off, np.eye(many), _NEAR)
-        if found is None or found.strain > _ROUNDING:
+        off *= _PATHS_NEAR / np.linalg.norm(off)
+        found = reduced.least(here.shares + off, np.eye(many), _PATHS_NEAR)
+        if found is None or found.strain > _PATHS_ROUNDING:
             return None
-        ways.append((found.shares - here.shares) / _NEAR)
+        ways.append((found.shares - here.shares) / _PATHS_NEAR)
     values = np.linalg.svd(np.array(ways), compute_uv=False)
     values = values / max(values[0], _INDEPENDENT)
     if np.any((values > _DEPENDENT) & (values < _INDEPENDENT)):
@@ -136,5 +315,59 @@ def _dimension_at(reduced: Reduced, here: Here, random: np.random.Generator) -> 
     return int(np.count_nonzero(values >= _INDEPENDENT))
 
 
-def _norm(vector: FloatArray) -> float:
-    return float(np.linalg.norm(vector))
+#: Components of more coordinates are followed about the reference alone.
+_MOST_COORDINATES = 120
+_WISHES = Wishes(length=GOAL, steps=500, through=True)
+
+
+def by_path(reduced: Reduced, unit: FloatArray, floor: float) -> Extent:
+    """Follow a motion both ways; where it stops, fit the order of the least strain.
+
+    Args:
+        reduced: What is left of D(x) = 0.
+        unit: (N,) the motion, of norm one.
+        floor: What the rounding of the geometry strains for each unit of the way.
+    """
+    felt = reduced.felt
+    held, motion = felt.held, felt.motions @ unit
+    (back, why), (ahead, why_ahead) = (
+        _gone(reduced, sign * motion, sign, unit, floor) for sign in (-1.0, 1.0)
+    )
+    made = partial(
+        Extent,
+        size=held.size,
+        reach=(back.gone * held.size, ahead.gone * held.size),
+        stops=(why, why_ahead),
+        residual=max(back.strain, ahead.strain),
+    )
+    if back.arrived and ahead.arrived:
+        return made(Kind.FINITE, EvidenceKind.FOLLOWED, Reason.PATH)
+    if back.arrived or ahead.arrived:
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ONE_WAY)
+    found = [measured(reduced, unit, sign, floor) for sign in (-1.0, 1.0)]
+    fits = [fit for each in found if (fit := fit_of(each)) is not None]
+    if len(fits) == 2 and round(fits[0].order) == round(fits[1].order):
+        fit = max(fits, key=lambda each: each.spread)
+        return made(Kind.INFINITESIMAL, EvidenceKind.FITTED, Reason.ORDER, fit=fit)
+    if felt.many > 1 and any(each.aside for each in found):
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.ASIDE)
+    if reduced.is_spent:
+        return made(Kind.UNDECIDED, EvidenceKind.NONE, Reason.TOO_LARGE)
+    stopped = min(back.gone, ahead.gone) > 0.0
+    reason = Reason.STOPPED if stopped else Reason.NO_ORDER
+    return made(Kind.UNDECIDED, EvidenceKind.NONE, reason)
+
+
+def _gone(
+    reduced: Reduced, motion: FloatArray, sign: float, unit: FloatArray, floor: float
+) -> tuple[Walk, Ending]:
+    """How far a motion was followed one way, and why not farther."""
+    felt, stop = reduced.felt, Ending.NOT_ZERO
+    if motion.size <= _MOST_COORDINATES:
+        path = follow(felt.held, motion, motion.size - felt.many, _WISHES)
+        arrived = path.stop.ending in (Ending.LENGTH, Ending.CLOSED)
+        if arrived or not (felt.many > 1 or floor):
+            return Walk(path.length, path.residual, arrived), path.stop.ending
+        stop = path.stop.ending
+    found = walk(reduced, unit, sign, floor)
+    return found, Ending.LENGTH if found.arrived else stop

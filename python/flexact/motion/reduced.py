@@ -6,22 +6,200 @@ All is free of units, as `flexact.motion.constraints` has it.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.result_spaces import Spaces
-from ..analysis.weights import column_weights, row_weights
-from ..core.arrays import FloatArray, ModelArrays
-from ..core.basis import Basis
+from ..analysis.decomposition import column_weights, row_weights
+from ..analysis.spaces import Spaces
+from ..core.arrays import Basis, FloatArray, ModelArrays
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
-from ..util.cached import cached_property
-from .components import Component
+from ..util.records import Frozen, cached_property
 from .constraints import Held
-from .rigid import leading_rows, rigid_motions
+
+#: Entries of a vector of unit norm that are rounding.
+_UNSEEN = 1.0e-10
+
+
+@dataclass(frozen=True, eq=False)
+class Component(Frozen):
+    """Coordinates that hang together and feel a self-stress.
+
+    Attributes:
+        columns: Of D(c), ascending.
+        elements: Indices of the elements that hold them, in the model as analysed.
+        motions: Vectors of the space of motions that belong to it.
+        stresses: How many independent self-stresses are in it.
+    """
+
+    columns: NDArray[np.integer]
+    elements: NDArray[np.integer]
+    motions: tuple[int, ...]
+    stresses: int
+
+
+def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
+    """The components in which both motions and self-stresses are, and all other motions' number.
+
+    All motions have to be known. A vector that reaches over several components makes one of them.
+    """
+    columns, basis = spaces.columns, spaces.motion_space
+    groups = _Groups(columns + spaces.data.arrays.element_number.size)
+    nodes, elements = _incidence(spaces)
+    node, axis = spaces.raw.column_label - 1
+    column_at = np.full((spaces.data.arrays.node_kind.size, 3), -1)
+    column_at[node, axis] = np.arange(columns)
+    for k in range(3):
+        there = column_at[nodes, k]
+        groups.join(there[there >= 0], elements[there >= 0] + columns)
+    groups.join(*_within_vectors(basis))
+    group = groups.found()
+    moving = _of_vectors(group, basis)
+    # Rows less rank, by component.
+    stresses = np.bincount(group[spaces.raw.row_label[0] - 1 + columns], minlength=group.size)
+    stresses = stresses - np.bincount(group[:columns], minlength=group.size)
+    stresses = stresses + np.bincount(moving, minlength=group.size)
+    felt = np.unique(moving[stresses[moving] > 0])
+    free = int(np.count_nonzero(stresses[moving] <= 0))
+    # Columns and elements of each, without going through all of them for each.
+    order = np.argsort(group, kind="stable")
+    first, last = (np.searchsorted(group[order], felt, side) for side in ("left", "right"))
+    made = []
+    for mine, begin, end in zip(felt.tolist(), first.tolist(), last.tolist(), strict=True):
+        members = np.sort(order[begin:end])
+        made.append(
+            Component(
+                members[members < columns],
+                members[members >= columns] - columns,
+                tuple(np.flatnonzero(moving == mine).tolist()),
+                int(stresses[mine]),
+            )
+        )
+    return tuple(made), free
+
+
+def _of_vectors(group: NDArray[np.integer], basis: Basis) -> NDArray[np.integer]:
+    """(vectors,) the group that each vector of a basis belongs to."""
+    made = np.zeros(basis.vectors, np.int64)
+    seen = _seen(basis)
+    made[basis.of_entries()[seen]] = group[basis.place[seen]]
+    return made
+
+
+def _within_vectors(basis: Basis) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """Places that a vector reaches, each beside one of them."""
+    seen = _seen(basis)
+    where, vector = basis.place[seen], basis.of_entries()[seen]
+    one = np.zeros(basis.vectors, np.int64)
+    one[vector] = where
+    return where, one[vector]
+
+
+def _seen(basis: Basis) -> NDArray[np.bool_]:
+    """Entries of vectors of unit norm that are more than rounding."""
+    return np.abs(basis.value) > _UNSEEN
+
+
+def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+    """Nodes and elements that hold something, side by side."""
+    arrays = spaces.data.arrays
+    held = (arrays.deformation_class == Class.FIXED) | (
+        arrays.deformation_class == Class.INDEPENDENT
+    )
+    slot, element = np.nonzero((arrays.element_node > 0) & held.any(axis=0))
+    return arrays.element_node[slot, element] - 1, element
+
+
+class _Groups:
+    """Numbers that are joined."""
+
+    def __init__(self, size: int) -> None:
+        self._pairs: list[tuple[NDArray[np.integer], NDArray[np.integer]]] = []
+        self._size = size
+
+    def join(self, one: NDArray[np.integer], other: NDArray[np.integer]) -> None:
+        """Join each of some with each of others, side by side."""
+        self._pairs.append((one, other))
+
+    def found(self) -> NDArray[np.integer]:
+        """(size,) the least number of the group of each."""
+        one = np.concatenate([pair[0] for pair in self._pairs])
+        other = np.concatenate([pair[1] for pair in self._pairs])
+        group = np.arange(self._size)
+        while True:
+            before = group.copy()
+            least = np.minimum(group[one], group[other])
+            # The roots of both are joined, then the ways are shortened.
+            np.minimum.at(group, group[one], least)
+            np.minimum.at(group, group[other], least)
+            np.minimum.at(group, one, least)
+            np.minimum.at(group, other, least)
+            group = group[group]
+            if np.array_equal(group, before):
+                return group
+
+
+#: The axes in which a node of each kind can move or turn.
+_AXES = {
+    NodeKind.PLANAR_POSITION: (0, 1),
+    NodeKind.POSITION: (0, 1, 2),
+    NodeKind.ANGLE: (2,),
+    NodeKind.ORIENTATION: (0, 1, 2),
+}
+#: What is below this is zero.
+_ZERO = 1.0e-9
+
+
+def rigid_motions(held: Held) -> FloatArray:
+    """(n, k) orthonormal basis of the motions that move all nodes as one body would.
+
+    They are those that do not move what is fixed or independent.
+    """
+    kinds = held.arrays.node_kind
+    every = np.array([3 * i + axis for i, k in enumerate(kinds.tolist()) for axis in _AXES[k]])
+    fields = _fields(held)
+    free = np.isin(every, held.columns)
+    stopped = fields[every[~free]]
+    ways = np.eye(6)
+    if stopped.size:
+        _, values, right = np.linalg.svd(np.linalg.qr(stopped, mode="r"))
+        ways = right[int(np.count_nonzero(values > _ZERO)) :].T
+    left, values, _ = np.linalg.svd(fields[held.columns] @ ways, full_matrices=False)
+    return np.asarray(left[:, values > _ZERO])
+
+
+def leading_rows(vectors: FloatArray) -> NDArray[np.integer]:
+    """(k,) rows of independent vectors (n, k) in which they are as independent as can be."""
+    left, chosen = vectors.copy(), []
+    for _ in range(vectors.shape[1]):
+        sizes = np.linalg.norm(left, axis=1)
+        # Of rows that rounding alone tells apart the first.
+        row = int(np.argmax(sizes > (1.0 - 1.0e-6) * sizes.max()))
+        chosen.append(row)
+        unit = left[row] / sizes[row]
+        left = left - np.outer(left @ unit, unit)
+    return np.array(chosen, np.int64)
+
+
+def _fields(held: Held) -> FloatArray:
+    """(3 nodes, 6) translations along and rotations about the axes, by the size and radians."""
+    kinds, value = held.arrays.node_kind, held.arrays.node_value[:3].T
+    placed = kinds <= NodeKind.POSITION
+    middle = value[placed].mean(axis=0) if placed.any() else np.zeros(3)
+    arms = (value - middle) * (held.sizes.unit / held.size)
+    made = np.zeros((kinds.size, 3, 6))
+    made[placed, :, :3] = np.eye(3)
+    for axis in range(3):
+        made[placed, :, 3 + axis] = np.cross(np.eye(3)[axis], arms[placed])
+        made[~placed, axis, 3 + axis] = 1.0
+    if held.data.planar:
+        made[:, :, [2, 3, 4]] = 0.0
+    return made.reshape(-1, 6)
+
 
 #: Entries of D(c) of a component that is small; of self-stresses that are looked at.
 _MOST_NUMBERS, _MOST_ENTRIES = 650_000, 4_000_000
@@ -169,3 +347,133 @@ def _dense(basis: Basis, vectors: tuple[int, ...]) -> FloatArray:
         place, value = basis.entries(vector)
         made[place, k] = value
     return made
+
+
+_MOST_STEPS = 14
+#: A correction below this is rounding, where it no longer gets smaller.
+_SETTLED, _ROUNDING, _SHRINKS = 1.0e-15, 1.0e-10, 0.7
+#: What is left of g where it is zero, and where that may be rounding, so that steps have to gain.
+_EXTENTS_REDUCED_ZERO, _ROUNDED, _GAIN_IN_ROUNDING = 1.0e-18, 1.0e-15, 0.5
+#: The steps to the least of g: how many, their damping times its square, and what ends them.
+_MOST_DESCENTS, _DAMPING, _MOST_DAMPING, _GAIN = 60, 1.0, 1.0e12, 1.0e-9
+
+#: So many positions are looked at in a component of few coordinates; of more, where each costs
+#: more, fewer.
+_MOST_POSITIONS, _FEWEST_POSITIONS, _FEW_COORDINATES = 5_000, 500, 50
+
+
+class Here(NamedTuple):
+    """A position at which nothing but g is left."""
+
+    shares: FloatArray
+    """(N,) of the motions."""
+    change: FloatArray
+    """(n,) of the coordinates, from the reference."""
+    left: FloatArray
+    """(s,) g."""
+    slope: FloatArray
+    """(s, N) its derivatives."""
+    strain: float
+    """The largest held deformation."""
+
+
+class Reduced:
+    """g near the reference of a component."""
+
+    def __init__(self, felt: Felt, stresses: FloatArray) -> None:
+        """Complete the null vectors to bases of all coordinates and deformations."""
+        self.felt, self.stresses = felt, stresses
+        self._across = _complement(felt.motions)
+        self._rest = _complement(stresses)
+        share = (_FEW_COORDINATES / max(felt.motions.shape[0], _FEW_COORDINATES)) ** 2
+        self._left = _FEWEST_POSITIONS + int(_MOST_POSITIONS * share)
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether as many positions were looked at as may be; no more are found then."""
+        return self._left <= 0
+
+    def at(self, shares: FloatArray, guess: FloatArray | None = None) -> Here | None:
+        """The position after some shares of the motions (N,); None where Newton finds none.
+
+        Args:
+            shares: Of the motions.
+            guess: (n,) a change near which it is.
+        """
+        felt, held, self._left = self.felt, self.felt.held, self._left - 1
+        if self._left < 0:
+            return None
+        ahead, last = felt.motions @ shares, np.inf
+        across = np.zeros(self._across.shape[1]) if guess is None else self._across.T @ guess
+        for _ in range(_MOST_STEPS):
+            change = ahead + self._across @ across
+            place = held.at(held.reference, change)
+            if not place.is_finite:
+                return None
+            by_rest = self._rest.T @ place.jacobian
+            matrix = by_rest @ self._across
+            try:
+                both = np.linalg.solve(
+                    matrix,
+                    np.column_stack([self._rest.T @ place.error, by_rest @ felt.motions]),
+                )
+            except np.linalg.LinAlgError:
+                return None
+            now = float(np.linalg.norm(both[:, 0]))
+            if now <= _SETTLED or _SHRINKS * last < now <= _ROUNDING:
+                along = felt.motions - self._across @ both[:, 1:]
+                by_stress = self.stresses.T @ place.jacobian
+                left = self.stresses.T @ place.error
+                return Here(shares, change, left, by_stress @ along, place.residual)
+            if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
+                return None
+            across, last = across - both[:, 0], now
+        return None
+
+    def least(self, start: FloatArray, basis: FloatArray, reach: float) -> Here | None:
+        """The position with the least of g near some shares (N,), changed within a basis (N, k).
+
+        Args:
+            start: The shares to begin with.
+            basis: Orthonormal.
+            reach: What would lead farther than this in one direction is not corrected there.
+
+        Levenberg-Marquardt steps, whose damping is the square of what is left: they converge
+        fast to a zero also where it is one of many (Yamashita and Fukushima, Computing
+        Supplement 15, 2001).
+        """
+        here, damping = self.at(start), _DAMPING
+        if here is None or not basis.shape[1]:
+            return here
+        for _ in range(_MOST_DESCENTS):
+            best = float(here.left @ here.left)
+            if best <= _EXTENTS_REDUCED_ZERO**2 or damping > _MOST_DAMPING:
+                break
+            u, s, vt = np.linalg.svd(here.slope @ basis, full_matrices=False)
+            along, there = u.T @ here.left, None
+            most = _MOST_DAMPING if best > _ROUNDED**2 else 64.0 * damping
+            while damping <= most:
+                factor = s / (s**2 + damping * best + np.finfo(float).tiny)
+                factor[np.abs(factor * along) > reach] = 0.0
+                change = -basis @ (vt.T @ (factor * along))
+                there = self.at(here.shares + change, here.change)
+                if there is not None and float(there.left @ there.left) < best:
+                    break
+                there, damping = None, 8.0 * damping
+            if there is None:
+                break
+            gain = 1.0 - float(there.left @ there.left) / best
+            here, damping = there, max(damping / 8.0, 1.0e-12)
+            if gain < (_GAIN if best > _ROUNDED**2 else _GAIN_IN_ROUNDING):
+                break
+        return here
+
+
+def _complement(vectors: FloatArray) -> FloatArray:
+    """(n, n - k) what completes orthonormal vectors (n, k) to a basis."""
+    return np.asarray(np.linalg.qr(vectors, mode="complete")[0][:, vectors.shape[1] :])
+
+
+def across(vectors: FloatArray) -> FloatArray:
+    """(N, N - k) likewise, of vectors of any length."""
+    return _complement(np.linalg.qr(vectors)[0])

@@ -11,27 +11,319 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.velocities import Velocities
+from ..analysis.body_motions import Velocities
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
 from ..util.records import Frozen
-from .chart import Chart, Near
-from .constraints import Held
+from .constraints import Held, Place
 
-_MOST_STEPS, _MOST_IN_CHART = 12, 80
+_MOST_STEPS = 12
+#: A correction below this part of the size is rounding, where it no longer gets smaller.
+_SETTLED = 1.0e-15
+_ROUNDING = 1.0e-11
+#: Corrections have to get smaller by this.
+_SHRINKS = 0.6
+
+
+class Near(NamedTuple):
+    """A place near the middle of a chart."""
+
+    place: Place
+    across: FloatArray
+    """(n,) the change of the coordinates that is not in the null space."""
+
+
+class Chart:
+    """Coordinates of the configurations near one."""
+
+    def __init__(self, held: Held, middle: Configuration, rank: int) -> None:
+        """Decompose D(c) there, of a given rank."""
+        self.held, self.middle = held, middle
+        left, _, right = np.linalg.svd(held.at(middle).jacobian)
+        self.left, self.rest = left[:, :rank], left[:, rank:]
+        self.right, self.null = right[:rank].T, right[rank:].T
+
+    def near(self, ahead: FloatArray) -> Near | None:
+        """The place after a change (n,) in the null space; None where Newton finds none."""
+        share, last = np.zeros(self.right.shape[1]), np.inf
+        for _ in range(_MOST_STEPS):
+            across = self.right @ share
+            place = self.held.at(self.middle, ahead + across)
+            if not place.is_finite:
+                return None
+            try:
+                change = np.linalg.solve(
+                    self.left.T @ place.jacobian @ self.right, self.left.T @ place.error
+                )
+            except np.linalg.LinAlgError:
+                return None
+            now = float(np.linalg.norm(change))
+            if now <= _SETTLED or (now <= _ROUNDING and now > _SHRINKS * last):
+                return Near(place, across)
+            if now > max(_SHRINKS * last, _ROUNDING) or not np.isfinite(now):
+                return None
+            share, last = share - change, now
+        return None
+
+
+#: How many of the smallest singular values are kept.
+_KEPT = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Station(Frozen):
+    """A configuration of a path.
+
+    Attributes:
+        configuration: In metres, where the model stands.
+        within: The same as `Held` has it, in its unit.
+        arc: How far it is along the path, in sizes: of the node that moves farthest,
+            displacements by the size, rotations in radians.
+        residual: The largest held deformation, lengths by the size, angles in radians.
+        tangent: (n,) along the path, displacements by the size, rotations in radians; norm 1.
+        values: The smallest singular values of the scaled matrix, theory.md (2), ascending,
+            at most six.
+        rank: How many of all of them are not zero.
+        signed: The smallest of these, with a sign that changes where it passes zero.
+    """
+
+    configuration: Configuration
+    within: Configuration
+    arc: float
+    residual: float
+    tangent: FloatArray
+    values: FloatArray
+    rank: int
+    signed: float
+
+    @property
+    def directions(self) -> int:
+        """In how many independent directions it goes on from here, to first order."""
+        return self.tangent.size - self.rank
+
+
+def station_at(
+    held: Held,
+    where: Configuration,
+    rank: int,
+    tangent: FloatArray,
+    arc: float,
+    residual: float,
+    sign: float,
+    values: FloatArray,
+) -> Station:
+    """A station of a given rank and sign, with all singular values, descending."""
+    smallest = sign * float(values[rank - 1]) if rank else 0.0
+    kept = values[::-1][:_KEPT].copy()
+    return Station(held.outside(where), where, arc, residual, tangent, kept, rank, smallest)
+
+
+class Between:
+    """The path between two stations, by the share of the way."""
+
+    def __init__(self, held: Held, one: Station, other: Station) -> None:
+        """Use the chart of the end with the higher rank: there the path is regular."""
+        self.held, self.one, self.other = held, one, other
+        self.is_backward = one.rank < other.rank
+        self.base, self.far = (other, one) if self.is_backward else (one, other)
+        self.chart = Chart(held, self.base.within, self.base.rank)
+        along = self.base.tangent
+        way = float(along @ held.difference(self.base.within, self.far.within))
+        self._ahead = way * along
+
+    def near(self, share: float) -> Near | None:
+        """The place at a share of the way, also a little outside of it."""
+        return self.chart.near(self._ahead * (1.0 - share if self.is_backward else share))
+
+    def direction(self, near: Near) -> FloatArray:
+        """(n,) the tangent at a place, of norm 1."""
+        jacobian = self.held.at(near.place.configuration).jacobian
+        right = np.linalg.svd(jacobian)[2]
+        null = right[self.base.rank :].T
+        along = null @ (null.T @ self.base.tangent)
+        return np.asarray(along / np.linalg.norm(along))
+
+    def change_to(self, share: float, near: Near) -> FloatArray:
+        """(n,) the change of the coordinates that leads to a place, from the chart's middle."""
+        return self._ahead * (1.0 - share if self.is_backward else share) + near.across
+
+
+def arc_between(held: Held, here: Station, where: Configuration, along: FloatArray) -> float:
+    """How far the node goes that moves farthest: on arcs of circles over the chords."""
+    chord = np.linalg.norm(held.at_nodes(held.difference(here.within, where)), axis=1)
+    before, behind = held.at_nodes(here.tangent), held.at_nodes(along)
+    sizes = np.linalg.norm(before, axis=1) * np.linalg.norm(behind, axis=1)
+    cosine = np.sum(before * behind, axis=1) / np.where(sizes > 0.0, sizes, 1.0)
+    half = 0.5 * np.arccos(np.clip(np.where(sizes > 0.0, cosine, 1.0), 0.0, 1.0))
+    return float(np.max(chord / np.sinc(half / np.pi)))
+
+
+_SETTLE_SETTLED = 1.0e-11
+#: Singular values below this part of the largest belong to directions that stay.
+_CUT = 1.0e-4
+#: The corrections of a step may be this part of the step itself.
+_FARTHEST = 0.5
+
+
+def settle(held: Held, start: Place, ahead: FloatArray, step: float) -> Place | None:
+    """The place after a step, where the held deformations are least; None without any near.
+
+    Args:
+        held: What is held.
+        start: Where the step begins.
+        ahead: (n,) its direction, of norm one.
+        step: Its length.
+    """
+    here, went = held.at(start.configuration, step * ahead), 0.0
+    for _ in range(_MOST_STEPS):
+        if not here.is_finite:
+            return None
+        # Corrections are across the motion, so that its share stays.
+        across = here.jacobian - np.outer(here.jacobian @ ahead, ahead)
+        back = np.asarray(-np.linalg.lstsq(across, here.error, rcond=_CUT)[0], np.float64)
+        correction = float(np.linalg.norm(back))
+        if correction <= _SETTLE_SETTLED:
+            return here
+        went += correction
+        if went > _FARTHEST * step:
+            return None
+        here = held.at(held.moved(here.configuration, back))
+    return None
+
+
+def onward(here: Place, direction: FloatArray) -> FloatArray:
+    """The direction in which it goes on: the last one within the null space."""
+    back = np.linalg.lstsq(here.jacobian, here.jacobian @ direction, rcond=_CUT)[0]
+    along = direction - back
+    length = float(np.linalg.norm(along))
+    return np.asarray(along / length) if length > _FARTHEST else direction
+
+
+#: Halvings, and the points on both sides, as shares of the way from one station to the other.
+_HALVINGS = 9
+_POINTS = 0.02 * np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
+#: Golden sections before a touch is refined.
+_SECTIONS = 12
+_GOLDEN = (5.0**0.5 - 1.0) / 2.0
+#: Scaled singular values up to here are left alone when the place is put on the path.
+_SMALL = 1.0e-5
+
+Function = Callable[[Near], float]
+
+
+class Passing(NamedTuple):
+    """A place between two stations."""
+
+    share: float
+    arc: float
+    where: Configuration
+    tangent: FloatArray
+    """(n,) along the path, of norm 1."""
+
+
+def passing(way: Between, function: Function) -> Passing | None:
+    """Where a function of the place passes zero on the way; None where it cannot be found."""
+    low, high = 0.0, 1.0
+    first, last = way.near(low), way.near(high)
+    if first is None or last is None:
+        return None
+    sign = np.sign(function(first))
+    if sign == np.sign(function(last)):
+        return None
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        near = way.near(middle)
+        value = 0.0 if near is None else function(near)
+        if value == 0.0:
+            low = high = middle
+            break
+        low, high = (middle, high) if np.sign(value) == sign else (low, middle)
+    return _refined(way, function, 0.5 * (low + high), is_touching=False)
+
+
+def touching(way: Between, function: Function, low: float) -> Passing | None:
+    """Where a function is least between a share `low` and 1; None where it cannot be found.
+
+    By golden section, and then by the polynomial through the squares of its values: of singular
+    values that pass zero together these are smooth.
+    """
+    first, last = low, 1.0
+    for _ in range(_SECTIONS):
+        inner = first + (1.0 - _GOLDEN) * (last - first), first + _GOLDEN * (last - first)
+        places = [way.near(share) for share in inner]
+        values = [np.inf if near is None else abs(function(near)) for near in places]
+        first, last = (first, inner[1]) if values[0] <= values[1] else (inner[0], last)
+    return _refined(way, lambda near: function(near) ** 2, 0.5 * (first + last), is_touching=True)
+
+
+def _refined(
+    way: Between, function: Function, about: float, *, is_touching: bool
+) -> Passing | None:
+    shares = about + _POINTS
+    places = [way.near(share) for share in shares.tolist()]
+    known = [near for near in places if near is not None]
+    if len(known) < len(places):
+        return None
+    values = np.array([function(near) for near in known])
+    share = _root(_POINTS, values, is_touching)
+    if share is None:
+        return None
+    weights = _lagrange(_POINTS, share)
+    changes = [way.change_to(s, near) for s, near in zip(shares.tolist(), known, strict=True)]
+    change = np.asarray(weights @ np.array(changes))
+    where = way.held.at(way.chart.middle, change).configuration
+    tangents = np.array([way.direction(near) for near in known])
+    tangent = weights @ tangents
+    rank = int(np.count_nonzero(way.held.values(where) > _SMALL))
+    near = Chart(way.held, where, rank).near(np.zeros(change.size))
+    if near is not None:
+        where = near.place.configuration
+    tangent = tangent / np.linalg.norm(tangent)
+    arc = way.one.arc + arc_between(way.held, way.one, where, tangent)
+    if about + share < 0.0:
+        arc = 2.0 * way.one.arc - arc
+    return Passing(about + share, arc, where, tangent)
+
+
+def _root(points: FloatArray, values: FloatArray, of_slope: bool) -> float | None:
+    """The zero, near 0, of the polynomial through values at some points; None without any."""
+    fit = np.polynomial.Polynomial.fit(points, values, points.size - 1)
+    if of_slope:
+        fit = fit.deriv()
+    slope, at = fit.deriv(), 0.0
+    for _ in range(30):
+        steep = float(slope(at))
+        if steep == 0.0:
+            return None
+        step = float(fit(at)) / steep
+        at -= step
+        if abs(step) <= 1.0e-16:
+            break
+    return at if abs(at) <= abs(float(points[0])) else None
+
+
+def _lagrange(points: FloatArray, at: float) -> FloatArray:
+    """The weights of values at some points in the polynomial's value at a place."""
+    apart = points[:, None] - points
+    np.fill_diagonal(apart, 1.0)
+    to = at - points
+    rest = np.array([np.prod(np.delete(to, k)) for k in range(points.size)])
+    return np.asarray(rest / apart.prod(axis=1))
+
+
+_STATIONS_MOST_STEPS, _MOST_IN_CHART = 12, 80
 #: A correction below this is rounding.
-_SETTLED = 2.0e-16
+_STATIONS_SETTLED = 2.0e-16
 #: What the error must go down by, a part of what the linear model says.
 _GOES_DOWN = 1.0e-4
 #: Damping, times the largest singular value squared: at first, and how it changes.
 _DAMPING, _MORE, _LESS, _MOST = 1.0e-3, 8.0, 0.1, 1.0e8
 #: Scaled singular values up to here are zero where no rank is given.
 _ZERO = 1.0e-9
-
-Function = Callable[[FloatArray], "tuple[FloatArray, FloatArray] | None"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +378,7 @@ def least_near(chart: Chart, ahead: FloatArray) -> Near:
         place = held.at(chart.middle, ahead + change + basis @ share)
         return (place.error, place.jacobian @ basis) if place.is_finite else None
 
-    share = descend(errors, np.zeros(basis.shape[1]), _MOST_STEPS)
+    share = descend(errors, np.zeros(basis.shape[1]), _STATIONS_MOST_STEPS)
     correction = change + basis @ share
     return Near(held.at(chart.middle, ahead + correction), correction)
 
@@ -123,7 +415,10 @@ def across(ahead: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:])
 
 
-def descend(function: Function, start: FloatArray, most: int) -> FloatArray:
+Descended = Callable[[FloatArray], "tuple[FloatArray, FloatArray] | None"]
+
+
+def descend(function: Descended, start: FloatArray, most: int) -> FloatArray:
     """Where a function's values are least, by their norm.
 
     Args:
@@ -150,7 +445,7 @@ def descend(function: Function, start: FloatArray, most: int) -> FloatArray:
             damping *= _MORE
         else:
             break
-        settled = float(np.linalg.norm(change)) <= _SETTLED or best - now <= 1.0e-14 * best
+        settled = float(np.linalg.norm(change)) <= _STATIONS_SETTLED or best - now <= 1.0e-14 * best
         place, here = place + change, there
         damping *= _LESS
         if settled:

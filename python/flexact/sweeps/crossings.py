@@ -12,13 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..analysis.verdict import Verdict
-from .crossing import Crossing, Crossings, Missed
-from .engine_running import results_of
-from .lines import ROWS, lines_of
-from .row import in_a_line
+from .columns import in_a_line
+from .crossing import ROWS, Crossing, Crossings, Missed, lines_of
+from .evaluate import Positions, Signed, SignedColumns, Source, columns_of_signed, signed_value
+from .running import results_of
 from .search import Follow, Found, Search, parameters_between
-from .signed import Signed, SignedColumns, columns_of_signed, signed_value
-from .source import Positions, Source
 
 if TYPE_CHECKING:
     from .table import Table

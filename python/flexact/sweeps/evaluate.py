@@ -8,31 +8,325 @@ analysed here as a single model would be, so that each row says what `flexact.an
 
 from __future__ import annotations
 
+import math
+import pickle
+import zlib
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..analysis.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
 from ..analysis.decomposition import Asked
-from ..analysis.failing import AnalysisError
 from ..analysis.margin import NOTHING, least_misalignments
-from ..analysis.result import result_of
-from ..analysis.sensitivity import MOST_OTHERS, MOST_WORK, MOST_ZEROS
-from ..analysis.verdict import Certainty, Verdict
+from ..analysis.rank_evidence import MOST_OTHERS, MOST_WORK, MOST_ZEROS
+from ..analysis.result import Result, result_of
+from ..analysis.verdict import AnalysisError, Certainty, Verdict
 from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
+from ..core.elements import Class, NodeKind
 from ..core.progress import Progress
 from ..core.raw import RawVariants
-from ..deck.errors import DeckError, ModelError
+from ..deck.rendering import DeckError, ModelError
 from ..model.data import ModelData
+from ..model.model import Model
 from ..model.parts.chains import perhaps_condensed
+from ..model.parts.condensing import condensed
 from ..model.variation import classes_held, varied
-from ..util import memory
-from ..util.processors import processors
-from .columns import columns_of
-from .row import MISSING, Value, error_row, in_a_line, row_of
+from ..util import machine as memory
+from ..util.machine import processors
+from ..util.records import Frozen
+from .columns import MISSING, columns_of, error_row, in_a_line, row_of
+from .columns import Value as Cell
+from .parameters import Row, Value
+
+
+class MotionArrays(NamedTuple):
+    """The motions of a variant, as `Result.motions` has them; as many as are given there."""
+
+    displacement: FloatArray
+    """(motions, nodes, 3) [m]; zero for orientations."""
+    rotation: FloatArray
+    """(motions, nodes, 3) [rad]; zero for positions that have none."""
+
+
+class StressArrays(NamedTuple):
+    """The self-stresses of a variant, as `Result.self_stresses` has them."""
+
+    forces: FloatArray
+    """(self-stresses, elements, 6) by deformation [N]."""
+    moments: FloatArray
+    """(self-stresses, elements, 6) by deformation [N m]."""
+
+
+NO_MOTIONS = MotionArrays(np.zeros((0, 0, 3)), np.zeros((0, 0, 3)))
+NO_STRESSES = StressArrays(np.zeros((0, 0, 6)), np.zeros((0, 0, 6)))
+
+
+def modes_of(result: Result) -> tuple[MotionArrays, StressArrays]:
+    """The arrays of one result."""
+    nodes = result.given.arrays.node_number.size
+    elements = result.given.arrays.element_number.size
+    motions, stresses = tuple(result.motions), tuple(result.self_stresses)
+    return (
+        MotionArrays(
+            _stacked([each.displacement for each in motions], nodes, 3),
+            _stacked([each.rotation for each in motions], nodes, 3),
+        ),
+        StressArrays(
+            _stacked([each.forces for each in stresses], elements, 6),
+            _stacked([each.moments for each in stresses], elements, 6),
+        ),
+    )
+
+
+def _stacked(arrays: list[FloatArray], rows: int, columns: int) -> FloatArray:
+    return np.array(arrays, float).reshape(len(arrays), rows, columns)
+
+
+#: Entries of D(c), as it is held in full, over all coordinates.
+MOST_ENTRIES = 16_000_000
+
+
+class Scaled(NamedTuple):
+    """The scaled D(c) of a model."""
+
+    matrix: FloatArray
+    """(m, n) free of units, theory.md (2)."""
+    topology: int
+    """The same for models whose rows and columns are the same deformations and coordinates."""
+
+
+class Signed(NamedTuple):
+    """A singular value of the scaled D(c), with a sign."""
+
+    value: float
+    """Its sign is that of the determinant, where D(c) is square and all singular values count;
+    NaN where there is no such singular value."""
+    topology: int
+    size: int
+    """How many singular values there are."""
+
+
+class SignedColumns(NamedTuple):
+    """Of variants their `Signed`, each (variants,); the topology is -1 where there is none."""
+
+    value: FloatArray
+    topology: NDArray[np.int64]
+    size: NDArray[np.int64]
+
+    def taken(self, index: NDArray[np.integer]) -> SignedColumns:
+        """Those of some variants."""
+        return SignedColumns(*(each[index] for each in self))
+
+
+def columns_of_signed(every: Sequence[Signed | None]) -> SignedColumns:
+    """The columns of variants."""
+    there = [each or Signed(math.nan, -1, 0) for each in every]
+    return SignedColumns(
+        np.array([each.value for each in there], np.float64),
+        np.array([each.topology for each in there], np.int64),
+        np.array([each.size for each in there], np.int64),
+    )
+
+
+def scaled_jacobian(data: ModelData) -> Scaled:
+    """D(c) as rank is decided on, but for components of quite another size.
+
+    Rotations are multiplied by the characteristic length, and each row, over all coordinates,
+    is brought to the norm one. Scales are positive, so that they keep the determinant's sign.
+
+    Raises:
+        AnalysisError: it is too large.
+    """
+    one = condensed(data).data
+    arrays = one.arrays
+    raw = calls.assemble(one.packed, arrays.node_value, np.zeros(arrays.element_number.size))
+    deformations, coordinates = arrays.deformation_class.T, arrays.coordinate_class.T
+    rows = np.flatnonzero((deformations == Class.FIXED) | (deformations == Class.INDEPENDENT))
+    columns = np.flatnonzero(coordinates == Class.DEPENDENT)
+    _require_room(rows.size, coordinates.size)
+    place = np.full(deformations.size, -1)
+    place[rows] = np.arange(rows.size)
+    there = place[raw.row_of] >= 0
+    full = np.zeros((rows.size, coordinates.size))
+    np.add.at(full, (place[raw.row_of[there]], raw.column_of[there]), raw.value[there])
+    turns = np.repeat(arrays.node_kind > NodeKind.POSITION, coordinates.shape[1])
+    full[:, turns] /= characteristic_length(one.frames.length)
+    norm = np.linalg.norm(full, axis=1, keepdims=True)
+    matrix = full[:, columns] / np.where(norm > 0.0, norm, 1.0)
+    described = (arrays.element_kind, arrays.element_node, rows, columns)
+    topology = 0
+    for array in described:
+        topology = zlib.crc32(np.ascontiguousarray(array).tobytes(), topology)
+    return Scaled(matrix, topology)
+
+
+def _require_room(rows: int, columns: int) -> None:
+    if rows * columns > MOST_ENTRIES:
+        raise AnalysisError(
+            f"D(c) has {rows} rows and the model {columns} coordinates, too many to follow a "
+            "singular value between variants"
+        )
+
+
+def characteristic_length(lengths: FloatArray) -> float:
+    """The geometric mean of the lengths that are not zero; one without any."""
+    positive = lengths[lengths > 0.0]
+    return math.exp(float(np.log(positive).mean())) if positive.size else 1.0
+
+
+def signed_value(data: ModelData, rank: int | None = None) -> Signed:
+    """The smallest singular value of the scaled D(c), or that which ends a rank.
+
+    Args:
+        data: A sound model.
+        rank: The singular value of this number, from 1, counts; by default the last.
+    """
+    matrix, topology = scaled_jacobian(data)
+    size = min(matrix.shape)
+    place = size if rank is None else rank
+    if not 0 < place <= size:
+        return Signed(math.nan, topology, size)
+    value = float(np.linalg.svd(matrix, compute_uv=False)[place - 1])
+    if matrix.shape[0] == matrix.shape[1] == place:
+        value = math.copysign(value, np.linalg.slogdet(matrix).sign)
+    return Signed(value, topology, size)
+
+
+Make = Callable[..., Model]
+
+
+class Source(Protocol):
+    """How the variants of a table came about."""
+
+    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
+        """The model between the variants of two rows, with its parameters.
+
+        Raises:
+            Exception: whatever a function of the user raises.
+        """
+
+    def goes_between(self, a: int, b: int) -> bool:
+        """Whether there is anything between two variants of the same topology."""
+
+    def taken(self, index: np.ndarray) -> Source:
+        """The source of some of the rows."""
+
+    def portable(self) -> Source | None:
+        """What of it can be pickled."""
+
+
+@dataclass(frozen=True, eq=False)
+class Positions(Frozen):
+    """A model, with its nodes elsewhere or other deformations held; see `sweep`."""
+
+    data: ModelData
+    positions: FloatArray | None
+    held: BoolArray | None
+
+    @property
+    def count(self) -> int:
+        """How many variants there are."""
+        given = self.positions if self.held is None else self.held
+        return 0 if given is None else len(given)
+
+    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
+        """Each position on the straight line between its two places."""
+        between = None
+        if self.positions is not None:
+            first, last = self.positions[a], self.positions[b]
+            between = first + share * (last - first)
+        return varied(self.data, between, None if self.held is None else self.held[a])
+
+    def goes_between(self, a: int, b: int) -> bool:
+        """Unless what is held differs, or nothing moves at all."""
+        if self.positions is None:
+            return False
+        return self.held is None or bool((self.held[a] == self.held[b]).all())
+
+    def taken(self, index: np.ndarray) -> Positions:
+        """The source of some of the rows."""
+        return Positions(
+            self.data,
+            None if self.positions is None else self.positions[index],
+            None if self.held is None else self.held[index],
+        )
+
+    def portable(self) -> Positions:
+        """All of it."""
+        return self
+
+
+@dataclass(frozen=True, eq=False)
+class Making(Frozen):
+    """A function of parameters that makes the model."""
+
+    make: Make
+
+    def variant(self, a: int, b: int, share: float, row: Row) -> ModelData:
+        """What the function makes of the parameters."""
+        return made_by(self.make, row)
+
+    def goes_between(self, a: int, b: int) -> bool:
+        """Wherever parameters differ."""
+        return True
+
+    def taken(self, index: np.ndarray) -> Making:
+        """The function knows no rows."""
+        return self
+
+    def portable(self) -> Making | None:
+        """Functions without a name in a module cannot be pickled."""
+        try:
+            pickle.dumps(self.make)
+        except Exception:
+            return None
+        return self
+
+
+def made_by(make: Make, row: Row) -> ModelData:
+    """The data of the model that a function makes of parameters, checked.
+
+    Raises:
+        TypeError: it makes no model.
+        ModelError, DeckError: the model is wrong.
+        Exception: whatever the function raises.
+    """
+    model = make(**row)
+    if not isinstance(model, Model):
+        raise TypeError(f"the function must return a flexact.Model, not {type(model).__name__}")
+    data = model.data
+    data.require_sound()
+    return data
+
+
+def between(
+    names: Sequence[str], first: Sequence[Value], last: Sequence[Value], share: float
+) -> Row:
+    """The parameters between those of two rows, as Python's own numbers.
+
+    What is no number is that of the first.
+    """
+    return {name: _between(a, b, share) for name, a, b in zip(names, first, last, strict=True)}
+
+
+def _between(a: Value, b: Value, share: float) -> Value:
+    if a == b or share == 0.0 or not (is_number(a) and is_number(b)):
+        return a
+    if share == 1.0:
+        return b
+    assert isinstance(a, (int, float)) and isinstance(b, (int, float))
+    return float(a + share * (b - a))
+
+
+def is_number(value: Value) -> bool:
+    """Whether there is something between it and another one."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
 
 Columns = dict[str, np.ndarray]
 #: So many variants at once: some milliseconds of work, and few numbers.
@@ -204,8 +498,76 @@ def _known(raw: RawVariants, with_values: bool) -> Columns:
     return made
 
 
-def _row(data: ModelData, want: str) -> dict[str, Value]:
+def _row(data: ModelData, want: str) -> dict[str, Cell]:
     try:
         return row_of(result_of(data, Asked()), want)
     except (AnalysisError, DeckError, ModelError) as error:
         return error_row(in_a_line(error), want)
+
+
+#: Entries of D(c) up to which a sign costs little beside an analysis.
+_MOST_SIGNED = 40_000
+
+
+class Answer(NamedTuple):
+    """What is known of a variant."""
+
+    cells: tuple[Cell, ...]
+    """In the order of the columns, the error behind them."""
+    signed: Signed | None = None
+    """None where values were not asked for, or there are none."""
+    modes: tuple[MotionArrays, StressArrays] | None = None
+
+
+def failed(message: str, want: str) -> Answer:
+    """A variant of which there is only an error."""
+    return Answer(tuple(error_row(message, want).values()))
+
+
+@dataclass(frozen=True)
+class OfFunction:
+    """Variants that a function makes of parameters."""
+
+    make: Make
+    want: str
+    asked: Asked
+
+    def __call__(self, row: Row) -> Answer:
+        """The variant of some parameters."""
+        try:
+            data = made_by(self.make, row)
+            return _answer(data, self.want, self.asked, is_signed=self.want != "verdict")
+        except Exception as error:
+            return failed(in_a_line(error), self.want)
+
+
+@dataclass(frozen=True)
+class OfModel:
+    """Variants of one topology."""
+
+    data: ModelData
+    want: str
+    asked: Asked
+
+    def __call__(self, variant: tuple[FloatArray | None, BoolArray | None]) -> Answer:
+        """The variant at some positions, with some deformations held."""
+        try:
+            return _answer(varied(self.data, *variant), self.want, self.asked)
+        except Exception as error:
+            return failed(in_a_line(error), self.want)
+
+
+def _answer(data: ModelData, want: str, asked: Asked, is_signed: bool = False) -> Answer:
+    result: Result = result_of(data, asked)
+    modes = modes_of(result) if want == "all" else None
+    is_signed = is_signed and result.rows * result.columns <= _MOST_SIGNED
+    signed = signed_or_none(data) if is_signed else None
+    return Answer(tuple(row_of(result, want).values()), signed, modes)
+
+
+def signed_or_none(data: ModelData) -> Signed | None:
+    """The signed smallest singular value; None of a model that is too large for it."""
+    try:
+        return signed_value(data)
+    except (AnalysisError, MemoryError, np.linalg.LinAlgError):
+        return None

@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..util.plain_text import in_short
-from .columns import COLUMNS, ERROR
-from .row import in_a_line
+from ..util.text import in_short
+from .columns import COLUMNS, ERROR, in_a_line
 
 #: A parameter of a variant.
 Value = str | int | float | bool | None

@@ -3,26 +3,425 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections import defaultdict
+from collections.abc import Sequence
+from itertools import combinations, pairwise
+from math import dist
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..analysis.units import length_in_words
+from ..analysis.naming import length_in_words
+from ..analysis.verdict import Verdict
 from ..core.arrays import BoolArray, FloatArray
-from .crossing import Crossings
-from .curves import curves_of
-from .plot import (
-    SINGULAR_COLOUR,
-    add_legend,
-    figure_of,
-    label,
-    mark_rows,
-    smallest_values,
-    verdict_colours,
-)
+from ..show.picture.files import STILLS, load_matplotlib, png_bytes, still_bytes
+from ..show.picture.make import PictureError, check_packages
+from ..util.errors import FlexactError
+from ..util.outputs import write_together
+from ..util.text import harmless
+from .crossing import ROWS, Crossing, Crossings, lines_of, varying
+from .writing import described, in_short
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from .table import Table
+
+
+#: Of errors, of doubt, and of singular places.
+ERROR_COLOUR, DOUBT_COLOUR, SINGULAR_COLOUR = "#6b7280", "#8a6a00", "#111827"
+#: Rows of which each has a large mark.
+FEW_ROWS = 150
+#: Rows between which singular places are sought unasked.
+MOST_SEARCHED = 20_000
+#: Width and height of a picture [inch], and of each further panel.
+_SIZE, _PANEL, _DPI = (8.0, 6.2), 2.6, 120
+
+
+def chosen(table: Table, x: str | None, y: str | None) -> tuple[str | None, str | None]:
+    """What is drawn along and up the picture; None: the number of the row, and by default.
+
+    Raises:
+        KeyError: there is no such column.
+        ValueError: it holds no numbers.
+    """
+    names = varying(table)
+    for name in (x, y):
+        if name is not None and table[name].dtype.kind not in "if":
+            raise ValueError(f"{name!r} cannot be drawn: it holds no numbers")
+    if x is None:
+        left = [name for name in names if name != y]
+        x = next(iter(left), None)
+        if y is None and len(left) > 1:
+            y = left[1]
+    return x, y
+
+
+def figure_of(panels: int = 1) -> Any:
+    """An empty figure that shows itself in a notebook.
+
+    Raises:
+        FlexactError: matplotlib is missing.
+    """
+    check_packages()
+    load_matplotlib()
+    from matplotlib.figure import Figure
+
+    class Shown(Figure):
+        def _repr_png_(self) -> bytes:
+            return png_bytes(self)
+
+    height = _SIZE[1] if panels == 1 else 1.0 + _PANEL * panels
+    return Shown(figsize=(_SIZE[0], height), dpi=_DPI, layout="constrained", facecolor="white")
+
+
+def smallest_values(table: Table) -> FloatArray:
+    """(variants,) the smallest singular value of the scaled D(c), as far as it is known."""
+    zero: FloatArray = table["largest_zero"]
+    return np.where(np.isnan(zero), table["gap"], zero)
+
+
+def add_legend(axes: Any, table: Table, *, has_singular: bool, marks: bool) -> None:
+    """The colours of the verdicts, in words with counts, and what else there is."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Any] = []
+    mark: Any
+    for verdict in Verdict:
+        if count := int((table.verdict == verdict.value).sum()):
+            told = f"{verdict.value}: {count}"
+            handles.append(_of_verdict(verdict, told, marks))
+    if has_singular:
+        handles.append(Line2D([], [], color=SINGULAR_COLOUR, lw=1.8, label="singular"))
+    if count := int(table.is_doubtful.sum()):
+        mark = {"marker": "o", "mfc": "none", "mec": DOUBT_COLOUR, "ls": "none", "mew": 1.5}
+        handles.append(Line2D([], [], label=f"rank doubtful: {count}", ms=9, **mark))
+    if count := int(table.has_error.sum()):
+        mark = {"marker": "x", "color": ERROR_COLOUR, "ls": "none", "mew": 1.6}
+        handles.append(Line2D([], [], label=f"error: {count}", **mark))
+    if not handles:
+        handles.append(Patch(facecolor="none", label="no variants"))
+    figure: Any = axes.get_figure()
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=9.5)
+
+
+def _of_verdict(verdict: Verdict, told: str, marks: bool) -> Any:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    if marks:
+        return Line2D([], [], marker="o", ms=6, ls="none", color=verdict.colour, label=told)
+    return Patch(facecolor=verdict.colour, label=told)
+
+
+def verdict_colours(table: Table) -> np.ndarray:
+    """(variants, 3) the colour of each row, from 0 to 1."""
+    from matplotlib.colors import to_rgb
+
+    made = np.tile(to_rgb(ERROR_COLOUR), (len(table), 1))
+    for verdict in Verdict:
+        made[table.verdict == verdict.value] = to_rgb(verdict.colour)
+    return made
+
+
+def mark_rows(axes: Any, table: Table, x: np.ndarray, y: np.ndarray) -> None:
+    """Rings round what is doubtful, and crosses at errors."""
+    doubtful, wrong = table.is_doubtful, table.has_error
+    size = 70 if len(table) <= FEW_ROWS else 24
+    if doubtful.any():
+        rings = {"marker": "o", "facecolors": "none", "edgecolors": DOUBT_COLOUR, "s": size}
+        axes.scatter(x[doubtful], y[doubtful], linewidths=1.5, zorder=6, clip_on=False, **rings)
+    if wrong.any():
+        cross = {"marker": "x", "color": ERROR_COLOUR, "s": 28, "linewidths": 1.6}
+        axes.scatter(x[wrong], y[wrong], zorder=6, clip_on=False, **cross)
+
+
+def found_crossings(table: Table, given: bool | Crossings) -> Crossings:
+    """The singular places to be drawn; none where rows have no neighbours."""
+    if isinstance(given, Crossings):
+        return given
+    if given and len(table) <= MOST_SEARCHED and varying(table):
+        try:
+            return table.crossings()
+        except (ValueError, FlexactError):
+            pass
+    return Crossings((), 0)
+
+
+def label(axes: Any, x: str, y: str) -> None:
+    """Names of the axes; what they hold is never taken for a formula."""
+    for put, words in ((axes.set_xlabel, x), (axes.set_ylabel, y)):
+        put(harmless(words), parse_math=False, fontsize=11)
+
+
+def finished(figure: Figure, table: Table, path: Path | None) -> Figure:
+    """The figure, which is also written to a file if one is named.
+
+    Raises:
+        FlexactError: it cannot be written.
+    """
+    if path is not None:
+        suffix = path.suffix.lower()
+        if suffix not in STILLS:
+            raise PictureError(f"{path} is no such picture: its suffix must be .png, .svg or .pdf")
+        words = in_short(table), described(table)
+        write_together({path: still_bytes(figure, suffix, *words)})
+    return figure
+
+
+Point = tuple[float, float]
+Segment = tuple[Point, Point]
+#: Of four points of a cell, the ways to join them in pairs.
+_PAIRS = (((0, 1), (2, 3)), ((0, 2), (1, 3)), ((0, 3), (1, 2)))
+
+
+class Curves(NamedTuple):
+    """What is drawn of singular places in a map."""
+
+    segments: list[Segment]
+    alone: list[Point]
+    """Places that are joined with no other one."""
+
+
+def curves_of(
+    crossings: Sequence[Crossing], x: str, y: str, columns: tuple[np.ndarray, np.ndarray]
+) -> Curves:
+    """Join the singular places on the edges of each cell.
+
+    Args:
+        crossings: The places.
+        x: The parameter along the map.
+        y: The parameter up the map.
+        columns: The values of both, (variants,) each.
+    """
+    index = [np.unique(column, return_inverse=True)[1].tolist() for column in columns]
+    cells: dict[tuple[int, int], list[Point]] = defaultdict(list)
+    points: list[Point] = []
+    for each in crossings:
+        if each.along not in (x, y):
+            continue
+        point = (_number(each, x), _number(each, y))
+        points.append(point)
+        places = [(index[0][row], index[1][row]) for row in each.rows]
+        low = [min(place[axis] for place in places) for axis in (0, 1)]
+        high = [max(place[axis] for place in places) for axis in (0, 1)]
+        # An edge has a cell on each side, a corner four round it.
+        around = [
+            range(a - 1, a + 1) if a == b else range(a, b) for a, b in zip(low, high, strict=True)
+        ]
+        for i in around[0]:
+            for j in around[1]:
+                cells[i, j].append(point)
+    segments = list(dict.fromkeys(s for there in cells.values() for s in _joined(there)))
+    joined = {point for segment in segments for point in segment}
+    return Curves(segments, [point for point in dict.fromkeys(points) if point not in joined])
+
+
+def _number(each: Crossing, name: str) -> float:
+    value = each.parameters[name]
+    assert isinstance(value, (int, float))
+    return float(value)
+
+
+def _joined(there: list[Point]) -> list[Segment]:
+    points = sorted(dict.fromkeys(there))
+    if len(points) == 4:
+        best = min(_PAIRS, key=lambda pairs: sum(dist(points[a], points[b]) for a, b in pairs))
+        return [(points[a], points[b]) for a, b in best]
+    if len(points) == 3:
+        ranked = sorted(combinations(points, 2), key=lambda pair: dist(*pair))
+        return list(ranked[:2])
+    return list(pairwise(points))
+
+
+#: Below this part of the largest a value stands at the lower edge: it is zero.
+_ZERO = 1.0e-9
+#: Rows that are joined where they follow nothing but each other, and whose marks can be told apart.
+_MOST_JOINED = 2_000
+#: So many singular places are told by their value.
+_MOST_TOLD = 6
+
+
+class _Quantity(NamedTuple):
+    words: str
+    values: FloatArray
+    is_logarithmic: bool
+    falls: bool
+    """Whether it is zero at singular places."""
+
+
+def curve(table: Table, x: str | None, y: str | None, crossings: Crossings) -> Any:
+    """The figure of a curve over a parameter, or over the rows; see `Table.plot`."""
+    quantities = _quantities(table, y)
+    figure = figure_of(len(quantities))
+    panels = figure.subplots(len(quantities), 1, sharex=True, squeeze=False)[:, 0]
+    along = np.arange(len(table), dtype=float) if x is None else table[x].astype(float)
+    places = [_place(each, x) for each in crossings if _is_on(each, x)]
+    for axes, quantity in zip(panels, quantities, strict=True):
+        _draw(axes, table, along, quantity, _lines(table, x), places)
+        label(axes, "" if axes is not panels[-1] else x or "variant", quantity.words)
+    _tell(panels[0], places)
+    add_legend(panels[0], table, has_singular=bool(places), marks=True)
+    return figure
+
+
+def _quantities(table: Table, y: str | None) -> list[_Quantity]:
+    if y is not None:
+        values = table[y].astype(float)
+        return [_Quantity(y, values, y in _LOGARITHMIC, y in _FALLING)]
+    if "gap" not in table.columns:
+        return [_Quantity("rank of D(c)", table.rank, False, False)]
+    return [
+        _Quantity("smallest singular value", smallest_values(table), True, True),
+        _Quantity("margin [m]", table["margin"], True, True),
+    ]
+
+
+_FALLING = ("gap", "smallest_singular_value", "margin", "margin_angle")
+_LOGARITHMIC = (*_FALLING, "largest_zero", "condition_number")
+
+
+def _lines(table: Table, x: str | None) -> list[list[int]]:
+    if x is None and len(table) > _MOST_JOINED:
+        return []
+    try:
+        return [rows for _, rows in lines_of(table, ROWS if x is None else x, False)]
+    except ValueError:
+        return []
+
+
+def _is_on(each: Crossing, x: str | None) -> bool:
+    return x is None or isinstance(each.parameters.get(x), (int, float))
+
+
+def _place(each: Crossing, x: str | None) -> float:
+    return each.rows[0] + each.share if x is None else float(each.parameters[x] or 0.0)
+
+
+def _draw(
+    axes: Any,
+    table: Table,
+    along: FloatArray,
+    quantity: _Quantity,
+    lines: Sequence[Sequence[int]],
+    places: Sequence[float],
+) -> None:
+    there = np.isfinite(quantity.values) & ~table.has_error
+    values = np.where(there, quantity.values, np.nan)
+    floor = np.nan
+    if quantity.is_logarithmic:
+        axes.set_yscale("log")
+        above = values[values > _ZERO * np.nanmax(values, initial=0.0)]
+        zeros = bool((values <= 0.0).any()) or (quantity.falls and bool(places))
+        floor = _floor(above, zeros)
+        values = np.maximum(values, floor)
+    for rows in lines:
+        xs, ys = along[list(rows)], values[list(rows)]
+        if quantity.falls and len(lines) == 1:
+            # The curve comes down to zero at singular places between the rows.
+            xs = np.concatenate((xs, places))
+            ys = np.concatenate((ys, np.full(len(places), floor)))[np.argsort(xs, kind="stable")]
+            xs = np.sort(xs)
+        axes.plot(xs, ys, color="#9ca3af", lw=1.0, zorder=2)
+    there = np.isfinite(values)
+    many = len(table) > _MOST_JOINED
+    size = 26 if len(table) <= FEW_ROWS else 2 if many else 9
+    points: Any = {"s": size, "c": verdict_colours(table)[there], "rasterized": many}
+    axes.scatter(along[there], values[there], zorder=4, clip_on=False, **points)
+    if quantity.is_logarithmic:
+        axes.set_ylim(bottom=floor)
+    for place in places:
+        axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, zorder=3)
+    bottom = np.full(len(table), axes.get_ylim()[0])
+    mark_rows(axes, table, along, np.where(there, values, bottom))
+    if quantity.values.dtype.kind == "i":
+        axes.yaxis.get_major_locator().set_params(integer=True)
+    axes.grid(True, which="major", color="#e5e7eb", lw=0.7, zorder=0)
+    axes.set_axisbelow(True)
+
+
+def _floor(above: FloatArray, reaches_zero: bool) -> float:
+    """The lower edge of a logarithmic axis: a decade below the least, where zero is reached."""
+    if not above.size:
+        return 0.1
+    return float(above.min() / (10.0 if reaches_zero else 1.5))
+
+
+def _tell(axes: Any, places: Sequence[float]) -> None:
+    """The values of few singular places, above them."""
+    if len(places) > _MOST_TOLD:
+        return
+    for place in places:
+        axes.annotate(
+            f"{place:.6g}",
+            (place, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 3),
+            textcoords="offset points",
+            ha="center",
+            fontsize=9,
+            color=SINGULAR_COLOUR,
+        )
+
+
+_BINS = 48
+#: What is smaller than this part of the median is zero: it stands in the first bin.
+_HISTOGRAM_ZERO = 1.0e-6
+
+
+def histograms(table: Table, nominal: Table, below: float | None) -> Any:
+    """The figure; see `Tolerances.plot`."""
+    figure = figure_of(2)
+    value, margin = figure.subplots(2, 1)
+    _draw_of_histogram(
+        value, table, smallest_values(table), [(smallest_values(nominal)[0], "as designed")]
+    )
+    label(value, "smallest singular value (scaled)", "samples")
+    lines = [(nominal.margin[0], "as designed")]
+    lines += [] if below is None else [(below, "asked about")]
+    _draw_of_histogram(margin, table, table.margin, lines)
+    label(margin, "margin [m]", "samples")
+    add_legend(value, table, has_singular=False, marks=False)
+    return figure
+
+
+def _draw_of_histogram(
+    axes: Any, table: Table, values: FloatArray, lines: list[tuple[float, str]]
+) -> None:
+    there = np.isfinite(values)
+    axes.set_xscale("log")
+    positive = values[there & (values > 0.0)]
+    low = 0.0
+    if positive.size:
+        low = max(positive.min(), _HISTOGRAM_ZERO * np.median(positive))
+        drawn = [place for place, _ in lines if np.isfinite(place) and place > low]
+        high = max([positive.max() * 1.0001, *drawn])
+        edges = np.geomspace(low, max(high, 1.001 * low), _BINS + 1)
+        found = [
+            (each, np.clip(values[there & (table.verdict == each.value)], edges[0], edges[-1]))
+            for each in Verdict
+        ]
+        found = [(each, part) for each, part in found if part.size]
+        colours = [each.colour for each, _ in found]
+        axes.hist([part for _, part in found], edges, stacked=True, color=colours, zorder=2)
+    for place, words in lines:
+        if np.isfinite(place) and place >= low:
+            _mark(axes, place, words)
+        elif np.isfinite(place):
+            axes.set_title(f"{words}: {place:.2g}", fontsize=9, loc="left")
+    beyond = int((~there & ~table.has_error).sum())
+    if beyond:
+        axes.set_title(f"{beyond} without limit", fontsize=9, loc="right")
+    axes.grid(True, axis="y", color="#e5e7eb", lw=0.7, zorder=0)
+
+
+def _mark(axes: Any, place: float, words: str) -> None:
+    axes.axvline(place, color=SINGULAR_COLOUR, lw=1.2, ls="--", zorder=4)
+    where = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+    axes.annotate(words, (place, 1.0), xytext=(0, 3), ha="center", fontsize=9, **where)
+
 
 #: A map is of cells where so large a part of them is there.
 _FULL = 0.5

@@ -8,22 +8,207 @@ it goes on with another one; it stops at once; and its workers end when this pro
 from __future__ import annotations
 
 import multiprocessing
+import os
 import pickle
 import signal
 import sys
+import threading
+import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from multiprocessing.connection import wait
-from typing import Any
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from queue import SimpleQueue
+from typing import Any, NamedTuple
 
 from ..util.errors import reason_of
 from ..util.interruption import SIGNALS
 from ..util.loading import load
-from .errors import EngineError
-from .member import Member
-from .running import Answer, Source
-from .worker import serve
+from .running import NOTHING, Answer, Chunk, EngineError, Raised, Source, raised
+
+#: Results that are there are not held back for longer [s].
+_FLUSH = 0.05
+
+
+class Part(NamedTuple):
+    """Results of the next items of what a worker does, and whether its chunk ends with them."""
+
+    results: Sequence[Any] = ()
+    seconds: float = 0.0
+    raised: Raised | None = None
+    is_last: bool = False
+
+
+def serve(
+    function: Callable[[Any], Any] | bytes, line: Connection, others: Iterable[Connection]
+) -> None:
+    """Do chunks of items as they come.
+
+    Args:
+        function: What is applied, or its pickle.
+        line: Brings chunks and takes results.
+        others: Ends of lines that this process has inherited and must not keep open.
+    """
+    _detach(others)
+    inbox: SimpleQueue[Sequence[Any]] = SimpleQueue()
+    # Reads ahead, so that nobody waits for one who waits to send; and ends with its master.
+    threading.Thread(target=_listen, args=(line, inbox), daemon=True).start()
+    # BLAS and OpenMP: their libraries may be loaded already, and ask no environment any more.
+    load("threadpoolctl").threadpool_limits(1)
+    called = _loaded(function, line) if isinstance(function, bytes) else function
+    line.send(Part())
+    while True:
+        for part in _parts(called, inbox.get()):
+            _send(line, part)
+
+
+def _detach(others: Iterable[Connection]) -> None:
+    """Leave signals from the keyboard to the master, and its connections as well."""
+    for number in SIGNALS:
+        ignored = number == signal.SIGINT
+        signal.signal(number, signal.SIG_IGN if ignored else signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+    for other in others:
+        other.close()
+
+
+def _listen(line: Connection, inbox: SimpleQueue[Sequence[Any]]) -> None:
+    while True:
+        try:
+            inbox.put(line.recv())
+        except (EOFError, OSError):
+            os._exit(1)
+        except Exception as error:
+            message = f"an item cannot be read in a worker process: {error}"
+            line.send(Part(raised=Raised(EngineError(message), "")))
+
+
+def _loaded(pickled: bytes, line: Connection) -> Callable[[Any], Any]:
+    try:
+        function: Callable[[Any], Any] = pickle.loads(pickled)
+    except Exception as error:
+        message = f"a worker process cannot load the function ({error}): define it in a module"
+        line.send(Part(raised=Raised(EngineError(message), "")))
+        raise SystemExit(1) from error
+    return function
+
+
+def _parts(function: Callable[[Any], Any], items: Sequence[Any]) -> Iterator[Part]:
+    """What comes of items, in parts, so that what is done is soon known."""
+    results: list[Any] = []
+    start = time.perf_counter()
+    last = len(items) - 1
+    for k, item in enumerate(items):
+        try:
+            results.append(function(item))
+        except BaseException as error:
+            yield Part(results, time.perf_counter() - start, raised(error), True)
+            return
+        seconds = time.perf_counter() - start
+        if k == last or seconds > _FLUSH:
+            yield Part(results, seconds, None, k == last)
+            results, start = [], time.perf_counter()
+
+
+def _send(line: Connection, part: Part) -> None:
+    try:
+        line.send(part)
+    except OSError:
+        os._exit(1)
+    except Exception as error:
+        message = f"a result cannot be sent from a worker process: {error}"
+        line.send(Part(raised=Raised(EngineError(message), "")))
+
+
+class Member:
+    """A process, its line, and the chunks that it was sent and has not finished."""
+
+    def __init__(self, process: BaseProcess, line: Connection) -> None:
+        """One that was started just now."""
+        self.process, self.line = process, line
+        self.chunks: deque[Chunk] = deque()
+        self.done = 0
+        self.has_started = False
+
+    def send(self, chunk: Chunk) -> None:
+        """Have it do a chunk.
+
+        Raises:
+            EngineError: An item cannot be sent.
+        """
+        self.chunks.append(chunk)
+        try:
+            self.line.send(chunk.items)
+        except OSError:
+            # It is dead, which is found where its answers are awaited.
+            return
+        except Exception as error:
+            raise EngineError(f"an item cannot be sent to a worker process: {error}") from error
+
+    def hear(self) -> list[Answer]:
+        """What it says, or what there is to say where it is dead.
+
+        Raises:
+            EngineError: A result cannot be read, or it did not start.
+        """
+        try:
+            part = self.line.recv()
+        except (EOFError, OSError):
+            return self.buried()
+        except Exception as error:
+            raise EngineError(f"a result cannot be read: {error}") from error
+        if not self.has_started:
+            self.has_started = True
+            return [Answer(NOTHING, raised=part.raised)] if part.raised else []
+        return [self._answer(part)]
+
+    def _answer(self, part: Part) -> Answer:
+        chunk, first = self.chunks[0], self.done
+        self.done += len(part.results)
+        if part.is_last:
+            self.chunks.popleft()
+            self.done = 0
+        some = chunk.part(first, first + len(part.results))
+        return Answer(some, part.results, part.seconds, part.raised)
+
+    def buried(self) -> list[Answer]:
+        """What it leaves: what it was about, and what it had not begun."""
+        self.stop()
+        code = self.process.exitcode or 0
+        if code > 0 and not self.has_started:
+            raise EngineError(
+                f"worker processes do not start (exit code {code}); where they are not forked, a "
+                'script needs `if __name__ == "__main__":` before what it does'
+            )
+        death = f"the worker process died ({_words_of(code)})"
+        left = [Answer(chunk) for chunk in self.chunks]
+        if left:
+            begun = self.chunks[0]
+            left[0] = Answer(begun.part(self.done, len(begun.items)), death=death)
+        return left
+
+    def last_words(self) -> list[Answer]:
+        """What there is to hear of it before it is buried."""
+        answers: list[Answer] = []
+        while not self.line.closed:
+            answers += self.hear() if self.line.poll() else self.buried()
+        return answers
+
+    def stop(self) -> None:
+        """End it at once."""
+        self.process.kill()
+        self.process.join()
+        self.line.close()
+
+
+def _words_of(code: int) -> str:
+    if code == -9:
+        return "signal 9, as where memory runs out"
+    return f"signal {-code}" if code < 0 else f"exit code {code}"
+
 
 #: Forked processes are not safe with the libraries of macOS, and Windows has none.
 FORKS = sys.platform not in ("darwin", "win32")

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import repeat
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
+from itertools import islice, repeat
+from typing import Any, NamedTuple, TypeVar
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..analysis.decomposition import Asked
@@ -14,14 +16,144 @@ from ..analysis.spaces import asked_for
 from ..core.progress import Progress
 from ..model.model import Model
 from ..model.variation import held_given, positions_given
-from .building import table_of, table_of_answers
-from .collecting import Work, answers_of
-from .columns import columns_of
-from .evaluate import swept
-from .parameters import Parameters, Row, Wrong, given
-from .source import Make, Making, Positions
-from .sweeps_worker import OfFunction, OfModel
+from .columns import ERROR, Column, columns_of
+from .evaluate import (
+    NO_MOTIONS,
+    NO_STRESSES,
+    Answer,
+    Make,
+    Making,
+    OfFunction,
+    OfModel,
+    Positions,
+    Source,
+    columns_of_signed,
+    failed,
+    swept,
+)
+from .parameters import Parameters, Row, Wrong, array_of, given
+from .running import EngineError, results_of
 from .table import Table
+
+Array = np.ndarray
+#: Columns of results that come first.
+_FIRST = ("verdict", "under_constrained", "over_constrained", "rank", "certainty", "gap", "margin")
+
+
+def _kind_of(column: Column) -> type:
+    """Of the numbers or texts of a column; errors are few, and may be long."""
+    return object if column is ERROR else column.kind
+
+
+def table_of(
+    rows: Sequence[Row],
+    found: dict[str, Array],
+    want: str,
+    source: Source | None,
+    **further: Any,
+) -> Table:
+    """A table of parameters and of the columns of results by name."""
+    names = tuple(dict.fromkeys(name for row in rows for name in row))
+    parameters = tuple(array_of([row.get(name) for row in rows]) for name in names)
+    known = [column.name for column in columns_of(want)]
+    order = [name for name in _FIRST if name in known]
+    order += [name for name in known if name not in _FIRST] + [ERROR.name]
+    return Table(
+        columns=(*names, *order),
+        arrays=(*parameters, *(np.asarray(found[name]) for name in order)),
+        parameter_names=names,
+        want=want,
+        _source=source,
+        **further,
+    )
+
+
+def table_of_answers(
+    rows: Sequence[Row], answers: Sequence[Answer], want: str, source: Source
+) -> Table:
+    """A table of parameters and of what workers answered."""
+    kept = (*columns_of(want), ERROR)
+    cells: list[Sequence[Any]] = list(zip(*(answer.cells for answer in answers), strict=True))
+    cells = cells or [[] for _ in kept]
+    found: dict[str, Array] = {
+        column.name: np.array(values, _kind_of(column))
+        for column, values in zip(kept, cells, strict=True)
+    }
+    further: dict[str, Any] = {}
+    if want == "all":
+        modes = [answer.modes or (NO_MOTIONS, NO_STRESSES) for answer in answers]
+        further["motions"] = tuple(each[0] for each in modes)
+        further["self_stresses"] = tuple(each[1] for each in modes)
+    if any(answer.signed is not None for answer in answers):
+        further["_signed"] = columns_of_signed([answer.signed for answer in answers])
+    return table_of(rows, found, want, source, **further)
+
+
+Item = TypeVar("Item")
+
+
+class Work(NamedTuple):
+    """By whom the work is done, and who is told of it."""
+
+    workers: int | None = None
+    executor: Any = None
+    progress: Progress | None = None
+
+
+def answers_of(
+    function: Callable[[Item], Answer],
+    items: Iterator[Item | Wrong],
+    count: int | None,
+    want: str,
+    work: Work,
+) -> list[Answer]:
+    """The answer to each item; what is done when the engine is lost stays.
+
+    Args:
+        function: What makes an answer.
+        items: Taken as they are needed; what is wrong with one is its answer.
+        count: How many there will be, if that is known.
+        want: One of `WANTS`.
+        work: By whom.
+
+    Raises:
+        EngineError: nothing could be done at all.
+    """
+    answers: dict[int, Answer] = {}
+    sent: list[int] = []
+    seen = 0
+
+    def taken() -> Iterator[Item]:
+        nonlocal seen
+        for item in items:
+            place, seen = seen, seen + 1
+            if isinstance(item, Wrong):
+                answers[place] = failed(item.message, want)
+            else:
+                sent.append(place)
+                yield item
+
+    results = results_of(function, taken(), executor=work.executor, workers=work.workers)
+    try:
+        with closing(results):
+            for done in results:
+                answer = done.result or failed(done.failure, want)
+                answers[sent[done.index]] = answer
+                if work.progress is not None:
+                    share = len(answers) / count if count else 0.0
+                    work.progress(f"variant {len(answers)}", min(share, 1.0))
+    except EngineError as error:
+        if not answers:
+            raise
+        left = taken()
+        # Rows that come one by one may have no end.
+        for _ in left if count is not None else islice(left, 1):
+            pass
+        further = "" if count is not None else ", nor is what would follow"
+        for place in range(seen):
+            answers.setdefault(place, failed(f"not done{further}: {error}", want))
+    return [answers[place] for place in range(seen)]
+
 
 _PLAIN = Asked()
 
@@ -72,7 +204,7 @@ def sweep(
         tolerance: As for `analyse`.
         prove: As for `analyse`.
         workers: So many threads or processes at most; by default one a processor.
-        executor: Where the work is done, if not here: see `flexact.sweeps.engine_running.results_of`.
+        executor: Where the work is done, if not here: see `flexact.sweeps.running.results_of`.
         progress: Called with what is being done and how much of that is done, from 0 to 1 (0
             where nobody knows how many variants there will be).
 

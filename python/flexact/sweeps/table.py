@@ -20,14 +20,9 @@ from ..util.records import Frozen
 from .columns import COLUMNS, ERROR, Column
 from .crossing import Crossing, Crossings
 from .crossings import crossings_of
-from .curve_plot import curve
-from .described import described, html_of, in_short
-from .modes import MotionArrays, StressArrays
-from .plot import chosen, finished, found_crossings
-from .plots import parameter_map
-from .signed import SignedColumns
-from .source import Source
-from .writing import write_table
+from .evaluate import MotionArrays, SignedColumns, Source, StressArrays
+from .plots import chosen, curve, finished, found_crossings, parameter_map
+from .writing import described, html_of, in_short, write_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

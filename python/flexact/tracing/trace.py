@@ -6,23 +6,49 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from ..analysis.result import Result, result_of
 from ..analysis.spaces import asked_for
 from ..model.model import Model
-from ..model.models import read
+from ..model.reading import read
 from ..motion import Ending, Followed, Held, Wishes, follow, is_followed, least_error
 from ..motion.constraints import MOST_COORDINATES
 from ..motion.follow import TRUE
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
+from .output import save
 from .stroke import Stroke
-from .tracing_trace import Trace
-from .values import Way
+from .values import Traced, Way
+from .words import lines
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trace(Traced):
+    """The path of a motion, or of a declared degree of freedom, with words and files of it."""
+
+    def describe(self) -> str:
+        """How far it goes each way, what stops it, its dead points and verdicts, in words."""
+        return "\n".join(lines(self))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it to a file, whole or not at all.
+
+        Args:
+            path: Its suffix says what it is to be: .csv, a row a step; a picture (.png, .svg, .pdf)
+                of singular values and coordinates along the path; .pvd, a cycle that plays in
+                ParaView.
+
+        Raises:
+            FlexactError: There is no such kind of file, a package is missing, or the file cannot
+                be written.
+        """
+        save(self, Path(path))
+
 
 #: How far each way by default, in sizes of the model, and by how many steps.
 LENGTH, STEPS = 1.0, 50

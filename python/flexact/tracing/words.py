@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import math
+from collections.abc import Iterator
 from itertools import groupby
 
 from ..analysis.naming import (
@@ -13,13 +16,12 @@ from ..analysis.naming import (
     in_words,
     motion_in_words,
     named_element,
+    plain,
 )
 from ..analysis.places import listed, with_article
-from ..analysis.sentences import plain
 from ..motion import Ending, Stop
-from .drive import drive_unit
-from .names import ROTATION
-from .values import DeadPoint, Step, Traced, Way
+from ..show.drawing.rotations import vector_of
+from .values import ROTATION, DeadPoint, Names, Step, Traced, Way, drive_unit
 
 _RANGES = {
     "length": "its ends have come to one point",
@@ -158,3 +160,57 @@ def _verdicts(trace: Traced) -> list[str]:
 
 def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
+
+
+#: Of so many points, and so many bodies, the places stand in a table at most.
+_ROWS_MOST = 400
+
+Cell = str | int | float
+
+
+def csv_bytes(trace: Traced) -> bytes:
+    """The table as CSV; numbers read back to the last bit."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header(trace))
+    writer.writerows(rows(trace))
+    return text.getvalue().encode("utf-8", "backslashreplace")
+
+
+def header(trace: Traced) -> list[str]:
+    """The names of the columns, with units."""
+    kept = max(step.values.size for step in trace.steps)
+    names = Names(trace.result)
+    axes = "xy" if trace.result.given.planar else "xyz"
+    turns = ("rz",) if trace.result.given.planar else ("rx", "ry", "rz")
+    drive = trace.shown.freedom
+    return [
+        *("step", "arc [m]", "residual [size]"),
+        *(f"sigma {k + 1}" for k in range(kept)),
+        *("under_constrained", "over_constrained", "verdict", "dead_point"),
+        *([] if drive is None else [f"{drive.label} [{drive_unit(drive)}]"]),
+        *(f"{point.name} {axis} [m]" for point in names.points(_ROWS_MOST) for axis in axes),
+        *(f"{body.name} {turn} [rad]" for body in names.bodies(_ROWS_MOST) for turn in turns),
+    ]
+
+
+def rows(trace: Traced) -> Iterator[list[Cell]]:
+    """A row a step; the reference is step 0."""
+    names, planar = Names(trace.result), trace.result.given.planar
+    points = [point.node for point in names.points(_ROWS_MOST)]
+    bodies = [body.node for body in names.bodies(_ROWS_MOST)]
+    kept = max(step.values.size for step in trace.steps)
+    first = trace.reference
+    for number, step in enumerate(trace.steps):
+        values = [*step.values.tolist(), *[math.nan] * (kept - step.values.size)]
+        places = step.pose.position[points, : 2 if planar else 3].ravel().tolist()
+        turned = vector_of(step.pose.rotation[bodies])[:, 2 if planar else 0 :].ravel().tolist()
+        yield [
+            *(number - first, step.arc, step.residual),
+            *("" if math.isnan(value) else value for value in values),
+            *(step.under_constrained, step.over_constrained, step.verdict.value),
+            "" if step.dead is None else dead_in_words(step, step.dead),
+            *([] if trace.shown.freedom is None else [step.drive]),
+            *places,
+            *turned,
+        ]

@@ -24,3 +24,6 @@ def load(name: str, *, for_good: bool = False) -> ModuleType:
             gc.freeze()
         if collects:
             gc.enable()
+
+
+VERSION = "0.1.0"

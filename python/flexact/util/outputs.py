@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import stat
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
@@ -17,12 +19,98 @@ from .decks import DeckFile
 from .errors import BatchError, reason_of
 from .interruption import undisturbed
 from .loading import load
-from .temporary import new_file, remove_left, temporary_name
+
+_NAME = re.compile(r"\.flexact-([0-9a-f]{12})-([1-9][0-9]*)-[0-9a-f]+\.tmp")
+#: Between two looks into a folder [s]: a batch may write thousands of files into one.
+_PAUSE = 60.0
+
+_looked: dict[Path, float] = {}
+
+
+def temporary_name() -> str:
+    """A name that nobody can know before, with what tells whether its process is alive."""
+    return f".flexact-{_system()}-{os.getpid()}-{os.urandom(8).hex()}.tmp"
+
+
+def new_file(path: Path, like: Path | None = None, mode: int = 0o666) -> BinaryIO:
+    """A new file to write; whatever stands there, also a link, is neither followed nor changed.
+
+    Args:
+        path: Where it is made.
+        like: A file whose mode it gets, where there is one: what others may not read stays so.
+        mode: What others may do else, as far as they may do it with every new file.
+
+    Raises:
+        OSError: It cannot be made, or something is there already.
+    """
+    how = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+    for name in ("O_NOFOLLOW", "O_CLOEXEC", "O_BINARY"):
+        how |= getattr(os, name, 0)
+    kept: int | None = None
+    if like is not None:
+        with contextlib.suppress(FileNotFoundError):
+            kept = mode = like.stat().st_mode & 0o777
+    handle = os.open(path, how, mode)
+    if kept is not None and hasattr(os, "fchmod"):
+        # A file system of another kind may have no such modes.
+        with contextlib.suppress(OSError):
+            os.fchmod(handle, kept)
+    return open(handle, "wb")
+
+
+def remove_left(folder: Path) -> None:
+    """Remove the files of this user's processes on this system that are no longer alive."""
+    now = time.monotonic()
+    if now - _looked.get(folder, -_PAUSE) < _PAUSE:
+        return
+    _looked[folder] = now
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            found = _NAME.fullmatch(entry.name)
+            if found and found[1] == _system() and _is_left(entry, int(found[2])):
+                with contextlib.suppress(OSError):
+                    os.unlink(entry.path)
+
+
+def _is_left(entry: os.DirEntry[str], process: int) -> bool:
+    if not entry.is_file(follow_symlinks=False):
+        return False
+    if hasattr(os, "geteuid") and entry.stat(follow_symlinks=False).st_uid != os.geteuid():
+        return False
+    return not _is_alive(process)
+
+
+def _is_alive(process: int) -> bool:
+    if sys.platform == "win32":
+        # There os.kill ends a process whatever it is told.
+        alive: bool = load("flexact.util.windows").is_alive(process)
+        return alive
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
+@cache
+def _system() -> str:
+    """Within what process numbers have a meaning: a run of a machine, and a container in it."""
+    # Loaded where a file is written, for they take a tenth of the time of the first word.
+    parts: list[str] = [load("socket").gethostname()]
+    with contextlib.suppress(OSError):
+        parts.append(Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii"))
+    with contextlib.suppress(OSError):
+        parts.append(os.readlink("/proc/self/ns/pid"))
+    found: str = load("hashlib").sha256("\n".join(parts).encode()).hexdigest()
+    return found[:12]
+
 
 #: What stands for standard output.
 STDOUT = Path("-")
 #: Loaded where it is wanted: a first word comes sooner without.
-_NAMES = "flexact.util.names"
+_NAMES = "flexact.util.outputs"
 #: On Windows others, such as a virus scanner, may hold a new file for a moment [s].
 _PAUSES = (0.01, 0.03, 0.1, 0.3)
 
@@ -275,3 +363,95 @@ def _require_closed(target: Path, place: Path) -> None:
         raise OutputError(
             f"cannot write {target}: it is open in another program; close it there"
         ) from error
+
+
+#: What Windows keeps for devices, whatever stands behind a dot.
+_DEVICE = r"(?i)(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9¹²³]) *(\..*)?"
+_REFUSED = r'[<>:"|?*\x00-\x1f]'
+#: Longer paths must begin as below on Windows, where 260 is the most and a temporary name beside
+#: a file has some 50 characters.
+_LONG = 200
+_AS_IT_IS, _SHARED = "\\\\?\\", "\\\\?\\UNC\\"
+
+
+def why_unfit(path: Path) -> str:
+    """Why a path cannot be one of this system, to stand within a sentence; empty if it can.
+
+    Windows takes some of these names without a word, and writes to a device, or beside the file.
+    """
+    if sys.platform != "win32":
+        return ""
+    for name in path.parts:
+        if name in (path.anchor, ".", ".."):
+            continue
+        if found := re.fullmatch(_DEVICE, name):
+            return f"Windows keeps the name {found[1]} for a device; take another name"
+        if found := re.search(_REFUSED, name):
+            return f"no name may hold {found[0]!r} on Windows; take another name"
+        if name[-1] in ". ":
+            return "no name may end with a dot or a blank on Windows; take another name"
+    return ""
+
+
+def reachable(path: str) -> str:
+    """A path as the system wants it; on Windows long ones are told apart from short ones."""
+    if sys.platform != "win32" or len(path) < _LONG or path.startswith(_AS_IT_IS):
+        return path
+    whole = os.path.abspath(path)
+    return _SHARED + whole[2:] if whole.startswith("\\\\") else _AS_IT_IS + whole
+
+
+def folded(path: str) -> str:
+    """What is the same for paths that differ in capitals or in how accents are stored alone."""
+    if path.isascii():
+        return path.lower()
+    normal = load("unicodedata").normalize
+    flat: str = normal("NFD", normal("NFD", path).casefold())
+    return flat
+
+
+class Owners:
+    """Whose a file is, in folders that may take different names for one."""
+
+    def __init__(self) -> None:
+        """Nobody has any."""
+        self._owners: dict[str, dict[str, str]] = {}
+
+    def add(self, place: str, owner: str) -> None:
+        """Give a file to somebody."""
+        self._owners.setdefault(folded(place), {})[place] = owner
+
+    def of(self, place: str) -> str | None:
+        """Who has a file, if anybody has."""
+        owners = self._owners.get(folded(place), {})
+        if place in owners:
+            return owners[place]
+        return next((owner for other, owner in owners.items() if _are_one(other, place)), None)
+
+
+def _are_one(first: str, second: str) -> bool:
+    """Whether paths that differ as `folded` says lead to one file, once it is written."""
+    pairs = zip(Path(first).parts, Path(second).parts, strict=False)
+    same: list[str] = []
+    for one, other in pairs:
+        if one != other:
+            return _is_blind(Path(*same), one, other)
+        same.append(one)
+    return True
+
+
+def _is_blind(folder: Path, first: str, second: str) -> bool:
+    """Whether a folder takes two names for one."""
+    one, other = folder / first, folder / second
+    if os.path.lexists(one) or os.path.lexists(other):
+        try:
+            return os.path.samefile(one, other)
+        except OSError:
+            return False
+    while not folder.is_dir() and folder != folder.parent:
+        folder = folder.parent
+    temporary = load("tempfile").TemporaryDirectory
+    with contextlib.suppress(OSError), temporary(prefix=".flexact-", dir=folder) as made:
+        Path(made, first).touch()
+        return os.path.lexists(os.path.join(made, second))
+    return sys.platform in ("darwin", "win32")

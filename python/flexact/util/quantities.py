@@ -9,7 +9,7 @@ from decimal import Decimal
 from typing import Any, NamedTuple, SupportsFloat, SupportsIndex
 
 from .errors import FlexactError
-from .plain_text import in_short
+from .text import in_short
 
 #: What Python takes for a quantity: SI, or a text that says its unit.
 Quantity = float | str

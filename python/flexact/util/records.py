@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,3 +40,30 @@ def _freeze(values: Iterable[object], *, every: bool = False) -> None:
             value.setflags(write=False)
         elif isinstance(value, tuple) and (every or not hasattr(value, "is_read_only")):
             _freeze(value, every=every)
+
+
+if TYPE_CHECKING or sys.version_info >= (3, 12):
+    from functools import cached_property as cached_property
+else:
+
+    class cached_property:  # noqa: N801
+        """As that of `functools` from Python 3.12 on."""
+
+        def __init__(self, function):
+            """Of a method."""
+            self.function = function
+            self.name = function.__name__
+            self.__doc__ = function.__doc__
+            self.__module__ = function.__module__
+
+        def __set_name__(self, owner, name):
+            """What it is called, where it is kept."""
+            self.name = name
+
+        def __get__(self, instance, owner=None):
+            """What was found; kept in the object, it is not asked for here again."""
+            if instance is None:
+                return self
+            found = self.function(instance)
+            instance.__dict__[self.name] = found
+            return found

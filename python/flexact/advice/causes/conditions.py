@@ -18,8 +18,8 @@ from ...analysis.result import Result
 from ...core.arrays import BoolArray, FloatArray
 from ...model.parts.parts import Part, PartKind
 from .cause import LineKind, Relation, RelationKind
-from .generic import Geometry
-from .limbs import Limbs, position_of_hinge
+from .gradients import Geometry
+from .lines import Limbs, position_of_hinge
 
 #: Points and unit vectors, (b, 3): of a line its direction, of a plane its normal.
 Figure = tuple[FloatArray, FloatArray]

@@ -8,14 +8,190 @@ u' dD v of all pairs and all changes is theory.md (20) with every change kept ap
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from ...analysis.decomposition import Asked
+from ...analysis.margin import NOTHING
+from ...analysis.modes import Motion, SelfStress
 from ...analysis.result import Result
-from ...core.arrays import FloatArray
-from ...core.basis import Basis
-from ...util.records import Frozen
-from .exploded import Exploded
-from .generic import Geometry
+from ...analysis.spaces import decompose
+from ...core import calls
+from ...core.arrays import Basis, FloatArray, ModelArrays, packed
+from ...core.elements import Class, NodeKind, Role, Vector, element_kinds, length_table, role_table
+from ...model.data import ModelData
+from ...model.parts.parts import PartKind, groups_of, natural
+from ...util.errors import FlexactError
+from ...util.records import Frozen, cached_property
+from .cause import Lift
+
+#: How far nodes are moved beside the members that meet there, and vectors beside their length.
+_MOVED, _TURNED = 0.4, 0.7
+#: Of larger models one geometry is tried.
+_MOST_FOR_MORE = 2_000
+_SEED = 20_111_105
+
+
+class Geometry(Frozen):
+    """A model whose node places and element vectors can be changed, all of them explicit.
+
+    Attributes:
+        data: The model.
+        vectors: (elements, 3) y vector or axis of each element, of unit length; that of the
+            frame where none is given; zero where a kind has none.
+        owner: (nodes,) the first of the nodes that are, and stay, at one place: those of an
+            element that has no length.
+        free: (nodes, 3) which coordinates there are: of position nodes, in the plane x and y.
+    """
+
+    def __init__(self, data: ModelData) -> None:
+        """Read the places and vectors of a sound model."""
+        self.data = data
+        arrays, frames = data.arrays, data.frames
+        kinds = np.array([0, *(kind.vector for kind in element_kinds())])[arrays.element_kind]
+        given = arrays.element_vector.T
+        size = np.linalg.norm(given, axis=1, keepdims=True)
+        own = np.where(size > 0.0, given / np.where(size > 0.0, size, 1.0), frames.frame[:, :, 1])
+        self.vectors: FloatArray = np.where(np.not_equal(kinds, Vector.NONE)[:, None], own, 0.0)
+        self.free = np.zeros((arrays.node_kind.size, 3), bool)
+        self.free[arrays.node_kind == NodeKind.POSITION] = True
+        self.free[arrays.node_kind == NodeKind.PLANAR_POSITION, :2] = True
+        p, q = arrays.element_node[[0, 2]] - 1
+        short = (p >= 0) & (q >= 0) & (length_table()[arrays.element_kind] == 0)
+        apart = np.linalg.norm(arrays.node_value[:3, q] - arrays.node_value[:3, p], axis=0)
+        short &= apart <= 1.0e-9 * max(float(frames.length.max(initial=0.0)), 1.0e-300)
+        self.owner = groups_of(arrays.node_kind.size, zip(p[short], q[short], strict=True))
+
+    @cached_property
+    def places(self) -> FloatArray:
+        """(nodes, 3) [m]; zero of orientations."""
+        made: FloatArray = np.where(self.free, self.data.arrays.node_value[:3].T, 0.0)
+        return made
+
+    @cached_property
+    def sizes(self) -> FloatArray:
+        """(nodes,) the geometric mean of the lengths that meet at each node [m]."""
+        arrays, length = self.data.arrays, self.data.frames.length
+        nodes = arrays.element_node[[0, 2]] - 1
+        used = (nodes >= 0) & (length > 0.0)
+        logs = np.broadcast_to(np.log(np.where(length > 0.0, length, 1.0)), nodes.shape)[used]
+        total = np.bincount(nodes[used], logs, arrays.node_kind.size)
+        count = np.bincount(nodes[used], minlength=arrays.node_kind.size)
+        mean = float(logs.mean()) if logs.size else 0.0
+        made: FloatArray = np.exp(np.where(count > 0, total / np.maximum(count, 1), mean))
+        return made
+
+    def moved(self, places: FloatArray, vectors: FloatArray) -> ModelData:
+        """The model with its nodes and vectors elsewhere, (nodes, 3) and (elements, 3)."""
+        arrays = self.data.arrays
+        value = arrays.node_value.copy(order="F")
+        value[:3] = np.where(self.free, places[self.owner], value[:3].T).T
+        made = arrays._replace(
+            node_value=value, element_vector=np.asfortranarray(np.array(vectors).T)
+        )
+        return replace(self.data, arrays=made, source=None, found=None)
+
+    def random(self, trial: int) -> tuple[FloatArray, FloatArray]:
+        """Places and vectors of a trial: first near those that are, then anywhere."""
+        rng = np.random.default_rng((_SEED, trial))
+        count = self.places.shape[0]
+        vectors = self.vectors + _TURNED * rng.uniform(-1.0, 1.0, self.vectors.shape)
+        vectors[~np.any(self.vectors, axis=1)] = 0.0
+        if trial % 2 == 0:
+            step = _MOVED * self.sizes[:, None] * rng.uniform(-1.0, 1.0, (count, 3))
+            return self.places + step, vectors
+        extent = float(np.exp(np.log(self.sizes).mean())) if count else 1.0
+        return extent * count ** (1.0 / 3.0) * rng.uniform(-1.0, 1.0, (count, 3)), vectors
+
+
+def rank_at(geometry: Geometry, places: FloatArray, vectors: FloatArray) -> int | None:
+    """The rank of D(c) at a geometry; None where it cannot be analysed."""
+    try:
+        raw = decompose(geometry.moved(places, vectors), Asked("auto", None, False))
+    except (FlexactError, MemoryError):
+        return None
+    return raw.rank
+
+
+def generic_rank(result: Result) -> tuple[int | None, int]:
+    """The largest rank that was found, and how many geometries were tried.
+
+    None where none of them could be analysed.
+    """
+    full = min(result.rows, result.columns)
+    if result.rank == full:
+        return full, 0
+    geometry = Geometry(result.data)
+    arrays = result.data.arrays
+    large = max(arrays.node_number.size, arrays.element_number.size) > _MOST_FOR_MORE
+    best: int | None = None
+    trials = 1 if large else 3
+    for trial in range(trials):
+        found = rank_at(geometry, *geometry.random(trial))
+        if found is not None:
+            best = max(found, result.rank, best or 0)
+        if best == full:
+            return best, trial + 1
+    return best, trials
+
+
+class Exploded:
+    """The rows of D of each element of a model in its reference configuration."""
+
+    def __init__(self, arrays: ModelArrays, vectors: FloatArray) -> None:
+        """Give each element nodes of its own; its vector is (elements, 3)."""
+        element, slot = np.nonzero(arrays.element_node.T)
+        node = arrays.element_node.T[element, slot] - 1
+        made = np.zeros(arrays.element_node.shape, np.int32)
+        made[slot, element] = np.arange(1, node.size + 1)
+        classes = arrays.coordinate_class[:, node]
+        self._arrays = arrays._replace(
+            node_number=np.arange(1, node.size + 1, dtype=np.int32),
+            node_kind=arrays.node_kind[node],
+            node_value=np.asfortranarray(arrays.node_value[:, node]),
+            coordinate_class=np.asfortranarray(
+                np.where(classes == Class.NONE, classes, np.int32(Class.DEPENDENT))
+            ),
+            element_node=np.asfortranarray(made),
+            element_vector=np.asfortranarray(vectors.T),
+        )
+        self._element, self._slot = element, slot
+        needed = np.array([0, *(kind.vector for kind in element_kinds())])[arrays.element_kind]
+        self._is_about_axis = needed == Vector.REQUIRED
+        self._frame = calls.find_frames(packed(self._arrays)).frame
+
+    def matrices(self, change: FloatArray) -> FloatArray:
+        """(elements, 6, 12) rows of each element, its offset and vector changed, (elements, 6)."""
+        value = self._arrays.node_value.copy(order="F")
+        at_q = self._slot == 2
+        value[:3, at_q] += change[self._element[at_q], :3].T
+        vectors = np.asfortranarray(self._arrays.element_vector + change[:, 3:].T)
+        arrays = self._arrays._replace(node_value=value, element_vector=vectors)
+        size = arrays.element_number.size
+        found = calls.assemble(packed(arrays), value, np.zeros(size))
+        node, axis = np.divmod(found.column_of, 3)
+        column = 3 * self._slot[node] + axis
+        flat = found.row_of.astype(np.int64) * 12 + column
+        made = np.bincount(flat, found.value, 72 * size).reshape(size, 6, 12).astype(float)
+        self._turn_back(made, calls.find_frames(packed(arrays)).frame)
+        return made
+
+    def _turn_back(self, rows: FloatArray, frame: FloatArray) -> None:
+        """Rows about two axes across a third, in the reference axes: these may be others.
+
+        An axis alone does not say which they are, so that a small turn may exchange them.
+        """
+        roles = role_table()[self._arrays.element_kind]
+        own = np.einsum("eij,eik->ejk", frame[:, :, 1:], self._frame[:, :, 1:])
+        for first, second in ((Role.OFFSET_Y, Role.OFFSET_Z), (Role.TILT_Y, Role.TILT_Z)):
+            element, row = np.nonzero((roles == first) & self._is_about_axis[:, None])
+            there = roles[element, row + 1] == second
+            element, row = element[there], row[there]
+            both = np.stack((rows[element, row], rows[element, row + 1]), axis=1)
+            back = np.einsum("ejk,ejc->ekc", own[element], both)
+            rows[element, row], rows[element, row + 1] = back[:, 0], back[:, 1]
+
 
 #: Step of central differences beside the length of what is changed.
 _STEP = 2.0e-5
@@ -155,4 +331,189 @@ def are_affordable(result: Result) -> bool:
 def _orthonormal(basis: Basis, scale: FloatArray) -> FloatArray:
     """The same space in the scaled matrix, by orthonormal columns."""
     made: FloatArray = np.linalg.qr(basis.toarray() / scale[:, None])[0]
+    return made
+
+
+#: Of equal ones, to within this part, the first by name counts.
+_EQUAL = 1.0e-6
+
+
+class Lifts:
+    """The fastest lifts of combinations of motions, or of self-stresses."""
+
+    def __init__(self, gradients: Gradients) -> None:
+        """Keep the derivatives at nodes and of turns."""
+        self._result = gradients.result
+        self._at_nodes, self._by_turning = gradients.at_nodes(), gradients.by_turning()
+
+    def of_motion(self, share: FloatArray) -> Lift:
+        """Of a combination of the motions, (k,), of unit length."""
+        return self._found(self._at_nodes @ share, self._by_turning @ share)
+
+    def of_stress(self, share: FloatArray) -> Lift:
+        """Of a combination of the self-stresses, (s,), of unit length."""
+        nodes, turns = (np.swapaxes(a, 2, 3) @ share for a in (self._at_nodes, self._by_turning))
+        return self._found(nodes, turns)
+
+    def _found(self, at_nodes: FloatArray, by_turning: FloatArray) -> Lift:
+        result = self._result
+        moves, turns = _largest(at_nodes), _largest(by_turning)
+        node = _first(moves, lambda i: node_key(result, i))
+        element = _first(turns, lambda i: _element_key(result, i))
+        by_move = float(moves[node]) if node is not None else 0.0
+        by_turn = float(turns[element]) if element is not None else 0.0
+        if by_move * result.characteristic_length <= _NOTHING:
+            node, by_move = None, 0.0
+        if by_turn <= _NOTHING:
+            element, by_turn = None, 0.0
+        given = result.given.arrays
+        return Lift(
+            by_move,
+            None if node is None else int(given.node_number[result.condensed.nodes[node]]),
+            by_turn,
+            None
+            if element is None
+            else int(given.element_number[result.condensed.elements[element]]),
+        )
+
+
+#: Differences are good to some 1e-8.
+_NOTHING = max(NOTHING, 1.0e-7)
+
+
+def _largest(blocks: FloatArray) -> FloatArray:
+    """(places,) largest singular value of blocks (places, 3, others): of all directions."""
+    if not blocks.size:
+        return np.zeros(blocks.shape[0])
+    gram = blocks @ np.swapaxes(blocks, 1, 2)
+    made: FloatArray = np.sqrt(np.maximum(np.linalg.eigvalsh(gram)[:, -1], 0.0))
+    return made
+
+
+def _first(sizes: FloatArray, key: object) -> int | None:
+    largest = float(sizes.max(initial=0.0))
+    if not largest > 0.0:
+        return None
+    able = np.flatnonzero(sizes >= (1.0 - _EQUAL) * largest).tolist()
+    return int(min(able, key=key))  # type: ignore[call-overload]
+
+
+def node_key(result: Result, node: int) -> tuple[object, ...]:
+    """Joints and bodies that move before what is held; then by name and place."""
+    given = int(result.condensed.nodes[node])
+    parts = result.parts
+    name = parts.name_of_point(given) or next((part.name for part in parts.at(given)), "")
+    place = np.round(result.given.arrays.node_value[:3, given] / _step(result)) + 0.0
+    return parts.is_held(given), natural(name), tuple(place.tolist())
+
+
+def _element_key(result: Result, element: int) -> tuple[object, ...]:
+    """Flexures and hinges before bodies; then by name and place."""
+    given = int(result.condensed.elements[element])
+    part = result.parts.of_element(given)
+    nodes = result.given.arrays.element_node[[0, 2], given] - 1
+    places = [result.given.arrays.node_value[:3, n] for n in nodes.tolist() if n >= 0]
+    middle = np.mean(places, axis=0) if places else np.zeros(3)
+    rounded = np.round(middle / _step(result)) + 0.0
+    return part.kind is PartKind.BODY, natural(part.name), tuple(rounded.tolist())
+
+
+def _step(result: Result) -> float:
+    return 1.0e-9 * result.characteristic_length
+
+
+#: A told vector of which less than this lies in the space of the undivided mechanism is not there.
+THERE = 0.5
+
+
+class Shares(Frozen):
+    """Columns of unit length, zero of what the undivided mechanism has not.
+
+    Attributes:
+        result: The result of which modes are told.
+        whole: The same with divided sheets and wires as one beam each.
+        gradients: Has the orthonormal bases of `whole`.
+    """
+
+    def __init__(self, result: Result, whole: Result, gradients: Gradients) -> None:
+        """Keep them; shares are found when they are asked for."""
+        self.result, self.whole, self.gradients = result, whole, gradients
+
+    @cached_property
+    def motions(self) -> FloatArray:
+        """(k, told) the told motions."""
+        told = self.result.motions
+        if self.whole is self.result:
+            return self.own_motions
+        made = np.zeros((self.gradients.motions.shape[1], len(told)))
+        for k, motion in enumerate(told):
+            made[:, k] = self._share_of_motion(motion)
+        return _unit(made)
+
+    @cached_property
+    def own_motions(self) -> FloatArray:
+        """(k, told) those of the undivided mechanism."""
+        scale = self.whole.raw.column_scale
+        told = self.whole.motion_basis.toarray() / scale[:, None]
+        return _unit(self.gradients.motions.T @ told)
+
+    def _share_of_motion(self, motion: Motion) -> FloatArray:
+        """(k,) of a motion of the divided mechanism; zero of one inside of a part."""
+        whole = self.whole
+        node, axis = whole.raw.column_label - 1
+        given = whole.condensed.nodes[node]
+        placed = whole.data.arrays.node_kind[node] <= NodeKind.POSITION
+        both = np.where(placed, motion.displacement[given, axis], motion.rotation[given, axis])
+        vector = both / whole.raw.column_scale
+        share = self.gradients.motions.T @ vector
+        size = float(np.linalg.norm(vector))
+        everything = np.concatenate((motion.displacement, motion.rotation))
+        if motion.is_internal or not size > 1.0e-9 * float(np.abs(everything).max()):
+            return np.zeros_like(share)
+        return np.asarray(share / size if np.linalg.norm(share) > THERE * size else 0.0 * share)
+
+    @cached_property
+    def stresses(self) -> FloatArray:
+        """(s, told) the told self-stresses."""
+        told = self.result.self_stresses
+        whole = self.whole
+        own = self.own_stresses
+        if whole is self.result or not len(told):
+            return own[:, : len(told)]
+        of_whole = _loads_of(list(whole.self_stresses))
+        of_told = _loads_of(list(told))
+        keys = {key: i for i, key in enumerate(sorted({*of_whole, *of_told}))}
+        left, right = np.zeros((len(keys), 6, own.shape[1])), np.zeros((len(keys), 6, len(told)))
+        for loads, made in ((of_whole, left), (of_told, right)):
+            for key, block in loads.items():
+                made[keys[key]] = block
+        shares = np.linalg.lstsq(left.reshape(-1, own.shape[1]), right.reshape(-1, len(told)))[0]
+        return _unit(own @ shares)
+
+    @cached_property
+    def own_stresses(self) -> FloatArray:
+        """(s, told) those of the undivided mechanism."""
+        scale = self.whole.raw.row_scale
+        told = self.whole.stress_basis.toarray() / scale[:, None]
+        return _unit(self.gradients.stresses.T @ told)
+
+
+def _loads_of(stresses: list[SelfStress]) -> dict[tuple[int, int], FloatArray]:
+    """(6, stresses) what parts exert where they end, by their first element and the node."""
+    made: dict[tuple[int, int], FloatArray] = {}
+    for k, stress in enumerate(stresses):
+        for one in stress.parts:
+            for end in one.ends:
+                key = one.part.elements[0], -1 if end.position is None else end.position
+                block = made.setdefault(key, np.zeros((6, len(stresses))))
+                wrench = end.wrench
+                block[:3, k] = wrench.force * wrench.length
+                block[3:, k] = wrench.moment
+    return made
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Columns of unit length; those that are nothing stay zero."""
+    sizes = np.linalg.norm(vectors, axis=0)
+    made: FloatArray = np.where(sizes > 1.0e-9, vectors / np.where(sizes > 0.0, sizes, 1.0), 0.0)
     return made

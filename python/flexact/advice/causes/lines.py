@@ -15,8 +15,166 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.screws import Screw, screw_of
+from ...analysis.decomposition import Outcome
+from ...analysis.mode_basis import without_sense
+from ...analysis.result import Result
+from ...analysis.screws import Screw, ScrewKind, screw_of
 from ...core.arrays import FloatArray
+from ...core.elements import Class, NodeKind
+from ...model.parts.parts import Part, PartKind, natural
+from ...util.records import cached_property
+from .cause import RelationKind
+
+
+class Limb(NamedTuple):
+    """Flexible parts in a row.
+
+    Attributes:
+        parts: They, by name.
+        ends: Indices of the position nodes at both ends in the model as given, ascending.
+        inner: Indices of the position nodes between its parts.
+    """
+
+    parts: tuple[Part, ...]
+    ends: tuple[int, ...]
+    inner: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        """What the names of its parts begin with, else all of them."""
+        heads = {part.name.rpartition(",")[0].strip() for part in self.parts}
+        if len(self.parts) == 1:
+            return self.parts[0].name
+        head = heads.pop()
+        return head if not heads and head else " and ".join(part.name for part in self.parts)
+
+    def at(self, position: int) -> Part:
+        """The part that ends at a position node."""
+        return next(part for part in self.parts if position in part.ends)
+
+
+class Limbs:
+    """The limbs of a mechanism, and where they end."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        """Keep the analysis; what is asked for is found then."""
+        self.outcome = outcome
+        self.parts = outcome.parts
+
+    @cached_property
+    def all(self) -> tuple[Limb, ...]:
+        """By name."""
+        flexible = [
+            part
+            for part in self.parts.all
+            if part.kind not in (PartKind.BODY, PartKind.HINGE) and len(part.ends) == 2
+        ]
+        owner = list(range(len(flexible)))
+        ends: dict[int, list[int]] = {}
+        for k, part in enumerate(flexible):
+            for position in part.ends:
+                ends.setdefault(position, []).append(k)
+        inner = {p: users for p, users in ends.items() if self._is_inner(p, len(users))}
+        for users in inner.values():
+            first, last = (_root(owner, k) for k in users)
+            owner[first] = last
+        groups: dict[int, list[int]] = {}
+        for k in range(len(flexible)):
+            groups.setdefault(_root(owner, k), []).append(k)
+        made = []
+        for mine in groups.values():
+            members = tuple(sorted((flexible[k] for k in mine), key=_by_name))
+            points = {position for part in members for position in part.ends}
+            outer = tuple(sorted(p for p in points if p not in inner))
+            made.append(Limb(members, outer, tuple(sorted(points - set(outer)))))
+        return tuple(sorted(made, key=lambda limb: natural(limb.name)))
+
+    def _is_inner(self, position: int, users: int) -> bool:
+        """Whether a point is between two parts and nothing else is there."""
+        if users != 2 or position in self.parts.body_at or len(self.parts.at(position)) != 2:
+            return False
+        classes = self.outcome.given.arrays.coordinate_class[:, position]
+        turned = self._orientations.get(position, set())
+        return bool(np.all(classes != Class.FIXED)) and len(turned) == 1
+
+    @cached_property
+    def _orientations(self) -> dict[int, set[int]]:
+        """Orientation nodes of the parts that end at each position node."""
+        slots = self.outcome.given.arrays.element_node - 1
+        made: dict[int, set[int]] = {}
+        for p, op in ((0, 1), (2, 3)):
+            both = (slots[p] >= 0) & (slots[op] >= 0)
+            for place, turned in zip(
+                slots[p][both].tolist(), slots[op][both].tolist(), strict=True
+            ):
+                made.setdefault(place, set()).add(turned)
+        return made
+
+    def place(self, position: int) -> FloatArray:
+        """(3,) of a position node [m]."""
+        value: FloatArray = self.outcome.given.arrays.node_value[:3, position]
+        return value
+
+    @cached_property
+    def hubs(self) -> tuple[tuple[object, tuple[tuple[Limb, int], ...]], ...]:
+        """Bodies, and points that turn as one where parts meet: the limbs that end there.
+
+        Each with the position nodes at which they do; those that end at the ground alone are
+        left out.
+        """
+        made: dict[object, list[tuple[Limb, int]]] = {}
+        for limb in self.all:
+            for position in limb.ends:
+                key = self._hub(position)
+                if key is not None:
+                    made.setdefault(key, []).append((limb, position))
+        return tuple((key, tuple(found)) for key, found in made.items())
+
+    def _hub(self, position: int) -> object | None:
+        body = self.parts.body_at.get(position)
+        if body is not None:
+            return ("body", body)
+        if self.parts.is_held(position) and self._is_held_turning(position):
+            return None
+        return ("joint", position) if len(self._orientations.get(position, ())) == 1 else None
+
+    def _is_held_turning(self, position: int) -> bool:
+        return all(self.parts.is_held(node) for node in self._orientations.get(position, ()))
+
+    def orientation_at(self, position: int) -> int | None:
+        """The one orientation node at a position node; None where there is none, or several."""
+        found = self._orientations.get(position, set())
+        return next(iter(found)) if len(found) == 1 else None
+
+    def is_ground(self, position: int) -> bool:
+        """Whether a position node is fixed."""
+        return self.parts.is_held(position)
+
+
+def _root(owner: list[int], k: int) -> int:
+    while owner[k] != k:
+        k = owner[k]
+    return k
+
+
+def _by_name(part: Part) -> tuple[object, ...]:
+    return natural(part.name), part.elements
+
+
+def position_of_hinge(outcome: Outcome, part: Part) -> int | None:
+    """The position node at which a hinge stands; None where none is known."""
+    arrays = outcome.given.arrays
+    nodes = (arrays.element_node[:, part.elements[0]] - 1).tolist()
+    for node in nodes:
+        if node < 0:
+            continue
+        if arrays.node_kind[node] <= NodeKind.POSITION:
+            return int(node)
+        place = outcome.parts.place_of(node)
+        if place is not None:
+            return int(place)
+    return None
+
 
 #: What is below this part of the lengths at hand, or this angle [rad], is none.
 _SAME = 1.0e-6
@@ -164,3 +322,163 @@ class Lines:
         return not any(
             self.is_parallel(i, j) or self.meeting(i, j) is not None for i, j in self._pairs()
         )
+
+
+#: Of more lines nothing is said.
+_IN_COMMON_MOST_LINES = 60
+_NONE = np.zeros(3)
+
+
+class Common(NamedTuple):
+    """What some of the lines have in common."""
+
+    kind: RelationKind
+    group: tuple[int, ...]
+    """Which lines, ascending."""
+    direction: FloatArray
+    point: FloatArray
+    """Where it stands [m]."""
+    pitch: float = 0.0
+
+
+def in_common(lines: Lines, *, planar: bool) -> list[Common]:
+    """What dependent lines have in common, the most telling first; nothing if that is not known.
+
+    Args:
+        lines: The lines, which are dependent.
+        planar: Whether all lie in one plane by themselves.
+    """
+    if not 2 <= len(lines) <= _IN_COMMON_MOST_LINES:
+        return []
+    same = list(_of_one_line(lines))
+    if same:
+        return same
+    held = list(_of_six(lines))
+    if held:
+        return held
+    through = list(_of_one_point(lines))
+    groups = _cover(lines, planar)
+    if through:
+        return through + [one for one in groups if len(one.group) == len(lines)]
+    covered = {k for one in groups for k in one.group}
+    if len(covered) == len(lines):
+        return groups
+    return [*_of_all(lines), *groups]
+
+
+def _of_one_line(lines: Lines) -> Iterator[Common]:
+    for group in lines.together(lines.is_one):
+        first = lines.lines[group[0]]
+        yield Common(
+            RelationKind.ONE_LINE,
+            tuple(group),
+            without_sense(first.direction),
+            lines.in_place(first.point),
+        )
+
+
+def _of_one_point(lines: Lines) -> Iterator[Common]:
+    for group, _, point in lines.points():
+        if len(group) == len(lines):
+            yield Common(RelationKind.CONCURRENT, tuple(group), _NONE, lines.in_place(point))
+            return
+
+
+def _of_six(lines: Lines) -> Iterator[Common]:
+    """Six and more that leave one motion: that all meet its axis, or lie across it."""
+    screw = lines.unstopped() if len(lines) >= 6 else None
+    if screw is None or screw.kind is ScrewKind.SCREW:
+        return
+    turns = screw.kind is ScrewKind.ROTATION
+    kind = RelationKind.ONE_TRANSVERSAL if turns else RelationKind.ACROSS
+    point = lines.in_place(screw.point) if turns else _NONE
+    yield Common(kind, tuple(range(len(lines))), without_sense(screw.direction), point)
+
+
+def _of_all(lines: Lines) -> Iterator[Common]:
+    every = tuple(range(len(lines)))
+    if len(lines) == 4 and lines.rank == 3 and lines.are_skew():
+        yield Common(RelationKind.REGULUS, every, _NONE, lines.in_place(_NONE))
+    screw = lines.unstopped() if len(lines) >= 6 else None
+    if screw is not None:
+        yield Common(
+            RelationKind.COMPLEX,
+            every,
+            without_sense(screw.direction),
+            lines.in_place(screw.point),
+            screw.pitch,
+        )
+
+
+def _cover(lines: Lines, planar: bool) -> list[Common]:
+    """Groups that share no line, the largest first: parallel ones, or those in one plane."""
+    found = [
+        Common(
+            RelationKind.PARALLEL,
+            tuple(group),
+            without_sense(lines.lines[group[0]].direction),
+            _NONE,
+        )
+        for group in lines.together(lines.is_parallel)
+    ]
+    if not planar:
+        found += [
+            Common(
+                RelationKind.ONE_PLANE, tuple(group), without_sense(normal), lines.in_place(point)
+            )
+            for group, normal, point in lines.planes()
+        ]
+    found.sort(key=lambda one: (-len(one.group), one.kind is RelationKind.ONE_PLANE, one.group))
+    made: list[Common] = []
+    taken: set[int] = set()
+    for one in found:
+        if not taken & set(one.group):
+            made.append(one)
+            taken |= set(one.group)
+    return made
+
+
+def clusters_of(result: Result) -> tuple[frozenset[int], ...]:
+    """Position nodes of each body of bars that can move, indices in the model as given.
+
+    A triangle is a body; a joint with three bars to a body, two in the plane, belongs to it. Not
+    all are found: of a body that no triangle starts nothing is known.
+    """
+    bars = [part for part in result.parts.all if part.kind is PartKind.BAR]
+    near: dict[int, set[int]] = {}
+    for part in bars:
+        p, q = part.ends
+        near.setdefault(p, set()).add(q)
+        near.setdefault(q, set()).add(p)
+    needed = 2 if result.given.planar else 3
+    made: list[frozenset[int]] = []
+    for p in sorted(near):
+        for q, r in combinations(sorted(k for k in near[p] if k > p), 2):
+            if r not in near[q] or any({p, q, r} <= body for body in made):
+                continue
+            made.append(_grown({p, q, r}, near, needed))
+    free = [body for body in made if not _is_held(result, body)]
+    return tuple(sorted(free, key=lambda body: (-len(body), _key(result, body))))
+
+
+def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[int]:
+    while True:
+        around = {k for node in body for k in near[node]} - body
+        new = {k for k in around if len(near[k] & body) >= needed}
+        if not new:
+            return frozenset(body)
+        body |= new
+
+
+def _is_held(result: Result, body: frozenset[int]) -> bool:
+    """Whether a coordinate of one of its joints is fixed."""
+    classes = result.given.arrays.coordinate_class[:, sorted(body)]
+    return bool(np.any(classes == Class.FIXED))
+
+
+def _key(result: Result, body: frozenset[int]) -> object:
+    """By the names of its joints, then by their places."""
+    step = 1.0e-9 * result.characteristic_length
+    places = np.round(result.given.arrays.node_value[:3, sorted(body)].T / step) + 0.0
+    names = sorted(natural(result.parts.name_of_point(node)) for node in body)
+    return names, sorted(map(tuple, places.tolist()))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from itertools import combinations
 from math import pi
 from typing import NamedTuple
@@ -11,17 +12,136 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.change import Change
+from ...analysis.decomposition import Asked
+from ...analysis.mode_basis import without_sense
 from ...analysis.modes import Motion
-from ...analysis.order import without_sense
-from ...analysis.result import Result
+from ...analysis.result import Result, result_of
+from ...analysis.screws import Screw
 from ...core.arrays import FloatArray
-from ...model.parts.parts import Part
-from ...util.cached import cached_property
+from ...core.elements import Vector, element_kinds
+from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
-from ..proposal import After, tried
-from .cause import Relation
-from .limbs import Limb, Limbs
-from .turns import Turn, change_of
+from ...util.records import cached_property
+from ..proposal import After, Proposal, Purpose, tried
+from .cause import Mend, Relation
+from .gradients import Gradients, node_key
+from .lines import Limb, Limbs
+
+#: Components below this part of the size of the mechanism are zero.
+_ZERO = 1.0e-12
+#: Points nearer than this part of the characteristic length are one.
+_TOO_NEAR = 1.0e-3
+
+
+class Turn(NamedTuple):
+    """A limb turned about a line."""
+
+    limb: Limb
+    end: int
+    """Index of the position node of the body or point that it holds, in the model as given."""
+    direction: FloatArray
+    point: FloatArray
+    """(3,) of the line [m]."""
+    angle: float
+    """[rad]."""
+
+
+def change_of(result: Result, limbs: Limbs, turn: Turn) -> Change | None:
+    """What a turn does to the model as given; None where the limb cannot be turned so.
+
+    It cannot where a point that it shares with other limbs would move, or where it would come
+    to stand on another point.
+    """
+    arrays = result.given.arrays
+    elements = [index for part in turn.limb.parts for index in part.elements]
+    found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist())
+    matrix = _rotation(turn.direction, turn.angle)
+    places = arrays.node_value[:3].T
+    after = places.copy()
+    made = {}
+    for node in sorted(found):
+        after[node] = turn.point + matrix @ (places[node] - turn.point)
+        way = float(np.linalg.norm(after[node] - places[node]))
+        if way <= _ZERO * result.characteristic_length:
+            continue
+        if not _is_own(result, limbs, turn.limb, node):
+            return None
+        made[node] = _rounded(after[node], result.characteristic_length)
+    if not made or _is_in_the_way(result, turn.limb, after):
+        return None
+    numbers = arrays.node_number
+    return Change(
+        places=tuple((int(numbers[node]), place) for node, place in made.items()),
+        vectors=tuple(_vectors(result, elements, matrix)),
+    )
+
+
+def _is_in_the_way(result: Result, limb: Limb, places: FloatArray) -> bool:
+    """Whether a member of a limb goes through a point of another one, or the other way round.
+
+    Of divided sheets and wires their ends count.
+    """
+    arrays, condensed = result.data.arrays, result.condensed
+    mine = np.isin(condensed.elements, [index for part in limb.parts for index in part.elements])
+    ends = arrays.element_node[[0, 2]] - 1
+    both = (ends >= 0).all(axis=0)
+    near = _TOO_NEAR * result.characteristic_length
+    own = set(ends[:, mine & both].ravel().tolist())
+    others = set(ends[:, ~mine & both].ravel().tolist()) - own
+    at = places[condensed.nodes]
+    for chosen, points in ((mine & both, others), (~mine & both, own)):
+        for p, q in ends[:, chosen].T.tolist():
+            beside = [node for node in points if node not in (p, q)]
+            if beside and _distances(at[beside], at[p], at[q]).min() < near:
+                return True
+    return False
+
+
+def _distances(points: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """(points,) from a segment."""
+    way = last - first
+    size = float(way @ way)
+    share = np.clip((points - first) @ way / size, 0.0, 1.0) if size > 0.0 else 0.0 * points[:, 0]
+    made: FloatArray = np.linalg.norm(points - first - share[:, None] * way, axis=1)
+    return made
+
+
+def _is_own(result: Result, limbs: Limbs, limb: Limb, node: int) -> bool:
+    """Whether nothing but the limb and one body is at a node."""
+    others = [part for part in limbs.parts.at(node) if part not in limb.parts]
+    return all(part.kind is PartKind.BODY for part in others) and len(others) <= 1
+
+
+def _vectors(
+    result: Result, elements: list[int], matrix: FloatArray
+) -> list[tuple[int, tuple[float, float, float]]]:
+    """The vectors of elements that have one, or need one to be turned."""
+    arrays, frames = result.given.arrays, result.given.frames.frame
+    optional = [0, *(kind.vector for kind in element_kinds())]
+    made = []
+    for index in elements:
+        given = arrays.element_vector[:, index]
+        sheet = bool(result.parts.wide[index])
+        if not given.any() and not (sheet and optional[arrays.element_kind[index]] != Vector.NONE):
+            continue
+        own = given if given.any() else frames[index][:, 1]
+        turned = _rounded(matrix @ own, float(np.linalg.norm(own)))
+        made.append((int(arrays.element_number[index]), turned))
+    return made
+
+
+def _rounded(vector: FloatArray, size: float) -> tuple[float, float, float]:
+    """Twelve digits, so that a quarter turn leaves whole numbers whole."""
+    digits = 12 - int(np.floor(np.log10(size)))
+    x, y, z = (float(np.round(value, digits)) + 0.0 for value in vector)
+    return x, y, z
+
+
+def _rotation(axis: FloatArray, angle: float) -> FloatArray:
+    cross = np.cross(np.eye(3), axis)
+    made: FloatArray = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    return made
+
 
 #: How many limbs are turned, and what is spent: analyses times elements.
 _MOST_LIMBS, _MOST_WORK = 8, 20_000
@@ -182,3 +302,211 @@ def _add(axes: list[FloatArray], axis: FloatArray) -> None:
         unit = np.where(np.abs(unit) > _EQUAL**2, unit, 0.0)
         if all(float(np.linalg.norm(np.cross(unit, other))) > _EQUAL for other in axes):
             axes.append(unit)
+
+
+#: How many mends are given, and out of how many: first those that stop what is special.
+_MOST, _MOST_LOOKED_AT = 3, 8
+#: Turns that leave less than this part of the best smallest value are not given.
+_FAIR = 0.6
+#: A motion of which more than this part is no motion any more is stopped.
+_STOPPED = 1.0e-6
+
+
+def mends_of(
+    whole: Result, relations: Sequence[Relation], special: Sequence[Motion]
+) -> tuple[Mend, ...]:
+    """At most three turns of limbs after which fewer motions and self-stresses are left.
+
+    Args:
+        whole: A result with motions and self-stresses, divided sheets being one beam each.
+        relations: What makes its geometry special.
+        special: Its motions that are so.
+    """
+    if not whole.is_told_by_parts or not whole.under_constrained or not whole.over_constrained:
+        return ()
+    search = TurnSearch(whole, relations, special)
+    made = [_mend(search, *group) for group in _best(search.found())]
+    made.sort(key=lambda mend: mend.stops is None)
+    return tuple(made[:_MOST])
+
+
+def _best(found: list[Tried]) -> Iterator[tuple[Tried, ...]]:
+    """The best first; behind each those that leave the same."""
+    if not found:
+        return
+    least = min(one.left for one in found)
+    able = [one for one in found if one.left == least]
+    best = max(one.smallest for one in able)
+    # What is nearly as good and turns the limb where it is fastened is the simpler one.
+    able = [one for one in able if one.smallest > _FAIR * best]
+    able.sort(key=lambda one: (not one.is_in_place, -_rounded_of_mends(one.smallest)))
+    groups: dict[tuple[float, bool], list[Tried]] = {}
+    for one in able:
+        groups.setdefault((_rounded_of_mends(one.smallest), one.is_in_place), []).append(one)
+    given: set[tuple[object, ...]] = set()
+    for group in groups.values():
+        turn = group[0].turn
+        key = (turn.limb.parts, *np.round(turn.direction, 6).tolist())
+        if key not in given and len(given) < _MOST_LOOKED_AT:
+            given.add(key)
+            yield tuple(group)
+
+
+def _rounded_of_mends(value: float) -> float:
+    return float(f"{value:.5g}")
+
+
+def _mend(search: TurnSearch, first: Tried, *others: Tried) -> Mend:
+    whole, turn = search.whole, first.turn
+    return Mend(
+        Purpose.MEND,
+        first.change,
+        _condition(whole, first.after),
+        first.after,
+        tuple(one.change for one in others),
+        parts=turn.limb.parts,
+        end=turn.end,
+        repeats=search.repeated(turn.limb.parts),
+        direction=turn.direction,
+        point=turn.point,
+        angle=turn.angle,
+        is_in_place=first.is_in_place,
+        stops=_stopped(search, first.change, turn.end),
+    )
+
+
+def _condition(whole: Result, after: After) -> float:
+    """How much weaker the weakest is than it was among what was no zero."""
+    before = whole.gap.smallest_nonzero or 1.0
+    return max(1.0, before / after.smallest) if after.smallest else float("inf")
+
+
+def _stopped(search: TurnSearch, change: Change, end: int) -> Screw | None:
+    """How what a limb holds moved in a special motion that it cannot do any more."""
+    whole = search.whole
+    body = whole.parts.body_at.get(end)
+    turned = whole.parts.bodies[body].orientations[0] if body is not None else None
+    nodes = (end, turned if turned is not None else search.limbs.orientation_at(end))
+    after: Result = result_of(
+        change.apply(whole.given).data, Asked(whole.asked.method, prove=False)
+    )
+    left = _twists(after, nodes)
+    for motion in search.special:
+        screw = _screw(whole, motion, end)
+        if screw is None:
+            continue
+        rotation = motion.rotation[nodes[1]] if nodes[1] is not None else np.zeros(3)
+        mine = np.concatenate((motion.displacement[end], whole.characteristic_length * rotation))
+        rest = mine - left @ np.linalg.lstsq(left, mine, rcond=1.0e-9)[0]
+        if np.linalg.norm(rest) > _STOPPED * np.linalg.norm(mine):
+            return screw
+    return None
+
+
+def _screw(whole: Result, motion: Motion, end: int) -> Screw | None:
+    """How the body or point at a node moves; None where it does not."""
+    body = whole.parts.body_at.get(end)
+    for one in motion.bodies:
+        is_body = body is not None and whole.parts.of_body(body) in one.bodies
+        if is_body or any(joint.position == end for joint in one.joints):
+            return one.screw
+    return None
+
+
+def _twists(result: Result, nodes: tuple[int, int | None]) -> FloatArray:
+    """(6, motions) what all motions make of a position and an orientation, in lengths.
+
+    Those that do not move it are left out.
+    """
+    node, axis = result.raw.column_label - 1
+    given = result.condensed.nodes[node]
+    motions = result.raw.motions.toarray() / result.raw.column_scale[:, None]
+    motions /= np.linalg.norm(motions, axis=0)
+    made = np.zeros((6, motions.shape[1]))
+    for k, wanted in enumerate(nodes):
+        here = np.flatnonzero(given == (-1 if wanted is None else wanted))
+        made[3 * k + axis[here]] = motions[here] * result.raw.column_scale[here, None]
+    made[3:] *= result.characteristic_length
+    return made[:, np.linalg.norm(made, axis=0) > _STOPPED]
+
+
+#: How far a joint is moved beside the members that meet there, and how many are tried.
+_STEP, _MOST_JOINTS = 0.2, 12
+#: Values that differ by less than this part are one.
+_JOINT_MOVES_EQUAL = 1.0e-5
+
+
+@dataclass(frozen=True, eq=False)
+class JointMove(Proposal):
+    """A joint of bars that is moved, tried.
+
+    Attributes:
+        node: Number of its position node in the model as given; 0 where there is none.
+        step: (3,) by which it is moved [m].
+    """
+
+    node: int = 0
+    step: FloatArray = field(default_factory=lambda: np.zeros(3))
+
+
+def joint_move(whole: Result, gradients: Gradients) -> tuple[JointMove, ...]:
+    """The one move of one joint that lifts the most, with its equals as alternatives; or none.
+
+    Only of mechanisms of bars, and where fewer motions and self-stresses are left.
+
+    Args:
+        whole: A result with special motions and self-stresses, told by parts.
+        gradients: Its derivatives.
+    """
+    if any(part.kind is not PartKind.BAR for part in whole.parts.all):
+        return ()
+    blocks = gradients.at_nodes()
+    flat = blocks.reshape(blocks.shape[0], 3, -1)
+    left, values, _ = np.linalg.svd(flat, full_matrices=False)
+    held = [whole.parts.is_held(int(given)) for given in whole.condensed.nodes]
+    sizes = np.where(held, 0.0, values[:, 0] * gradients.geometry.sizes)
+    if not sizes.max(initial=0.0) * 1.0e7 > 1.0:
+        return ()
+    able = np.flatnonzero(sizes >= (1.0 - _JOINT_MOVES_EQUAL) * sizes.max()).tolist()
+    able.sort(key=lambda node: node_key(whole, node))
+    found = []
+    for node in able[:_MOST_JOINTS]:
+        direction = without_sense(left[node, :, 0])
+        step = _STEP * float(gradients.geometry.sizes[node]) * direction
+        for sense in (1.0, -1.0):
+            made = _tried(whole, node, sense * step)
+            if made is not None:
+                found.append(made)
+    if not found:
+        return ()
+    best = max(one.after.smallest or 0.0 for one in found)
+    first, *others = [
+        one for one in found if abs((one.after.smallest or 0.0) - best) <= _JOINT_MOVES_EQUAL * best
+    ]
+    alternatives = tuple(one.change for one in others)
+    return (
+        JointMove(
+            *(Purpose.MEND, first.change, first.condition, first.after, alternatives),
+            node=first.node,
+            step=first.step,
+        ),
+    )
+
+
+def _tried(whole: Result, node: int, step: FloatArray) -> JointMove | None:
+    given = int(whole.condensed.nodes[node])
+    arrays = whole.given.arrays
+    number = int(arrays.node_number[given])
+    x, y, z = (arrays.node_value[:3, given] + step).tolist()
+    change = Change(places=((number, (x, y, z)),))
+    try:
+        after = tried(whole, change)
+    except FlexactError:
+        return None
+    under = whole.under_constrained - after.under_constrained
+    over = whole.over_constrained - after.over_constrained
+    if under <= 0 or over <= 0 or not after.smallest:
+        return None
+    before = whole.gap.smallest_nonzero or 1.0
+    condition = max(1.0, before / after.smallest)
+    return JointMove(Purpose.MEND, change, condition, after, node=number, step=np.array(step))

@@ -9,28 +9,410 @@ position of all that is stressed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.mode_basis import without_sense
 from ...analysis.modes import Motion, SelfStress
-from ...analysis.order import without_sense
 from ...analysis.result import Result
-from ...core.arrays import FloatArray
-from ...core.elements import NodeKind
+from ...analysis.screws import Screw, ScrewKind, Wrench, WrenchKind
+from ...core.arrays import BoolArray, FloatArray
+from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
-from .axes import of_axes
 from .cause import LineKind, Relation, RelationKind
-from .clusters import clusters_of
-from .conics import conic_of
-from .directions import of_directions
-from .force_lines import of_forces
-from .in_common import in_common
-from .lines import Line, Lines
-from .sheet_planes import of_sheets
-from .symmetry import symmetries_of
-from .trials import Trials
+from .conditions import Figure, Figures, are_one, half_turned
+from .lines import Common, Limb, Limbs, Line, Lines, clusters_of, in_common, position_of_hinge
+from .trials import Trials, symmetries_of
+
+#: Loads below this part of the largest are none.
+_REST = 1.0e-6
+
+
+class Push(NamedTuple):
+    """What a limb exerts on a body or point where it ends."""
+
+    limb: Limb
+    wrench: Wrench
+
+
+def pushes_on(stress: SelfStress, limbs: Limbs) -> list[tuple[object, list[Push]]]:
+    """What limbs exert in a self-stress, of each body or point on which some do, by limb."""
+    carrying = {one.part for one in stress.parts}
+    largest = max(end.wrench.size for one in stress.parts for end in one.ends)
+    made = []
+    for key, ends in limbs.hubs:
+        found = []
+        for limb, position in ends:
+            if not carrying & set(limb.parts):
+                continue
+            loads = stress.of(limb.at(position)).ends
+            wrench = next((end.wrench for end in loads if end.position == position), None)
+            if wrench is not None and wrench.size > _REST * largest:
+                found.append(Push(limb, wrench))
+        if found:
+            made.append((key, found))
+    return made
+
+
+def of_forces(result: Result, stress: SelfStress, limbs: Limbs) -> list[Relation]:
+    """What lines of force have in common, on the body of which the most lines are known."""
+    able = [
+        found
+        for _, found in pushes_on(stress, limbs)
+        if len(found) > 1 and all(_has_line(push) for push in found)
+    ]
+    for pushes in sorted(able, key=lambda found: -len(found)):
+        lines = Lines(
+            [Line(push.wrench.point, push.wrench.direction) for push in pushes],
+            result.characteristic_length,
+        )
+        made = []
+        for one in in_common(lines, planar=result.given.planar):
+            mine = [pushes[k] for k in one.group]
+            made.append(
+                Relation(
+                    one.kind,
+                    LineKind.FORCE,
+                    tuple(part for push in mine for part in push.limb.parts),
+                    (),
+                    one.direction,
+                    one.point,
+                    _couple([push.wrench for push in mine]),
+                    one.pitch,
+                )
+            )
+        if made:
+            return made
+    return []
+
+
+def _has_line(push: Push) -> bool:
+    """Whether a limb can press along one line only: a wire, a bar, or a folded sheet.
+
+    Of other limbs the loads of two or three on a body in balance always share a line or a plane.
+    """
+    kinds = [part.kind for part in push.limb.parts]
+    is_straight = len(kinds) == 1 and kinds[0] in (PartKind.WIRE, PartKind.BAR)
+    is_folded = kinds == [PartKind.SHEET] * 2
+    return push.wrench.kind is WrenchKind.FORCE and (is_straight or is_folded)
+
+
+def _couple(wrenches: list[Wrench]) -> FloatArray:
+    """(3,) the direction of the couple that wrenches make together; zero where they make none."""
+    total = wrenches[0]
+    for wrench in wrenches[1:]:
+        total = total + wrench
+    size = max(wrench.size for wrench in wrenches)
+    if total.size <= _REST * size:
+        return np.zeros(3)
+    if float(np.linalg.norm(total.force)) * total.length > _REST * size:
+        return np.zeros(3)
+    return without_sense(total.moment / np.linalg.norm(total.moment))
+
+
+#: What is below this part of the lengths at hand, or this angle [rad], is none.
+_SAME = 1.0e-6
+_NOWHERE = np.zeros(3)
+
+
+class _Plane(NamedTuple):
+    part: Part
+    point: FloatArray
+    normal: FloatArray
+
+
+def of_sheets(
+    result: Result, stresses: Sequence[SelfStress], limbs: Limbs, motions: Sequence[Motion]
+) -> Iterator[tuple[Relation, ...]]:
+    """What the planes of sheets have in common with each other and with wires.
+
+    Nothing where other parts than single sheets, wires and bars press on a body. Each is one set
+    of relations that may be enough.
+
+    Args:
+        result: The result.
+        stresses: Some of its self-stresses.
+        limbs: Its limbs.
+        motions: Its special motions.
+    """
+    hubs: dict[object, dict[Limb, SelfStress]] = {}
+    for stress in stresses:
+        for key, pushes in pushes_on(stress, limbs):
+            for push in pushes:
+                hubs.setdefault(key, {})[push.limb] = stress
+    for found in hubs.values():
+        parts = [limb.parts[0] for limb in found if len(limb.parts) == 1]
+        kinds = {part.kind for part in parts}
+        if len(parts) < len(found) or not kinds <= {*_STRAIGHT, PartKind.SHEET}:
+            continue
+        sheets = _Sheets(result, found, limbs, parts)
+        yield tuple(sheets.in_one_plane())
+        yield tuple(sheets.of_motions(motions))
+
+
+_STRAIGHT = (PartKind.WIRE, PartKind.BAR)
+
+
+class _Sheets:
+    def __init__(
+        self,
+        result: Result,
+        found: Mapping[Limb, SelfStress],
+        limbs: Limbs,
+        parts: Sequence[Part],
+    ) -> None:
+        self.length = result.characteristic_length
+        self.limbs = limbs
+        self.planes = [
+            _Plane(part, limbs.place(part.ends[0]), stress.of(part).normal)
+            for part, stress in zip(parts, found.values(), strict=True)
+            if part.kind is PartKind.SHEET
+        ]
+        self.wires = [part for part in parts if part.kind in _STRAIGHT]
+
+    def in_one_plane(self) -> Iterator[Relation]:
+        """Sheets, or a sheet and wires, that lie in one plane."""
+        told: set[Part] = set()
+        for plane in self.planes:
+            if plane.part in told:
+                continue
+            mine = [one.part for one in self.planes if self._are_one(plane, one)]
+            mine += [wire for wire in self.wires if self._has(plane, wire)]
+            if len(mine) > 1:
+                told.update(mine)
+                yield _relation(
+                    RelationKind.ONE_PLANE, mine, without_sense(plane.normal), plane.point
+                )
+
+    def of_motions(self, motions: Sequence[Motion]) -> Iterator[Relation]:
+        """A line in all planes that all wires meet, or a direction that all lie across."""
+        parts = [*(plane.part for plane in self.planes), *self.wires]
+        if not self.planes or len(parts) < 2:
+            return
+        for motion in motions:
+            for one in motion.bodies:
+                screw = one.screw
+                direction = without_sense(screw.direction)
+                if screw.kind is ScrewKind.ROTATION and self._all_let_turn(screw):
+                    yield _relation(RelationKind.ONE_TRANSVERSAL, parts, direction, screw.point)
+                    return
+                if screw.kind is ScrewKind.TRANSLATION and self._all_let_move(screw):
+                    yield _relation(RelationKind.ACROSS, parts, direction, _NOWHERE)
+                    return
+
+    def _all_let_turn(self, screw: Screw) -> bool:
+        if not all(
+            abs(float(plane.normal @ screw.direction)) <= _SAME
+            and self._is_near(plane, screw.point)
+            for plane in self.planes
+        ):
+            return False
+        for wire in self.wires:
+            first, way = self._line(wire)
+            moment = np.cross(first - screw.point, way) @ screw.direction
+            if abs(float(moment)) > _SAME * self.length:
+                return False
+        return True
+
+    def _all_let_move(self, screw: Screw) -> bool:
+        across = [float(np.linalg.norm(np.cross(p.normal, screw.direction))) for p in self.planes]
+        along = [abs(float(self._line(wire)[1] @ screw.direction)) for wire in self.wires]
+        return max((*across, *along)) <= _SAME
+
+    def _are_one(self, one: _Plane, other: _Plane) -> bool:
+        parallel = float(np.linalg.norm(np.cross(one.normal, other.normal))) <= _SAME
+        return parallel and self._is_near(one, other.point)
+
+    def _has(self, plane: _Plane, wire: Part) -> bool:
+        return all(self._is_near(plane, self.limbs.place(end)) for end in wire.ends)
+
+    def _is_near(self, plane: _Plane, point: FloatArray) -> bool:
+        return abs(float((point - plane.point) @ plane.normal)) <= _SAME * self.length
+
+    def _line(self, wire: Part) -> tuple[FloatArray, FloatArray]:
+        first, last = (self.limbs.place(end) for end in wire.ends)
+        return first, (last - first) / np.linalg.norm(last - first)
+
+
+def _relation(
+    kind: RelationKind, parts: Sequence[Part], direction: FloatArray, point: FloatArray
+) -> Relation:
+    return Relation(kind, LineKind.SHEET, tuple(parts), (), direction, point)
+
+
+#: Of more axes no half-turn is looked for, nor where they have one of these in common.
+_MOST_TURNED = 12
+_SIMPLE = (RelationKind.ONE_LINE, RelationKind.CONCURRENT)
+
+
+def of_axes(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, ...]]:
+    """What the axes of some hinges have in common; nothing where there are fewer than two.
+
+    Each is one set of relations that may be enough, the simplest first.
+    """
+    hinges = _hinges(result, parts)
+    if len(hinges) < 2:
+        return
+    parts = [part for part, _ in hinges]
+    lines = Lines([line for _, line in hinges], result.characteristic_length)
+
+    def relation(one: Common) -> Relation:
+        mine = tuple(parts[k] for k in one.group)
+        kind, pitch = one.kind, one.pitch
+        fold = 2 if kind is RelationKind.ROTATION else 1
+        place = one.direction, one.point
+        return Relation(kind, LineKind.AXIS, mine, (), *place, pitch=pitch, fold=fold)
+
+    groups = [
+        Common(RelationKind.PARALLEL, tuple(group), lines.lines[group[0]].direction, np.zeros(3))
+        for group in lines.together(lines.is_parallel)
+    ]
+    points = [
+        Common(RelationKind.CONCURRENT, tuple(group), np.zeros(3), lines.in_place(point))
+        for group, _, point in lines.points()
+    ]
+    if groups and sum(len(one.group) for one in groups) == len(lines):
+        yield tuple(map(relation, groups))
+    common = in_common(lines, planar=result.given.planar)
+    is_simple = any(one.kind in _SIMPLE for one in common)
+    # By lines of one complex a motion only begins; by a symmetry it goes on.
+    for one in () if is_simple else _half_turns(lines):
+        yield (relation(one),)
+    yield tuple(map(relation, common))
+    yield tuple(map(relation, (*groups, *points)))
+
+
+def _half_turns(lines: Lines) -> Iterator[Common]:
+    """Half-turns that take lines onto each other, as in Bricard's line-symmetric loop."""
+    count, length = len(lines), lines.length
+    if not 4 <= count <= _MOST_TURNED:
+        return
+    every = [(line.point[None], line.direction[None]) for line in lines.lines]
+    for other in range(1, count):
+        for direction, point in _swapping(every[0], every[other], length):
+            axis = np.concatenate((direction, point / length))[None]
+            images = [half_turned(line, axis, length) for line in every]
+            found = [
+                next((j for j, one in enumerate(every) if are_one(image, one, length)), -1)
+                for image in images
+            ]
+            if -1 not in found and all(i != j for i, j in enumerate(found)):
+                place = lines.in_place(point)
+                group = tuple(range(count))
+                yield Common(RelationKind.ROTATION, group, without_sense(direction), place)
+
+
+def _swapping(one: Figure, other: Figure, length: float) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Directions and points of the half-turns that swap two lines that are not parallel."""
+    ((a,), (u,)), ((b,), (v,)) = one, other
+    normal = np.cross(u, v)
+    size = float(normal @ normal)
+    if size <= 1.0e-12:
+        return
+    s = float(np.cross(b - a, v) @ normal) / size
+    t = float(np.cross(b - a, u) @ normal) / size
+    near, far = a + s * u, b + t * v
+    for way in (u + v, u - v):
+        yield way / np.linalg.norm(way), 0.5 * (near + far)
+
+
+def _hinges(result: Result, parts: Sequence[Part]) -> list[tuple[Part, Line]]:
+    """Hinges and bearings among some parts, with their axes."""
+    made = []
+    arrays = result.given.arrays
+    for part in parts:
+        place = position_of_hinge(result, part) if part.kind is PartKind.HINGE else None
+        if place is None:
+            continue
+        axis = arrays.element_vector[:, part.elements[0]]
+        if axis.any():
+            unit = axis / np.linalg.norm(axis)
+            made.append((part, Line(arrays.node_value[:3, place], unit)))
+    return made
+
+
+def conic_of(points: FloatArray) -> RelationKind | None:
+    """What six or more points (n, 2) lie on; None where it is neither, or fewer points are given.
+
+    Five points always lie on a conic.
+    """
+    if len(points) < 6:
+        return None
+    x, y = ((points - points.mean(axis=0)) / np.abs(points - points.mean(axis=0)).max()).T
+    one = np.ones_like(x)
+    if _is_dependent(np.stack((x**2 + y**2, x, y, one))):
+        return RelationKind.CIRCLE
+    if _are_on_two_lines(np.stack((x, y), axis=1)):
+        return RelationKind.TWO_LINES
+    if _is_dependent(np.stack((x**2, x * y, y**2, x, y, one))):
+        return RelationKind.CONIC
+    return None
+
+
+def _are_on_two_lines(points: FloatArray) -> bool:
+    """Whether a line through two of the first three, or none of them, leaves the rest on one."""
+    for i, j in combinations(range(3), 2):
+        on = _is_on_line(points, points[i], points[j])
+        rest = points[~on]
+        if len(rest) < 3 or bool(_is_on_line(rest, rest[0], rest[1]).all()):
+            return True
+    return False
+
+
+def _is_on_line(points: FloatArray, first: FloatArray, second: FloatArray) -> BoolArray:
+    way = second - first
+    off = (points[:, 0] - first[0]) * way[1] - (points[:, 1] - first[1]) * way[0]
+    found: BoolArray = np.abs(off) <= _SAME * float(way @ way)
+    return found
+
+
+def _is_dependent(rows: FloatArray) -> bool:
+    values = np.linalg.svd(rows, compute_uv=False)
+    return bool(values[-1] <= _SAME * values[0])
+
+
+def of_directions(result: Result, parts: Sequence[Part]) -> Iterator[tuple[Relation, ...]]:
+    """What lies along or across x, y or z, where these directions matter.
+
+    Each is one set of relations that may be enough: of an axis, then all of them.
+    """
+    if not _is_split(result):
+        return
+    figures = Figures(result)
+    every: list[Relation] = []
+    for axis in np.eye(3)[: 2 if result.given.planar else 3]:
+        made: dict[tuple[LineKind, RelationKind], list[Part]] = {}
+        for part in parts:
+            own = figures.own(part)
+            if own is None:
+                continue
+            way = own[1](*figures.here)[1][0]
+            if float(np.linalg.norm(np.cross(way, axis))) <= _SAME:
+                made.setdefault((own[0], RelationKind.ALONG), []).append(part)
+            elif abs(float(way @ axis)) <= _SAME:
+                made.setdefault((own[0], RelationKind.ACROSS_AXIS), []).append(part)
+        found = [
+            Relation(kind, of, tuple(mine), (), axis, np.zeros(3))
+            for (of, kind), mine in made.items()
+        ]
+        for one in found:
+            yield (one,)
+        every += found
+    yield tuple(every)
+
+
+def _is_split(result: Result) -> bool:
+    """Whether some coordinates of a node are dependent, and others are not."""
+    arrays = result.data.arrays
+    classes = arrays.coordinate_class
+    free = np.any(classes == Class.DEPENDENT, axis=0)
+    held = np.any(np.isin(classes, (Class.FIXED, Class.INDEPENDENT)), axis=0)
+    return bool(np.any(free & held))
+
 
 #: How many relations are told, and tried together; and of how many bars bodies are looked for.
 _MOST, _MOST_TRIED, _MOST_BARS = 4, 12, 120
@@ -38,7 +420,6 @@ _MOST, _MOST_TRIED, _MOST_BARS = 4, 12, 120
 _MOST_STRESSES = 4
 #: Of self-stresses of more resultants together nothing is said.
 _MOST_ENTRIES = 600
-_SAME = 1.0e-6
 
 
 def relations_of(

@@ -6,23 +6,87 @@ To release or to hold some of them works exactly when their rows span the space.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import chain, combinations
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.change import Change
-from ...analysis.order import column_key, coordinate_key, deformation_key, row_key
+from ...analysis.decomposition import column_weights, row_weights
+from ...analysis.mode_basis import column_key, coordinate_key, deformation_key, row_key
 from ...analysis.result import Result
-from ...analysis.result_sparse_basis import Sparse, index_of, support_of
-from ...analysis.ways import is_of_class
-from ...analysis.weights import column_weights, row_weights
-from ...core.arrays import FloatArray
-from ...core.basis import Basis
-from ...core.elements import Class, Dual, NodeKind, coordinate_name, dual_table
+from ...analysis.sparse_basis import Sparse, index_of, support_of
+from ...analysis.ways import is_of_class, spanning
+from ...core.arrays import Basis, FloatArray
+from ...core.elements import Class, Dual, NodeKind, Role, coordinate_name, dual_table, role_table
+from ...model.parts.parts import PartKind
 from ...util.records import Frozen
+
+#: What is changed first, last and in between.
+FLEXURE, BODY, LINK = 0, 1, 2
+#: What it is of, when it is changed, and two numbers that say what it is.
+Kind = tuple[str, int, int, int]
+_BENDINGS = {
+    Role.BENDING_XZ_P: 2,
+    Role.BENDING_XZ_Q: 2,
+    Role.BENDING_XY_P: 1,
+    Role.BENDING_XY_Q: 1,
+}
+_ENDS = {
+    Role.BENDING_XZ_Q: Role.BENDING_XZ_P,
+    Role.BENDING_XY_Q: Role.BENDING_XY_P,
+    Role.PLANAR_BENDING_Q: Role.PLANAR_BENDING_P,
+}
+
+
+def tier_of_element(result: Result, given: int) -> int:
+    """Flexures come before bodies, and links inside of bodies last; by index in the given."""
+    if given in result.parts.links:
+        return LINK
+    return BODY if result.parts.of_element(given).kind is PartKind.BODY else FLEXURE
+
+
+def tier_of_node(result: Result, given: int) -> int:
+    """Bodies come before joints, and what is inside of sheets and wires last."""
+    if given in result.carriers.inner:
+        return LINK
+    return FLEXURE if given in result.parts.body_at else BODY
+
+
+def kind_of(result: Result, change: Change) -> Kind:
+    """Of what kind the deformation or the coordinate of a change is, however it is turned."""
+    if change.deformations:
+        return _of_deformation(result, *change.deformations[0][:2])
+    return _of_coordinate(result, *change.coordinates[0][:2])
+
+
+def _of_deformation(result: Result, element: int, number: int) -> Kind:
+    index = result.given.element_index[element]
+    part = result.parts.of_element(index)
+    role = int(role_table()[result.given.arrays.element_kind[index], number - 1])
+    wide = int(result.parts.wide[index])
+    in_plane = int(wide == _BENDINGS.get(Role(role), -1))
+    if not wide and role in _BENDINGS:
+        # Of a member that is wide in neither direction both are alike.
+        return part.kind.value, 1, int(Role.BENDING_XY_P), 0
+    return (
+        part.kind.value,
+        tier_of_element(result, index),
+        int(_ENDS.get(Role(role), role)),
+        in_plane,
+    )
+
+
+def _of_coordinate(result: Result, node: int, name: str) -> Kind:
+    index = result.given.node_index[node]
+    turns = bool(result.given.arrays.node_kind[index] > NodeKind.POSITION)
+    held = int(np.count_nonzero(result.given.arrays.coordinate_class[:, index] == 1))
+    return "node", tier_of_node(result, index), int(turns), held
+
 
 #: Rows of a null space that are held in full, times vectors, and times vectors again.
 MOST_ENTRIES, MOST_WORK = 4_000_000, 50_000_000
@@ -100,7 +164,7 @@ def of_supports(result: Result) -> Reach:
     rows, index = _product(matrix._replace(value=value), result.stress_space)
     return Reach(
         *(rows, index, lambda place: coordinate_key(result, *divmod(place, 3))),
-        lambda place: _of_coordinate(result, *divmod(place, 3), Class.DEPENDENT),
+        lambda place: _of_coordinate_of_candidates(result, *divmod(place, 3), Class.DEPENDENT),
     )
 
 
@@ -152,24 +216,143 @@ def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, Places]:
 
 
 def _released(result: Result, element: int, deformation: int) -> Change:
-    return _of_deformation(result, element, deformation, Class.DEPENDENT)
+    return _of_deformation_of_candidates(result, element, deformation, Class.DEPENDENT)
 
 
 def _declared(result: Result, node: int, axis: int) -> Change:
-    return _of_coordinate(result, node, axis, Class.INDEPENDENT)
+    return _of_coordinate_of_candidates(result, node, axis, Class.INDEPENDENT)
 
 
 def _held(result: Result, element: int, deformation: int) -> Change:
-    return _of_deformation(result, element, deformation, Class.FIXED)
+    return _of_deformation_of_candidates(result, element, deformation, Class.FIXED)
 
 
-def _of_deformation(result: Result, element: int, deformation: int, given: Class) -> Change:
+def _of_deformation_of_candidates(
+    result: Result, element: int, deformation: int, given: Class
+) -> Change:
     index, own = result.condensed.in_given(element, deformation + 1)
     number = int(result.given.arrays.element_number[index])
     return Change(deformations=((number, own, given),))
 
 
-def _of_coordinate(result: Result, node: int, axis: int, given: Class) -> Change:
+def _of_coordinate_of_candidates(result: Result, node: int, axis: int, given: Class) -> Change:
     arrays = result.data.arrays
     name = coordinate_name(int(arrays.node_kind[node]), axis)
     return Change(coordinates=((int(arrays.node_number[node]), name, given),))
+
+
+#: Up to so many sets are looked at; of more those near a good one.
+_MOST_SETS, _FEWEST_SETS, _MOST_OPERATIONS = 20_000, 40, 2.0e7
+#: Of so many rows at most, those that reach furthest.
+_MOST_ROWS = 400
+#: Blocks worse than this are none; nor those so many times worse than the best.
+_WORST, _MUCH_WORSE = 1.0e7, 1.0e5
+#: How often a set is looked for near the best of those known, and near how many.
+_ROUNDS, _NEAR = 2, 4
+#: Of larger sets none are looked for near another.
+_MOST_EXCHANGED = 60
+
+
+class Candidate(NamedTuple):
+    """A set of rows whose block is regular."""
+
+    members: tuple[int, ...]
+    """Places in the reach."""
+    condition: float
+    """The inverse of the smallest singular value of its block, 1 at best."""
+    rank: tuple[float, ...]
+    """By what it is sorted among others."""
+
+
+#: Sizes by which sets are sorted before their condition, (sets, any), of (sets, k) rows.
+Ranking = Callable[[Places, FloatArray], FloatArray]
+
+
+def candidates(reach: Reach, ranking: Ranking, wishes: FloatArray) -> list[Candidate]:
+    """Sets of rows whose blocks are regular, the best first.
+
+    Args:
+        reach: The rows over the space.
+        ranking: Of sets and their conditions, what they are sorted by before.
+        wishes: (n,) how unwelcome each row is; where sets are too many those of little are looked
+            at.
+    """
+    count = reach.vectors
+    place = _order(reach)
+    found = list(_sets(reach, place, count, wishes))
+    if not found:
+        return []
+    sets = np.array(found, np.int64)
+    condition = _conditions(reach.rows, sets)
+    good = condition < min(_WORST, _MUCH_WORSE * float(condition.min()))
+    sets, condition = sets[good], condition[good]
+    if not sets.size:
+        return []
+    rounded = np.round(np.log(condition), 6)[:, None]
+    ranks = np.concatenate([np.round(ranking(sets, condition), 6), rounded], axis=1).tolist()
+    keys = [tuple(sorted(place[list(each)].tolist())) for each in sets.tolist()]
+    order = sorted(range(len(keys)), key=lambda i: (tuple(ranks[i]), keys[i]))
+    return [
+        Candidate(
+            tuple(sorted(sets[i].tolist(), key=lambda row: int(place[row]))),
+            float(condition[i]),
+            tuple(ranks[i]),
+        )
+        for i in order
+    ]
+
+
+def _order(reach: Reach) -> Places:
+    """(n,) the place of each row among all by names and geometry."""
+    keys = [reach.key(int(i)) for i in reach.index]
+    place = np.empty(len(keys), np.int64)
+    place[sorted(range(len(keys)), key=keys.__getitem__)] = np.arange(len(keys))
+    return place
+
+
+def _conditions(rows: FloatArray, sets: Places) -> FloatArray:
+    values = np.linalg.svd(rows[sets], compute_uv=False)[:, -1]
+    with np.errstate(divide="ignore"):
+        made: FloatArray = np.divide(1.0, values)
+    return made
+
+
+def _sets(reach: Reach, place: Places, count: int, wishes: FloatArray) -> Iterator[Sequence[int]]:
+    norms = np.linalg.norm(reach.rows, axis=1)
+    able = np.flatnonzero(norms > norms.max(initial=0.0) / _WORST)
+    if able.size < count:
+        return
+    most_sets = max(_FEWEST_SETS, min(_MOST_SETS, int(_MOST_OPERATIONS / count**3)))
+    if math.comb(able.size, count) <= most_sets:
+        yield from combinations(able.tolist(), count)
+        return
+    is_large = count > _MOST_EXCHANGED
+    if able.size > _MOST_ROWS and not is_large:
+        order = np.lexsort((place[able], -np.round(norms[able], 9)))
+        able = able[order[:_MOST_ROWS]]
+    known: dict[tuple[int, ...], None] = {}
+    for most in np.unique(wishes[able]).tolist():
+        if known and is_large:
+            break
+        some = able[wishes[able] <= most]
+        chosen = spanning(reach.rows[some], lambda i, some=some: int(place[some[i]]))  # type: ignore[misc]
+        if len(chosen) == count:
+            known[tuple(sorted(some[chosen].tolist()))] = None
+    for _ in range(_ROUNDS if known and not is_large else 0):
+        sets = list(known)
+        best = np.argsort(np.round(_conditions(reach.rows, np.array(sets)), 9), kind="stable")
+        near = (_exchanges(sets[i], able.tolist()) for i in best[:_NEAR].tolist())
+        for each in chain.from_iterable(near):
+            if len(known) >= most_sets:
+                break
+            known.setdefault(each)
+    yield from known
+
+
+def _exchanges(members: tuple[int, ...], able: list[int]) -> Iterator[tuple[int, ...]]:
+    """The sets in which one row is another."""
+    for k in range(len(members)):
+        rest = members[:k] + members[k + 1 :]
+        for other in able:
+            if other not in members:
+                yield tuple(sorted((*rest, other)))

@@ -3,23 +3,215 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...analysis.change import Change
+from ...analysis.decomposition import row_duals
 from ...analysis.result import Result
-from ...core.arrays import FloatArray
+from ...analysis.sparse_basis import groups_of
+from ...core.arrays import Basis, FloatArray
+from ...core.elements import Dual, NodeKind, Role, dual_table, role_table
+from ...model.parts.parts import PartKind
+from ...util.errors import FlexactError
 from ...util.records import Frozen
-from ..proposal import Proposal, Purpose, nothing
+from ..proposal import Proposal, Purpose, after, nothing
 from . import candidates as reaches
-from .candidates import Places, Reach
-from .cost import cost_of
-from .counting import counted
-from .kinds import BODY, LINK, tier_of_element
-from .releases_candidates import candidates
-from .stands import as_it_stands, complete
-from .steps import by_steps
+from .candidates import (
+    BODY,
+    LINK,
+    Candidate,
+    Places,
+    Reach,
+    candidates,
+    tier_of_element,
+    tier_of_node,
+)
+from .counting import as_it_stands, changed, complete, counted, joined
+from .matroid import echelon_of
 from .verify import NOTHING_LEFT_OUT, LeftOut, Outcome, decades, listed
+
+#: Stresses below this part of the largest of a self-stress are none.
+_NOTHING = 1.0e-7
+#: Column of ESTIFF, and of the shear, by role; of planar beams those of `_PLANAR`.
+_STIFFNESS: dict[int, int] = {
+    Role.ELONGATION: 0,
+    Role.TORSION: 1,
+    **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), 2),
+    **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q), 3),
+    **dict.fromkeys((Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q), 1),
+}
+_SHEAR: dict[int, int] = {
+    **dict.fromkeys((Role.BENDING_XZ_P, Role.BENDING_XZ_Q), 4),
+    **dict.fromkeys((Role.BENDING_XY_P, Role.BENDING_XY_Q), 5),
+    **dict.fromkeys((Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q), 2),
+}
+_OTHER_END: dict[int, int] = {
+    Role.BENDING_XZ_P: Role.BENDING_XZ_Q,
+    Role.BENDING_XY_P: Role.BENDING_XY_Q,
+    Role.PLANAR_BENDING_P: Role.PLANAR_BENDING_Q,
+}
+#: Costs below this are equal.
+_LEAST = 1.0e-9
+
+Cost = Callable[[Places], FloatArray]
+
+
+def cost_of(result: Result, reach: Reach) -> Cost | None:
+    """The cost of sets of rows, (sets, s) to (sets,), as a logarithm.
+
+    None where the stiffness of what is stressed is not known; rigid bodies are so stiff that to
+    release one of them costs more than all else.
+
+    Args:
+        result: The result whose rows they are.
+        reach: The fixed rows over the self-stresses.
+    """
+    if result.given.properties is None:
+        return None
+    space = result.stress_space.toarray()
+    moment = row_duals(result) != Dual.FORCE
+    stresses = space * np.where(moment, result.characteristic_length, 1.0)[:, None]
+    stressed = np.linalg.norm(space, axis=1) > _NOTHING
+    flexibility = _flexibility(result, stressed)
+    if flexibility is None:
+        return None
+    energy = stresses.T @ flexibility @ stresses
+    if not np.linalg.eigvalsh(energy)[0] > 0.0:
+        return None
+    is_soft = np.diag(flexibility) > 0.0
+    stiffness = np.zeros_like(flexibility)
+    stiffness[np.ix_(is_soft, is_soft)] = np.linalg.inv(flexibility[np.ix_(is_soft, is_soft)])
+    rows = reach.index
+
+    def cost(sets: Places) -> FloatArray:
+        chosen = rows[sets]
+        inverse = np.linalg.inv(stresses[chosen])
+        blocks = stiffness[chosen[:, :, None], chosen[:, None, :]]
+        # Of G R^-1 K R^-T the trace.
+        terms = np.einsum("nij,njk,nlk,li->n", inverse, blocks, inverse, energy)
+        made = np.log(np.maximum(terms - energy.shape[0], _LEAST))
+        return np.where(np.all(is_soft[chosen], axis=1), made, np.inf)
+
+    return cost
+
+
+def _flexibility(result: Result, stressed: np.ndarray) -> FloatArray | None:
+    """(m, m) flexibilities of rows of D(c), [m/N] and [rad/(N m)]; zero of rigid bodies.
+
+    None where that of a stressed row of another part is not known.
+    """
+    made = np.zeros((stressed.size, stressed.size))
+    element, deformation = result.raw.row_label - 1
+    kind = result.data.arrays.element_kind[element]
+    roles, duals = role_table()[kind, deformation], dual_table()[kind, deformation]
+    place = {
+        (e, r): k for k, (e, r) in enumerate(zip(element.tolist(), roles.tolist(), strict=True))
+    }
+    for k in np.flatnonzero(stressed).tolist():
+        e, role = int(element[k]), int(roles[k])
+        value, shear = _given(result, e, role, int(deformation[k]))
+        if value is None:
+            if result.parts.of_element(int(result.condensed.elements[e])).kind is PartKind.BODY:
+                continue
+            return None
+        length = float(result.data.frames.length[e])
+        if duals[k] != Dual.MOMENT_OVER_LENGTH and role != Role.ELONGATION:
+            made[k, k] = 1.0 / value
+        elif role not in _SHEAR:
+            made[k, k] = length / value
+        else:
+            phi = 12.0 * shear / length**2
+            made[k, k] = length / (12.0 * value) * (4.0 + phi)
+            other = place.get((e, _OTHER_END.get(role, -1)))
+            if other is not None and stressed[other]:
+                made[k, other] = made[other, k] = length / (12.0 * value) * (2.0 - phi)
+    return made
+
+
+def _given(result: Result, element: int, role: int, deformation: int) -> tuple[float | None, float]:
+    """Stiffness of a deformation as ESTIFF gives it, and the shear, zero without."""
+    assert result.given.properties is not None
+    numbers = result.given.properties.stiffness[int(result.condensed.elements[element])]
+    value = float(numbers[_STIFFNESS.get(role, deformation)])
+    shear = float(numbers[_SHEAR[role]]) if role in _SHEAR else 0.0
+    return (value if value > 0.0 else None), (shear if shear > 0.0 else 0.0)
+
+
+#: Rows of D(c) of all analyses that are made.
+_MOST_ROWS = 1_200_000
+#: Of vectors that hang together so many are taken at once.
+_AT_ONCE = 60
+#: Blocks with smaller singular values are not used.
+_STEPS_LEAST = 1.0e-4
+
+#: The rows over some of the vectors of a result.
+ReachOf = Callable[[Result, Places], Reach]
+#: (n,) how unwelcome each of its rows is; those of little are taken where they do.
+Unwelcome = Callable[[Result, Reach], FloatArray]
+
+
+def by_steps(
+    stands: Result, purpose: Purpose, reach_of: ReachOf, unwelcome: Unwelcome
+) -> Proposal | None:
+    """One set that leaves nothing; None where it is not found in little time.
+
+    Its condition is the largest of those of the steps.
+    """
+    now, changes, condition, rows = stands, list[Change](), 1.0, 0
+    while before := _left(purpose, now):
+        groups = _groups(_space(purpose, now))
+        done = sum(group.size for group in groups)
+        # So many more are needed if each step goes as far as this one.
+        if not done or rows + now.rows * before / done > _MOST_ROWS:
+            return None
+        rows += now.rows
+        for vectors in groups:
+            reach = reach_of(now, vectors)
+            block = _block(reach, unwelcome(now, reach))
+            if block is None:
+                return None
+            condition = max(condition, 1.0 / block[1])
+            changes += [reach.change(int(reach.index[row])) for row in block[0]]
+        try:
+            now = changed(stands, joined(changes))
+        except FlexactError:
+            return None
+        if _left(purpose, now) >= before:
+            return None
+    return Proposal(purpose, joined(changes), condition, after(now))
+
+
+def _left(purpose: Purpose, result: Result) -> int:
+    is_release = purpose is Purpose.RELEASE
+    return result.over_constrained if is_release else result.under_constrained
+
+
+def _space(purpose: Purpose, result: Result) -> Basis:
+    return result.stress_space if purpose is Purpose.RELEASE else result.motion_space
+
+
+def _groups(space: Basis) -> list[Places]:
+    """Vectors that share places, of each such group the first."""
+    if not space.vectors:
+        return []
+    group = groups_of(space)
+    order = np.argsort(group, kind="stable")
+    parts = np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
+    return [part[:_AT_ONCE] for part in parts]
+
+
+def _block(reach: Reach, unwelcome: FloatArray) -> tuple[list[int], float] | None:
+    """Rows with a well-conditioned block, and its smallest singular value."""
+    for most in np.unique(unwelcome).tolist():
+        some = np.flatnonzero(unwelcome <= most)
+        form = echelon_of(reach.rows[some], _STEPS_LEAST)
+        if form is not None:
+            return some[form.basis].tolist(), form.smallest
+    return None
+
 
 #: How many supports that may be freed are listed.
 _MOST_SUPPORTS = 4
@@ -62,14 +254,14 @@ def releases_of(result: Result, with_bodies: bool = False) -> Releases:
     deformations carry of it.
 
     Where the stiffness of what is stressed is known, sets come first that cost little of it
-    (`flexact.advice.releases.cost`); else those of a condition within ten times the best,
+    (`flexact.advice.releases.releases`); else those of a condition within ten times the best,
     flexures before bodies, ties by names and places. Links inside of bodies are listed where
     nothing else does it, or `with_bodies`.
 
     Without a self-stress there is one set, the empty one.
 
     Of large models, of which not all null vectors fit, nothing is counted, and one set at most is
-    given (`flexact.advice.releases.steps`).
+    given (`flexact.advice.releases.releases`).
 
     Raises:
         AnalysisError: the deck as it stands cannot be analysed.
@@ -144,3 +336,120 @@ def _supports(result: Result, source: Result) -> Outcome:
     reach = reaches.of_supports(source)
     found = candidates(reach, lambda sets, _: np.zeros((len(sets), 1)), np.zeros(len(reach.index)))
     return listed(result, reach, Purpose.RELEASE, found, _MOST_SUPPORTS)
+
+
+#: How many sets of released deformations that may be held are listed.
+_MOST_HELD = 4
+#: Motions of points of a body that agree to so many digits are one.
+_DIGITS = 9
+
+
+@dataclass(frozen=True)
+class Declarations(Frozen):
+    """What may be declared independent, or held, so that no motion is left.
+
+    Attributes:
+        size: How many motions the deck as it stands has that nothing determines, and so how
+            many coordinates must be declared at least.
+        count: How many sets of so many columns of D(c) leave no motion when they are held;
+            None where they are too many to be counted. It is 0 where there is no motion.
+        sets: The best of them, each tried; see `declarations_of`.
+        holds: The same of released deformations that may be held, not in `count`.
+        left_out: What was not looked at.
+        doubtful: How many sets more do so for the numbers as they are, though rounding may hide
+            that they do not; not in `count`, and None where they are too many.
+    """
+
+    size: int
+    count: int | None
+    sets: tuple[Proposal, ...] = ()
+    holds: tuple[Proposal, ...] = ()
+    left_out: LeftOut = NOTHING_LEFT_OUT
+    doubtful: int | None = 0
+
+
+def declarations_of(result: Result) -> Declarations:
+    """What may be declared independent, or held, so that no motion is left, the best first.
+
+    A set of m coordinates works exactly when the m x m block of their rows in the null space of
+    D(c) is regular. They are counted on the deck as it stands, where each beam of a divided
+    sheet is one of its own. `condition` of a proposal is the inverse of the smallest singular
+    value of its block in an orthonormal basis, with rotations compared by the characteristic
+    length. Sets of a condition within ten times the best come first, of these such of bodies,
+    then of joints, then of what is inside of sheets; displacements before rotations. Without a
+    motion there is one set, the empty one.
+
+    Raises:
+        AnalysisError: the deck as it stands cannot be analysed.
+    """
+    stands = as_it_stands(result)
+    size = stands.under_constrained
+    if not size:
+        return Declarations(0, 1, (nothing(result, Purpose.DECLARE),))
+    if stands.motion_space.vectors < size or not reaches.fits(stands.motion_space):
+        one = by_steps(stands, Purpose.DECLARE, reaches.of_columns, _tiers_of_declarations)
+        sets = () if one is None else (one,)
+        return Declarations(size, None, sets, left_out=LeftOut(is_too_large=True))
+    reach = reaches.of_columns(stands)
+    count = counted(stands, reach, lambda after: after.under_constrained)
+    whole = complete(result) if result.condensed.chains else stands
+    tried = Outcome((), NOTHING_LEFT_OUT)
+    for source in dict.fromkeys(one for one in (whole, stands) if one.under_constrained == size):
+        tried = _listed_of_declarations(result, source)
+        if tried.proposals:
+            break
+    is_told = whole.under_constrained == size and result.with_internal_declared is None
+    holds = _holds(result, whole) if is_told else Outcome((), NOTHING_LEFT_OUT)
+    return Declarations(
+        *(size, count.certain, tried.proposals, holds.proposals),
+        tried.left_out,
+        count.doubtful,
+    )
+
+
+def _listed_of_declarations(result: Result, source: Result) -> Outcome:
+    reach = _without_repeats(source, reaches.of_columns(source))
+    nodes = source.raw.column_label[0, reach.index] - 1
+    tiers = _tiers_of_declarations(source, reach)
+    turns = (source.data.arrays.node_kind[nodes] > NodeKind.POSITION).astype(float)
+
+    def ranking(sets: Places, condition: FloatArray) -> FloatArray:
+        of_sets = np.sort(tiers[sets], axis=1)[:, ::-1]
+        turning = turns[sets].sum(axis=1)[:, None]
+        return np.concatenate([decades(condition), of_sets, turning], axis=1)
+
+    found = candidates(reach, ranking, tiers)
+    return listed(result, reach, Purpose.DECLARE, _one_inside(found, tiers))
+
+
+def _tiers_of_declarations(source: Result, reach: Reach) -> FloatArray:
+    """(n,) how late coordinates are declared."""
+    nodes = source.condensed.nodes[source.raw.column_label[0, reach.index] - 1]
+    return np.array([tier_of_node(source, int(i)) for i in nodes], float)
+
+
+def _one_inside(found: list[Candidate], tiers: FloatArray) -> list[Candidate]:
+    """Of sets that differ in what is inside of sheets and wires alone the best."""
+    first: dict[tuple[int, ...], Candidate] = {}
+    for one in found:
+        first.setdefault(tuple(i for i in one.members if tiers[i] < LINK), one)
+    return list(first.values())
+
+
+def _without_repeats(source: Result, reach: Reach) -> Reach:
+    """Of points of one body that move in the same way along an axis the first by name."""
+    first: dict[tuple[int, int, bool, bytes], int] = {}
+    for i in sorted(range(len(reach.index)), key=lambda i: reach.key(int(reach.index[i]))):
+        node, axis = (source.raw.column_label[:, reach.index[i]] - 1).tolist()
+        given = int(source.condensed.nodes[node])
+        turns = bool(source.data.arrays.node_kind[node] > NodeKind.POSITION)
+        body = source.parts.body_at.get(given, -1 - given)
+        way = (np.round(reach.rows[i], _DIGITS) + 0.0).tobytes()
+        first.setdefault((body, axis, turns, way), i)
+    return reach.only(np.array(sorted(first.values()), np.int64))
+
+
+def _holds(result: Result, source: Result) -> Outcome:
+    reach = reaches.of_released(source)
+    found = candidates(reach, lambda _, condition: decades(condition), np.zeros(len(reach.index)))
+    return listed(result, reach, Purpose.HOLD, found, _MOST_HELD)

@@ -10,17 +10,25 @@ part of it that does work on U, moments in forces: the larger, the weaker it hol
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 
+from ...analysis.change import AddedSheet, AddedWire, Change
+from ...analysis.decomposition import Asked
+from ...analysis.result import Result, result_of
 from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
+from ...util.errors import FlexactError
 from ...util.records import Frozen
-from .aims import Aim
-from .families import SAME
-from .subjects import Attachment, Site
+from ..proposal import After, Proposal, Purpose
+from .screws import SAME, Family, FamilyKind, ScrewSpace
+from .subjects import Attachment, Freed, Site, Subject
+from .wanted_motion import Aim
 
 #: A line that is weaker than this, by its condition, is none.
 _WEAKEST = 100.0
@@ -142,4 +150,280 @@ def _able(wanted: FloatArray, arm: FloatArray, planar: bool) -> FloatArray:
     rank = int(np.sum(values > SAME * (1.0 + float(np.linalg.norm(arm)))))
     made = np.zeros((used.size - rank, 3))
     made[:, used] = right[rank:]
+    return made
+
+
+#: Of the characteristic length, places of new nodes have so many digits.
+_DIGITS = 12
+#: A point as near as this to one of the body, likewise, is that.
+_THERE = 1.0e-9
+
+
+def wire_along(
+    result: Result, subject: Subject, point: FloatArray, direction: FloatArray
+) -> AddedWire:
+    """A wire that ends on a body at a point [m] and runs along a direction to the ground."""
+    site = Site(result, subject)
+    near = min(site.own, key=lambda each: float(np.linalg.norm(each.place - point)))
+    is_there = bool(np.linalg.norm(near.place - point) <= _THERE * result.characteristic_length)
+    place = near.place if is_there else point
+    return wire_at(site, near._replace(place=place, is_there=is_there), direction)
+
+
+def wire_at(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
+    """A wire from a point of a body along a direction to the ground."""
+    numbers = site.result.given.arrays.node_number
+    name = "" if site.subject.is_body else site.subject.name
+    return AddedWire(
+        int(numbers[at.position]),
+        int(numbers[at.orientation]),
+        _three(site, at.place) if not at.is_there else _as_given(at.place),
+        _three(site, site.ground(at.place, direction)),
+        name,
+    )
+
+
+def sheet_at(site: Site, at: Attachment, direction: FloatArray, width: FloatArray) -> AddedSheet:
+    """A sheet from a point of a body along a direction to the ground."""
+    wire = wire_at(site, at, direction)
+    return AddedSheet(*wire[:4], _three(site, width), wire.body)
+
+
+def _three(site: Site, place: FloatArray) -> tuple[float, float, float]:
+    """A place in decimals: a plane that is typed as z = 0.02 is not left by rounding."""
+    digits = _DIGITS - math.floor(math.log10(site.result.characteristic_length))
+    return _as_given(np.array([round(value, digits) for value in place.tolist()]))
+
+
+def _as_given(place: FloatArray) -> tuple[float, float, float]:
+    x, y, z = (place + 0.0).tolist()
+    return x, y, z
+
+
+def proposed(
+    freed: Freed, subject: Subject, aim: Aim, change: Change, count: int, condition: float
+) -> Proposal | None:
+    """The proposal of a change; None where it does not do what it should.
+
+    The mechanism with nothing declared must have `count` motions fewer, all of the body; the body
+    must go on doing what is wanted; and there must be no further self-stress. What only lengthens
+    a sheet or wire, so that the point between is inside of it, is none.
+    """
+    result = freed.result
+    try:
+        data = change.apply(result.given).data
+        after: Result = result_of(data, Asked(result.asked.method, result.asked.tolerance))
+        then, same = Freed(after), _same(subject, result, after)
+        if not then.has(same):
+            return None
+        space = then.space(same)
+    except FlexactError:
+        return None
+    fewer = freed.outcome.under_constrained - then.outcome.under_constrained
+    if fewer != count or space.dimension != aim.freedom.dimension - count:
+        return None
+    factors = np.repeat((aim.freedom.length, 1.0), 3)
+    if not all(space.has(row / factors) for row in aim.wanted):
+        return None
+    if after.over_constrained > result.over_constrained:
+        return None
+    told = After(
+        after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
+    )
+    purpose = Purpose.ADD_SHEET if change.sheets else Purpose.ADD_WIRE
+    return Proposal(purpose, change, max(condition, 1.0), told)
+
+
+def _same(subject: Subject, before: Result, after: Result) -> Subject:
+    """A body by the numbers of its nodes in the changed mechanism."""
+    numbers, index = before.given.arrays.node_number, after.given.node_index
+    positions, orientations = (
+        tuple(index[int(numbers[node])] for node in nodes)
+        for nodes in (subject.positions, subject.orientations)
+    )
+    return Subject(subject.body, positions, orientations)
+
+
+#: How many wires, or sets of wires, are proposed.
+_MOST_PROPOSALS = 4
+#: How many are tried until so many are found.
+_MOST_TRIED = 12
+#: Lines that cost more than so many times the best are not proposed.
+_WORTH = 2.5
+
+
+def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Proposal, ...]:
+    """Wires that were tried: single ones, and where more are needed sets of them.
+
+    Each stops so many motions of the mechanism as it has wires; the body goes on doing what is
+    wanted, and there is no further self-stress.
+
+    Args:
+        freed: The mechanism.
+        site: The body.
+        aim: What is wanted of it.
+        besides: What is changed as well: declarations of what is not wanted are taken back.
+    """
+    if not len(aim.unwanted):
+        return ()
+    lines = lines_for(site, aim)[:_MOST_TRIED]
+    lines = [line for line in lines if line.cost <= _WORTH * lines[0].cost]
+    single = (_wires(freed, site, aim, (line,), besides) for line in lines)
+    made = list(islice(filter(None, single), _MOST_PROPOSALS))
+    if len(aim.unwanted) > 1:
+        made += _sets(freed, site, aim, lines, besides)
+    return tuple(made)
+
+
+def _sets(
+    freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
+) -> Iterator[Proposal]:
+    """One set of wires that stops all that wires can stop; without one the largest there is."""
+    most, smaller = aim.stoppable, list[tuple[Line, ...]]()
+    for line in lines:
+        chosen = _set_from(site, aim, line)
+        found = _wires(freed, site, aim, chosen, besides) if len(chosen) == most > 1 else None
+        if found is not None:
+            yield found
+            return
+        smaller.append(chosen)
+    smaller.sort(key=len, reverse=True)
+    rest = (_wires(freed, site, aim, each, besides) for each in smaller if len(each) > 1)
+    yield from islice(filter(None, rest), 1)
+
+
+def _set_from(site: Site, aim: Aim, first: Line) -> tuple[Line, ...]:
+    """Wires one after another, each the best for what those before it have left."""
+    chosen, left = [first], aim.stopped_by(first.force)
+    while len(left.unwanted):
+        further = lines_for(site, left)
+        if not further:
+            break
+        chosen.append(further[0])
+        left = left.stopped_by(further[0].force)
+    return tuple(chosen)
+
+
+def _wires(
+    freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
+) -> Proposal | None:
+    """The proposal of some wires; None where they do not do what they should."""
+    wires = tuple(wire_at(site, line.attachment, line.direction) for line in lines)
+    works = np.array([aim.unwanted @ np.roll(line.force, 3) for line in lines])
+    values = np.linalg.svd(works, compute_uv=False)
+    condition = float(values[0] / values[-1]) if len(lines) > 1 else lines[0].condition
+    change = replace(besides, wires=wires)
+    return proposed(freed, site.subject, aim, change, len(lines), condition)
+
+
+#: How many sheets are proposed, and tried until so many are found.
+_SHEETS_MOST_PROPOSALS, _SHEETS_MOST_TRIED = 2, 6
+#: A sheet holds so many motions.
+_HELD = 3
+
+
+class Plane(NamedTuple):
+    """A plane in which a sheet may be put."""
+
+    attachment: Attachment
+    """Where it ends on the body."""
+    normal: FloatArray
+    """(3,) unit vector."""
+    condition: float
+    """How weakly it holds the weakest of three motions, from 1."""
+    cost: float
+    """By what it is chosen."""
+
+
+def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[Proposal]:
+    """Sheets that were tried, the best first; none in the plane, where a sheet holds as a wire."""
+    if aim.freedom.planar or len(aim.unwanted) < _HELD:
+        return
+    planes = sorted(_planes(site, aim), key=lambda one: (round(one.cost, 6), one.attachment.key))
+    chosen: list[Plane] = []
+    for plane in planes:
+        if all(not _is_same(plane, other, site) for other in chosen):
+            chosen.append(plane)
+    tried = (_proposal(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
+    yield from islice(filter(None, tried), _SHEETS_MOST_PROPOSALS)
+
+
+def _is_same(one: Plane, other: Plane, site: Site) -> bool:
+    apart = abs(float((one.attachment.place - other.attachment.place) @ one.normal))
+    is_parallel = abs(float(one.normal @ other.normal)) > 1.0 - SAME
+    return is_parallel and apart <= SAME * site.result.characteristic_length
+
+
+def _planes(site: Site, aim: Aim) -> Iterator[Plane]:
+    space = aim.may_hold
+    for at in (*site.own, *site.carried([space])):
+        for normal in _normals(site, space, at.place):
+            held = _held(space, at.place, normal)
+            if held.sine_to(space) > SAME:
+                continue
+            works = np.roll(held.scaled, 3, axis=1) @ aim.unwanted.T
+            weakest = float(np.linalg.svd(works, compute_uv=False)[-1])
+            if weakest > 1.0e-2:
+                cost = (1.0 if at.is_there else LINK) / weakest
+                yield Plane(at, normal, 1.0 / weakest, cost)
+
+
+def _held(space: ScrewSpace, point: FloatArray, normal: FloatArray) -> ScrewSpace:
+    """All forces along lines in a plane."""
+    first, second = _across(normal)
+    lines = [space.line(point, first), space.line(point, second), space.free(normal)]
+    factors = np.repeat((space.length, 1.0), 3)
+    rows = np.linalg.qr((np.array(lines) * factors).T)[0].T
+    return ScrewSpace(rows / factors, space.about, space.length, True)
+
+
+def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Two unit vectors perpendicular to a third and to each other."""
+    axis = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    first = np.cross(normal, axis) / np.linalg.norm(np.cross(normal, axis))
+    return first, np.cross(normal, first)
+
+
+def _normals(site: Site, space: ScrewSpace, place: FloatArray) -> Iterator[FloatArray]:
+    """Normals of planes through a point in which all lines are in the space."""
+    for family in space.lines:
+        if family.kind is FamilyKind.PLANE:
+            yield family.normal
+        elif family.kind is FamilyKind.ACROSS:
+            yield family.direction
+        elif family.kind is FamilyKind.MEETING:
+            yield from _through_of_sheets(family, site, place)
+        elif family.kind is FamilyKind.EVERY:
+            yield from site.directions
+
+
+def _through_of_sheets(family: Family, site: Site, place: FloatArray) -> Iterator[FloatArray]:
+    """Normals of planes through a line and a point, or if it is on it all that are known."""
+    across = np.cross(family.direction, place - family.point)
+    size = float(np.linalg.norm(across))
+    if size > SAME * site.result.characteristic_length:
+        yield across / size
+        return
+    for each in site.directions:
+        if abs(float(each @ family.direction)) <= SAME:
+            yield each
+
+
+def _proposal(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Proposal | None:
+    along = _along(site, plane)
+    sheet = sheet_at(site, plane.attachment, along, np.cross(plane.normal, along))
+    change = replace(besides, sheets=(sheet,))
+    return proposed(freed, site.subject, aim, change, _HELD, plane.condition)
+
+
+def _along(site: Site, plane: Plane) -> FloatArray:
+    """Along a flexure in the plane if there is one, else outward from the middle of the body."""
+    flat = np.abs(site.directions @ plane.normal) <= SAME
+    if flat.any():
+        known: FloatArray = site.directions[int(np.argmax(flat))]
+        return known
+    arm = plane.attachment.place - site.middle
+    arm = arm - (arm @ plane.normal) * plane.normal
+    size = float(np.linalg.norm(arm))
+    made: FloatArray = arm / size if size > site.near else _across(plane.normal)[0]
     return made

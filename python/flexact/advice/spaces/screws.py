@@ -22,19 +22,287 @@ flexure system concepts via FACT", Precision Engineering 34, 2010.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...analysis.screws import ROUNDING, sense_of
-from ...core.arrays import FloatArray
-from .families import SAME, Family, FamilyKind
-from .flat_families import directions_of, flat_family, line_of
-from .principal_screws import principal_screws
-from .reguli import regulus_of
+from ...core.arrays import FloatArray, floats
+from ...util.records import Frozen, cached_property
+
+#: Directions off by so little [rad], or lines by this part of the characteristic length, are one.
+SAME = 1.0e-4
+
+
+class FamilyKind(str, Enum):
+    """What a family is."""
+
+    LINE = "one line"
+    PENCIL = "all lines through a point in a plane"
+    PARALLELS_IN_PLANE = "all parallel lines in a plane"
+    BUNDLE = "all lines through a point"
+    PARALLELS = "all parallel lines"
+    PLANE = "all lines in a plane"
+    REGULUS = "lines on a ruled quadric"
+    MEETING_TWO = "all lines that meet two lines"
+    MEETING_ACROSS = "all lines that meet a line and are perpendicular to a direction"
+    CONGRUENCE = "a linear congruence"
+    MEETING = "all lines that meet a line"
+    ACROSS = "all lines perpendicular to a direction"
+    COMPLEX = "a linear complex"
+    EVERY = "every line"
+    DIRECTION = "one direction"
+    DIRECTIONS_IN_PLANE = "all directions in a plane"
+    EVERY_DIRECTION = "every direction"
+    SCREW = "one screw"
+
+
+#: Kinds whose members are directions: translations, or couples.
+DIRECTIONS = frozenset(
+    (FamilyKind.DIRECTION, FamilyKind.DIRECTIONS_IN_PLANE, FamilyKind.EVERY_DIRECTION)
+)
+
+
+def _nowhere() -> FloatArray:
+    return np.zeros(3)
+
+
+def _no_lines() -> FloatArray:
+    return np.zeros((0, 3))
+
+
+@dataclass(frozen=True, eq=False)
+class Family(Frozen):
+    """Lines, directions or screws that belong together.
+
+    | kind | `point` | `direction` | `normal` | `points`, `directions` |
+    |---|---|---|---|---|
+    | `LINE` | on it | along it | | the line |
+    | `PENCIL` | through which all go | | of the plane | |
+    | `PARALLELS_IN_PLANE` | in the plane | along all | of the plane | |
+    | `BUNDLE` | through which all go | | | |
+    | `PARALLELS` | | along all | | |
+    | `PLANE` | in the plane | | of the plane | |
+    | `REGULUS` | the middle of the quadric | axis of a hyperboloid | of the plane to which all \
+are parallel, of a paraboloid | twelve of the lines |
+    | `MEETING_TWO` | | | | the two lines |
+    | `MEETING_ACROSS` | | to which all are perpendicular | | the line that all meet |
+    | `CONGRUENCE` | | | | some of its lines |
+    | `MEETING` | on the line | along it | | the line that all meet |
+    | `ACROSS` | | to which all are perpendicular | | |
+    | `COMPLEX` | on the axis | along it | | the axis |
+    | `EVERY` | | | | |
+    | `DIRECTION` | | it | | |
+    | `DIRECTIONS_IN_PLANE` | | | of the plane | |
+    | `EVERY_DIRECTION` | | | | |
+    | `SCREW` | on the axis | along it | | the axis |
+
+    Attributes:
+        kind: What it is.
+        point: (3,) [m]; of lines and planes the point nearest to the body's middle.
+        direction: (3,) unit vector; zero where there is none.
+        normal: (3,) unit vector; zero where there is none.
+        pitch: Of a screw [m/rad]; of a complex that of the screw to which all its lines are
+            reciprocal [m].
+        points: (n, 3) of lines, one each [m].
+        directions: (n, 3) unit vectors along them.
+    """
+
+    kind: FamilyKind
+    point: FloatArray = field(default_factory=_nowhere)
+    direction: FloatArray = field(default_factory=_nowhere)
+    normal: FloatArray = field(default_factory=_nowhere)
+    pitch: float = 0.0
+    points: FloatArray = field(default_factory=_no_lines)
+    directions: FloatArray = field(default_factory=_no_lines)
+
+    @property
+    def is_of_lines(self) -> bool:
+        """Whether its members are lines: of rotations, or of forces."""
+        return self.kind not in DIRECTIONS and self.kind is not FamilyKind.SCREW
+
+    @property
+    def is_of_directions(self) -> bool:
+        """Whether its members are directions: of translations, or of couples."""
+        return self.kind in DIRECTIONS
+
+
+def line_of(row: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """Point, direction and pitch of a screw, (6,)."""
+    axis, moment = row[:3], row[3:]
+    square = float(axis @ axis)
+    point = np.cross(axis, moment) / square
+    return point, _unit(axis), float(axis @ moment) / square
+
+
+def directions_of(free: FloatArray) -> Family:
+    """The family of all directions in the space of some, (t, 6) orthonormal."""
+    if len(free) == 1:
+        return Family(FamilyKind.DIRECTION, direction=_unit(free[0, 3:]))
+    if len(free) == 2:
+        normal = _unit(np.cross(free[0, 3:], free[1, 3:]))
+        return Family(FamilyKind.DIRECTIONS_IN_PLANE, normal=normal)
+    return Family(FamilyKind.EVERY_DIRECTION)
+
+
+def flat_family(free: FloatArray, lined: FloatArray) -> Family:
+    """The family of lines, of which there is one, any two of which meet.
+
+    Args:
+        free: (t, 6) its directions without a line, orthonormal.
+        lined: (f - t, 6) the rest, perpendicular to these.
+    """
+    axes, moments = lined[:, :3], lined[:, 3:]
+    point, direction, _ = line_of(lined[0])
+    if len(lined) == 1:
+        if not len(free):
+            return Family(FamilyKind.LINE, point, direction)
+        if len(free) == 2:
+            return Family(FamilyKind.PARALLELS, direction=direction)
+        normal = _unit(free[0, 3:])
+        height = float(normal @ point)
+        return Family(FamilyKind.PARALLELS_IN_PLANE, height * normal, direction, normal)
+    if len(free):
+        normal = _unit(free[0, 3:])
+        # A line at d from the middle has the moment d x a; along the normal that is the height.
+        across = np.cross(normal, axes)
+        height = float(np.sum(across * moments) / np.sum(across * across))
+        return Family(FamilyKind.PLANE, height * normal, normal=normal)
+    point = _common_point(axes, moments)
+    if len(lined) == 2:
+        normal = _unit(np.cross(axes[0], axes[1]))
+        return Family(FamilyKind.PENCIL, point, normal=normal)
+    return Family(FamilyKind.BUNDLE, point)
+
+
+def _common_point(axes: FloatArray, moments: FloatArray) -> FloatArray:
+    """The point d through which all lines go: d x a = b for each."""
+    matrix = np.concatenate([np.cross(np.eye(3), axis).T for axis in axes])
+    made: FloatArray = np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0]
+    return made
+
+
+def _unit(vector: FloatArray) -> FloatArray:
+    made: FloatArray = sense_of(vector) * vector / np.linalg.norm(vector)
+    return made
+
+
+#: How many lines of it are given.
+_SAMPLES = 12
+
+
+def regulus_of(rows: FloatArray, values: FloatArray, vectors: FloatArray) -> Family:
+    """The regulus of a space of three dimensions.
+
+    Args:
+        rows: (3, 6) that span it.
+        values: (3,) eigenvalues of q on it, of both signs.
+        vectors: (3, 3) their eigenvectors.
+    """
+    points, directions = _samples(rows, values, vectors)
+    _, sizes, right = np.linalg.svd(rows[:, :3])
+    if sizes[-1] > SAME:
+        point, axis = _middle(rows)
+        return Family(
+            FamilyKind.REGULUS, point, direction=axis, points=points, directions=directions
+        )
+    normal = sense_of(right[2]) * right[2]
+    # The vertex is no more than a point to look at: the mean of the middles of some lines.
+    return Family(
+        *(FamilyKind.REGULUS, points.mean(axis=0)),
+        normal=normal,
+        points=points,
+        directions=directions,
+    )
+
+
+def _samples(
+    rows: FloatArray, values: FloatArray, vectors: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Points and directions of lines all round."""
+    scaled = (vectors / np.sqrt(np.abs(values))).T @ rows
+    lone = int(np.argmax(np.sign(values) != np.sign(np.sum(np.sign(values)))))
+    one, other = (scaled[k] for k in range(3) if k != lone)
+    points, directions = [], []
+    for angle in 2.0 * np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES:
+        screw = np.cos(angle) * one + np.sin(angle) * other + scaled[lone]
+        if np.linalg.norm(screw[:3]) > SAME * np.linalg.norm(screw):
+            point, direction, _ = line_of(screw)
+            points.append(point)
+            directions.append(direction)
+    return np.array(points), np.array(directions)
+
+
+def _middle(rows: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The centre of the hyperboloid and the direction of its axis.
+
+    Every rotation a has the moment M a; the skew part of M is that of the centre, and the
+    symmetric part has the principal pitches.
+    """
+    matrix = np.linalg.solve(rows[:, :3], rows[:, 3:]).T
+    skew = (matrix - matrix.T) / 2.0
+    point = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    pitches, axes = np.linalg.eigh((matrix + matrix.T) / 2.0)
+    # Of three pitches of both signs the lone one is the first or the last.
+    lone = 0 if pitches[1] > 0.0 else 2
+    axis = axes[:, lone]
+    return point, sense_of(axis) * axis
+
+
+def principal_screws(lined: FloatArray, spanned: FloatArray, count: int) -> list[Family]:
+    """Those of a space that its lines and directions do not span.
+
+    Args:
+        lined: (n, 6) independent rows, without directions, perpendicular to these.
+        spanned: (m, 6) rows that its lines and directions span.
+        count: Its dimension.
+    """
+    if _rank(spanned) == count:
+        return []
+    # Pitches are stationary, h = a.b/a.a, at the principal screws (Ball 1900).
+    back = np.linalg.inv(np.linalg.cholesky(lined[:, :3] @ lined[:, :3].T))
+    form = lined[:, :3] @ lined[:, 3:].T
+    pitches, vectors = np.linalg.eigh(back @ (form + form.T) @ back.T / 2.0)
+    made = []
+    for row in _told(pitches, vectors.T @ back @ lined):
+        more = np.concatenate((spanned, row[None]))
+        if _rank(more) > _rank(spanned):
+            spanned = more
+            point, direction, pitch = line_of(row)
+            kind = FamilyKind.SCREW if abs(pitch) > SAME else FamilyKind.LINE
+            made.append(Family(kind, point, direction, pitch=pitch * (kind is FamilyKind.SCREW)))
+    return made
+
+
+def _told(pitches: FloatArray, rows: FloatArray) -> Iterator[FloatArray]:
+    """Screws of unit axes at right angles; of those with one pitch the nearest to x, y and z."""
+    first = 0
+    while first < pitches.size:
+        group = rows[np.abs(pitches - pitches[first]) <= SAME]
+        first += len(group)
+        if len(group) == 1:
+            yield group[0]
+            continue
+        taken = np.zeros((0, len(group)))
+        for shares in group[:, :3].T:
+            rest = shares - (shares @ taken.T) @ taken
+            size = float(np.linalg.norm(rest))
+            if size > 0.1 and len(taken) < len(group):
+                taken = np.concatenate((taken, rest[None] / size))
+                yield taken[-1] @ group
+
+
+def _rank(rows: FloatArray) -> int:
+    """How many of some rows are independent."""
+    sizes = np.linalg.norm(rows, axis=1, keepdims=True)
+    if not len(rows):
+        return 0
+    return int(np.sum(np.linalg.svd(rows / sizes, compute_uv=False) > SAME))
+
 
 _ORDER = {kind: place for place, kind in enumerate(FamilyKind)}
-#: How many lines of a congruence are given.
-_SAMPLES = 12
 
 
 def families_of(rows: FloatArray, about: FloatArray, length: float) -> tuple[Family, ...]:
@@ -193,3 +461,161 @@ def _with_sense(vector: FloatArray) -> FloatArray:
     """A direction whose first component is positive, with zeros for what is rounding."""
     made: FloatArray = sense_of(vector) * np.where(np.abs(vector) > ROUNDING, vector, 0.0) + 0.0
     return made
+
+
+@dataclass(frozen=True, eq=False)
+class ScrewSpace(Frozen):
+    """All twists that a body has, or all wrenches that hold it.
+
+    A twist is a rotation w [rad] and the velocity v [m] of the point `about`; a wrench a force
+    f [N] and the moment m [N m] about it. Both are six numbers, (w, v) and (f, m): a line first,
+    and then its moment. They are reciprocal, the wrench does no work on the twist, where
+    w.m + v.f = 0 (Ball 1900; Hunt, *Kinematic Geometry of Mechanisms*, 1978).
+
+    Attributes:
+        basis: (k, 6) rows (w, v) or (f, m); with the first three times `length` the rows are
+            orthonormal.
+        about: (3,) the middle of the body's points [m].
+        length: By which rotations compare with displacements, and moments with forces [m].
+        of_wrenches: Whether its members are wrenches, not twists.
+        planar: Whether it is that of a planar model, with rotations about z and forces in the
+            plane alone.
+    """
+
+    basis: FloatArray
+    about: FloatArray
+    length: float
+    of_wrenches: bool = False
+    planar: bool = False
+
+    @property
+    def dimension(self) -> int:
+        """How many of them are independent."""
+        return int(self.basis.shape[0])
+
+    @property
+    def scaled(self) -> FloatArray:
+        """(k, 6) the orthonormal rows."""
+        made: FloatArray = self.basis * self._factors
+        return made
+
+    @property
+    def _factors(self) -> FloatArray:
+        return np.repeat((self.length, 1.0), 3)
+
+    @cached_property
+    def families(self) -> tuple[Family, ...]:
+        """The lines, directions and screws in it (`flexact.advice.spaces.screws`)."""
+        return families_of(self.scaled, self.about, self.length)
+
+    @property
+    def lines(self) -> tuple[Family, ...]:
+        """The families of lines: rotations, or forces."""
+        return tuple(family for family in self.families if family.is_of_lines)
+
+    @property
+    def translations(self) -> tuple[Family, ...]:
+        """The families of directions: translations, or couples."""
+        return tuple(family for family in self.families if family.is_of_directions)
+
+    def line(self, point: ArrayLike, direction: ArrayLike, pitch: float = 0.0) -> FloatArray:
+        """(6,) the unit screw of a line: a rotation about it, or a force along it.
+
+        Args:
+            point: (3,) of the line [m].
+            direction: (3,) along it.
+            pitch: [m/rad], or [m] of a wrench.
+        """
+        d = floats(direction, "a direction")
+        unit = d / np.linalg.norm(d)
+        arm = floats(point, "a point") - self.about
+        made: FloatArray = np.concatenate((unit, np.cross(arm, unit) + pitch * unit))
+        return made
+
+    @staticmethod
+    def free(direction: ArrayLike) -> FloatArray:
+        """(6,) a translation along a direction, or a couple about it."""
+        d = floats(direction, "a direction")
+        return np.concatenate((np.zeros(3), d / np.linalg.norm(d)))
+
+    def distance(self, screw: FloatArray) -> float:
+        """Which part of a twist or a wrench, (6,), is not in the space: from 0 to 1."""
+        scaled = screw * self._factors
+        rest = scaled - self.scaled.T @ (self.scaled @ scaled)
+        return float(np.linalg.norm(rest) / np.linalg.norm(scaled))
+
+    def has(self, screw: FloatArray, limit: float = SAME) -> bool:
+        """Whether a twist or a wrench, (6,) as `line` and `free` make them, is in the space."""
+        return self.distance(screw) <= limit
+
+    def sine_to(self, other: ScrewSpace) -> float:
+        """The sine of the largest angle of this space with another one about the same point."""
+        rest = self.scaled - (self.scaled @ other.scaled.T) @ other.scaled
+        return float(np.linalg.norm(rest, 2)) if rest.size else 0.0
+
+    def nearest(self, screw: FloatArray) -> FloatArray:
+        """(6,) the part of a twist or a wrench that is in the space."""
+        scaled = screw * self._factors
+        made: FloatArray = (self.scaled.T @ (self.scaled @ scaled)) / self._factors
+        return made
+
+    @cached_property
+    def directions(self) -> FloatArray:
+        """(t, 6) orthonormal rows of its directions: translations, or couples."""
+        return parted(self.scaled)[0] if self.dimension else np.zeros((0, 6))
+
+    @cached_property
+    def span_of_lines(self) -> FloatArray:
+        """(n, 6) scaled rows that span its lines, pure rotations or forces."""
+        return span_of_lines(self.scaled)
+
+    def works(self, screw: FloatArray) -> FloatArray:
+        """(k,) the work of a wrench on each twist of the basis, or of each wrench on a twist.
+
+        In parts of the largest that six numbers of this size could do.
+        """
+        scaled = screw * self._factors
+        swapped = np.concatenate((scaled[3:], scaled[:3])) / np.linalg.norm(scaled)
+        made: FloatArray = self.scaled @ swapped
+        return made
+
+    @cached_property
+    def reciprocal(self) -> ScrewSpace:
+        """Of twists all wrenches that do no work on them, and the other way round."""
+        swapped = np.roll(self.scaled, 3, axis=1)
+        used = np.arange(6)
+        if self.planar:
+            # Twists have wz, vx and vy; wrenches have fx, fy and mz.
+            used = np.array([2, 3, 4] if self.of_wrenches else [0, 1, 5])
+        made = np.zeros((used.size - self.dimension, 6))
+        made[:, used] = complement(swapped[:, used])
+        made = canonical(made)
+        return ScrewSpace(
+            made / self._factors, self.about, self.length, not self.of_wrenches, self.planar
+        )
+
+
+def complement(rows: FloatArray) -> FloatArray:
+    """(n - k, n) orthonormal rows perpendicular to k independent ones, (k, n)."""
+    count, size = rows.shape
+    if not count:
+        return np.eye(size)
+    right: FloatArray = np.linalg.svd(rows)[2]
+    return right[count:]
+
+
+def canonical(rows: FloatArray) -> FloatArray:
+    """(k, n) orthonormal rows that follow from the space of some alone: nearest to unit vectors.
+
+    Args:
+        rows: (k, n) orthonormal.
+    """
+    made = np.zeros((0, rows.shape[1]))
+    chosen: list[int] = []
+    while len(made) < len(rows):
+        # The rest of each unit vector within the space, of which the largest is taken.
+        rest = rows.T @ rows - made.T @ made
+        place = int(np.argmax(np.round(np.diag(rest), 6)))
+        made = np.concatenate((made, rest[place][None] / np.linalg.norm(rest[place])))
+        chosen.append(place)
+    return made[np.argsort(chosen)]

@@ -12,22 +12,15 @@ from ...analysis.carriers import Joint
 from ...analysis.change import Change
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
-from ...deck.errors import model_error
+from ...deck.rendering import model_error
 from ...model.parts.parts import Part
-from ...util.plain_text import in_short
 from ...util.records import Frozen
+from ...util.text import in_short
 from ..proposal import Proposal
-from .aims import Aim
-from .families import Family
-from .freedom import Freed
-from .intent import declared_of, not_wanted
-from .screw_space import ScrewSpace
-from .sheets import sheets_for
-from .spaces_subjects import Subject, rank_of, subject_named, subjects_of
-from .subjects import Site
-from .wanted import Wanted, wanted_of
-from .wanted_motion import read
-from .wires import wires_for
+from .flexures import sheets_for, wires_for
+from .screws import Family, ScrewSpace
+from .subjects import Freed, Site, Subject, rank_of, subject_named, subjects_of
+from .wanted_motion import Aim, Wanted, declared_of, not_wanted, read, wanted_of
 
 
 @dataclass(frozen=True, eq=False)

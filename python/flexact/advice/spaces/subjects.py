@@ -4,19 +4,296 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ...analysis.carriers import Joint
+from ...analysis.decomposition import Asked, column_weights
 from ...analysis.result import Result
 from ...analysis.screws import ROUNDING
+from ...analysis.spaces import decompose
 from ...core.arrays import FloatArray
-from ...model.parts.parts import PartKind, natural
-from ...util.cached import cached_property
-from .families import Family, FamilyKind
-from .screw_space import ScrewSpace
-from .spaces_subjects import Subject
+from ...core.elements import Class, NodeKind
+from ...core.raw import RawAnalysis
+from ...deck.rendering import ModelError, model_error
+from ...model.data import ModelData
+from ...model.names import nearest
+from ...model.parts.parts import Part, PartKind, natural
+from ...util.records import cached_property
+from ...util.text import in_short
+from .screws import Family, FamilyKind, ScrewSpace, canonical
+
+#: Where so many parts meet they may be the two leaves of a folded sheet.
+_OF_A_FOLD = 2
+
+
+class Subject(NamedTuple):
+    """A body, or a joint with an orientation, and its nodes in the model as given."""
+
+    body: Part | Joint
+    positions: tuple[int, ...]
+    """Indices of the position nodes that it carries."""
+    orientations: tuple[int, ...]
+    """Indices of the orientation nodes that turn with it."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return str(self.body)
+
+    @property
+    def is_body(self) -> bool:
+        """Whether it is a body, not a joint."""
+        return isinstance(self.body, Part)
+
+    def middle(self, result: Result) -> FloatArray:
+        """(3,) the mean of its points [m]."""
+        values = result.given.arrays.node_value[:3, list(self.positions)]
+        made: FloatArray = values.mean(axis=1)
+        return made
+
+
+def subjects_of(result: Result) -> tuple[Subject, ...]:
+    """All bodies, then all joints that have an orientation, without those that are ground."""
+    return tuple(each for each in _all(result) if not is_ground(result, each))
+
+
+def _all(result: Result) -> Iterator[Subject]:
+    parts = result.parts
+    for k, body in enumerate(parts.bodies):
+        yield Subject(parts.of_body(k), body.positions, body.orientations)
+    for joint in result.carriers.joints:
+        if joint.position is not None and joint.orientation is not None:
+            yield Subject(joint, (joint.position,), (joint.orientation,))
+
+
+def is_ground(result: Result, subject: Subject) -> bool:
+    """Whether a support holds it in all that it has."""
+    held = result.parts.is_held
+    fixed = [position for position in subject.positions if held(position)]
+    return bool(fixed) and any(map(held, subject.orientations))
+
+
+def subject_named(result: Result, name: str) -> Subject:
+    """The body or joint of a name; of a point on a body the body.
+
+    Raises:
+        ModelError: there is none, it is no body, or there are several.
+    """
+    every = tuple(_all(result))
+    for spelling in (name, f"the {name}", name.removeprefix("the ")) if name.strip() else ():
+        bodies = [each for each in every if each.is_body and each.name == spelling]
+        found = bodies or _of_point(result, every, spelling)
+        if not found:
+            found = [each for each in every if each.name == spelling]
+        if len(found) > 1:
+            raise model_error(
+                "ambiguous-part",
+                f"{len(found)} bodies are called {in_short(name)}",
+                "give each a name of its own",
+            )
+        if found:
+            return found[0]
+    raise _no_body(result, every, name)
+
+
+def _of_point(result: Result, every: tuple[Subject, ...], name: str) -> list[Subject]:
+    parts = result.parts
+    kinds = result.given.arrays.node_kind
+    places = [
+        node
+        for node in np.flatnonzero(kinds <= NodeKind.POSITION).tolist()
+        if parts.name_of_point(node) == name
+    ]
+    return [each for each in every if any(node in each.positions for node in places)]
+
+
+def _no_body(result: Result, every: tuple[Subject, ...], name: str) -> ModelError:
+    others = [part for part in result.parts.all if part.name == name]
+    if others:
+        what = f"{in_short(name)} is no body but a {others[0].kind}"
+    elif name.strip() and any(
+        result.parts.name_of_point(k) == name for k in range(len(result.given.node_names))
+    ):
+        what = f"the point {in_short(name)} has no orientation: nothing there can turn"
+    else:
+        what = f"there is no body called {in_short(name)}"
+    names = list(dict.fromkeys(each.name for each in every if each.is_body))
+    names += [each.name for each in every if not each.is_body and _is_named(each)]
+    near = nearest(name, names) or sorted(names, key=natural)[:3]
+    are = "is" if len(near) == 1 else "are"
+    hint = f"there {are} {', '.join(map(in_short, near))}" if near else "this mechanism has no body"
+    return model_error("no-body", what, hint)
+
+
+def _is_named(subject: Subject) -> bool:
+    return isinstance(subject.body, Joint) and bool(subject.body.name)
+
+
+class Rank(NamedTuple):
+    """By what the body that a designer means is found; the first that differs decides."""
+
+    declared: int
+    """Less how many coordinates of it are declared independent."""
+    is_joint: bool
+    attached: int
+    """Of joints less how many parts meet there, if more than at a fold."""
+    freedom: int
+    """Less in how many independent ways it moves."""
+    size: float
+    """Less its extent, in parts of the characteristic length."""
+    name: tuple[tuple[bool, int, str, str], ...]
+    place: tuple[float, ...]
+
+
+def rank_of(result: Result, subject: Subject, freedom: int) -> Rank:
+    """The body with the least rank is the one that is meant when none is named."""
+    arrays, length = result.given.arrays, result.characteristic_length
+    nodes = [*subject.positions, *subject.orientations]
+    declared = int(np.sum(arrays.coordinate_class[:, nodes] == Class.INDEPENDENT))
+    places = arrays.node_value[:3, list(subject.positions)].T / length
+    size = float(np.linalg.norm(np.ptp(places, axis=0)))
+    parts = 0 if isinstance(subject.body, Part) else len(subject.body.parts)
+    parts = parts if parts > _OF_A_FOLD else 0
+    name = subject.body.name
+    if isinstance(subject.body, Part) and not subject.body.is_named:
+        name = ""
+    middle = tuple((np.round(places.mean(axis=0), 9) + 0.0).tolist())
+    return Rank(
+        -declared, not subject.is_body, -parts, -freedom, -round(size, 9), natural(name), middle
+    )
+
+
+class _Rows(NamedTuple):
+    """Motions side by side, stored by rows."""
+
+    start: NDArray[np.integer]
+    """(size + 1,) where the entries of each row begin."""
+    vector: NDArray[np.integer]
+    """(entries,) the motion that each belongs to."""
+    value: FloatArray
+    """(entries,)."""
+    vectors: int
+    """How many motions there are."""
+
+
+class Freed:
+    """A mechanism in which nothing is declared; each answer is found when it is asked for."""
+
+    def __init__(self, result: Result, *, is_freed: bool = True) -> None:
+        """Keep the result; that of divided sheets as one beam each, where there are any."""
+        self.result = result.with_internal_declared or result
+        self._is_freed = is_freed
+
+    @classmethod
+    def as_declared(cls, result: Result) -> Freed:
+        """The mechanism with its declarations: what moves is what nobody declared."""
+        return cls(result, is_freed=False)
+
+    @cached_property
+    def _data(self) -> ModelData:
+        data = self.result.data
+        arrays = data.arrays
+        coordinates, deformations = (
+            np.where(classes == Class.INDEPENDENT, np.int32(Class.DEPENDENT), classes)
+            for classes in (arrays.coordinate_class, arrays.deformation_class)
+        )
+        return ModelData(
+            arrays._replace(
+                coordinate_class=np.asfortranarray(coordinates),
+                deformation_class=np.asfortranarray(deformations),
+            ),
+            data.planar,
+            data.name,
+            data.element_names,
+            given_appearance=data.given_appearance,
+            has_long_numbers=data.has_long_numbers,
+        )
+
+    @cached_property
+    def _raw(self) -> RawAnalysis:
+        if not self._is_freed or not self.result.degrees_of_freedom:
+            return self.result.raw
+        asked = self.result.asked
+        return decompose(self._data, Asked(asked.method, asked.tolerance))
+
+    @cached_property
+    def outcome(self) -> Result:
+        """What is known of it, at the nodes of the model in which divided sheets are one beam."""
+        one = self.result
+        return Result(one.name, one.condensed, self._raw, one.asked)
+
+    def has(self, subject: Subject) -> bool:
+        """Whether none of its nodes is inside of a divided sheet or wire."""
+        return self._place_of.keys() >= {*subject.positions, *subject.orientations}
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all motions are kept; of very large mechanisms there may be too many."""
+        return self.outcome.raw.motions.vectors == self.outcome.under_constrained
+
+    @cached_property
+    def _motions(self) -> _Rows:
+        """The motions by rows, each of unit norm with rotations as lengths."""
+        if not self.is_known:
+            raise model_error(
+                "too-many-motions",
+                f"with nothing declared there are {self.outcome.under_constrained} motions, too "
+                "many to find what a body can do",
+                "declare what is inside of divided sheets, or ask of a part of the mechanism",
+            )
+        motions, vector = self.outcome.raw.motions, self.outcome.raw.motions.of_entries()
+        weighted = motions.value * column_weights(self.outcome)[motions.place]
+        norms = np.sqrt(np.bincount(vector, weighted**2, motions.vectors))
+        order = np.argsort(motions.place, kind="stable")
+        start = np.searchsorted(motions.place[order], np.arange(motions.size + 1))
+        return _Rows(start, vector[order], (motions.value / norms[vector])[order], norms.size)
+
+    @cached_property
+    def _place_of(self) -> dict[int, int]:
+        """Index in the model that is analysed of each node, by its index in that given."""
+        return {node: k for k, node in enumerate(self.result.condensed.nodes.tolist())}
+
+    @cached_property
+    def _row_of(self) -> dict[tuple[int, int], int]:
+        """Column of D(c) by node and axis."""
+        labels = (self._raw.column_label - 1).T.tolist()
+        return {(node, axis): k for k, (node, axis) in enumerate(labels)}
+
+    def _rates(self, nodes: tuple[int, ...]) -> FloatArray:
+        """(3, motions) mean velocity of some nodes in each motion [m or rad]."""
+        motions = self._motions
+        made = np.zeros((3, motions.vectors))
+        for node in nodes:
+            for axis in range(3):
+                column = self._row_of.get((self._place_of[node], axis))
+                if column is not None:
+                    mine = slice(int(motions.start[column]), int(motions.start[column + 1]))
+                    made[axis, motions.vector[mine]] += motions.value[mine]
+        return made / len(nodes)
+
+    def twists(self, subject: Subject) -> FloatArray:
+        """(6, motions) of a body about its middle, rotations times the characteristic length."""
+        velocity = self._rates(subject.positions)
+        rotation = self._rates(subject.orientations)
+        return np.concatenate((rotation * self.result.characteristic_length, velocity))
+
+    def space(self, subject: Subject) -> ScrewSpace:
+        """All twists that a body has.
+
+        Raises:
+            ModelError: there are too many motions to be kept.
+        """
+        one = self.result
+        length = one.characteristic_length
+        left, sizes, _ = np.linalg.svd(self.twists(subject), full_matrices=False)
+        rank = int(np.sum(sizes > self.outcome.rounding * max(1.0, sizes.max(initial=0.0))))
+        rows = canonical(left[:, :rank].T) / np.repeat((length, 1.0), 3)
+        return ScrewSpace(rows, subject.middle(one), length, False, one.given.planar)
+
 
 #: Places nearer than this part of the characteristic length are one.
 _SAME_PLACE = 1.0e-6

@@ -19,15 +19,80 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.screws import ScrewKind
+from ...analysis.change import Change
+from ...analysis.freedoms import Freedom
+from ...analysis.result import Result
+from ...analysis.screws import ScrewKind, screw_of
 from ...core.arrays import FloatArray
-from ...deck.errors import ModelError, model_error
+from ...core.elements import Class, NodeKind
+from ...deck.rendering import ModelError, model_error
 from ...model.names import nearest
-from ...util.plain_text import in_short
+from ...util.records import Frozen
+from ...util.text import in_short
+from .screws import SAME, ScrewSpace, complement
+from .subjects import Freed, Subject
+
+#: Wanted motions that differ by less are one.
+_APART = 1.0e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Aim(Frozen):
+    """What wires are to do with a body.
+
+    Attributes:
+        freedom: What the body can do.
+        wanted: (w, 6) orthonormal rows, rotations times the length: what it is to go on doing.
+        unwanted: (u, 6) orthonormal rows: the rest.
+    """
+
+    freedom: ScrewSpace
+    wanted: FloatArray
+    unwanted: FloatArray
+
+    @classmethod
+    def of(cls, freedom: ScrewSpace, twists: Sequence[FloatArray]) -> Aim:
+        """Of a freedom space and the wanted twists in it, (6,) each."""
+        rows = freedom.scaled
+        factors = np.repeat((freedom.length, 1.0), 3)
+        if not len(twists) or not len(rows):
+            return cls(freedom, rows[:0], rows)
+        shares = np.array([rows @ (twist * factors) for twist in twists])
+        sizes = np.linalg.norm(shares, axis=1, keepdims=True)
+        shares = shares / np.where(sizes > 0.0, sizes, 1.0)
+        _, values, right = np.linalg.svd(shares)
+        rank = int(np.sum(values > _APART))
+        return cls(freedom, right[:rank] @ rows, right[rank:] @ rows)
+
+    @property
+    def may_hold(self) -> ScrewSpace:
+        """The wrenches that do no work on what is wanted."""
+        return self._space(self.wanted).reciprocal
+
+    @property
+    def stoppable(self) -> int:
+        """How many of the unwanted motions wires can stop: as forces along lines span."""
+        span = self.may_hold.span_of_lines
+        works = np.roll(span, 3, axis=1) @ self.unwanted.T
+        return int(np.sum(np.linalg.svd(works, compute_uv=False) > SAME)) if works.size else 0
+
+    def stopped_by(self, line: FloatArray) -> Aim:
+        """What is left to be done with a wire along a line, (6,) scaled."""
+        works = self.unwanted @ np.roll(line, 3)
+        left = complement(works[None] / np.linalg.norm(works)) @ self.unwanted
+        return Aim(self.freedom, self.wanted, left)
+
+    def _space(self, rows: FloatArray) -> ScrewSpace:
+        one = self.freedom
+        factors = np.repeat((one.length, 1.0), 3)
+        return ScrewSpace(rows / factors, one.about, one.length, one.of_wrenches, one.planar)
+
 
 _KINDS = ("translation", "rotation", "screw")
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -158,4 +223,205 @@ def unreadable(text: str, why: str, hint: str = "") -> ModelError:
         "bad-wanted",
         f"cannot read the wanted motion {in_short(text)}: {why}",
         f"{hint}write BODY: MOTION, {_EXAMPLE}" if not hint else f"{hint}{_EXAMPLE}",
+    )
+
+
+#: A motion as it is typed, with few digits, is one of the body where so little of it is not.
+_AS_TYPED = 1.0e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Wanted(Frozen):
+    """A motion that a body is meant to have.
+
+    Attributes:
+        text: As it was written; of a declared degree of freedom its label.
+        kind: Translation, rotation or screw.
+        direction: (3,) unit vector.
+        point: (3,) of the axis [m]; of a translation the middle of the body.
+        pitch: [m/rad]; 0 of a rotation, infinite of a translation.
+        twist: (6,) rotation [rad] and velocity of the middle [m], as the body can move; as it
+            was asked for where the body cannot.
+        is_free: Whether the body can move so when nothing is declared.
+        is_declared: Whether it is a declared degree of freedom of the model.
+    """
+
+    text: str
+    kind: ScrewKind
+    direction: FloatArray
+    point: FloatArray
+    pitch: float
+    twist: FloatArray
+    is_free: bool
+    is_declared: bool = False
+
+
+def wanted_of(result: Result, space: ScrewSpace, written: Written) -> Wanted:
+    """A wanted motion as a twist of the body of a freedom space.
+
+    Raises:
+        ModelError: there is no such point, or a planar model has no such motion.
+    """
+    kind, direction = written.kind, written.direction
+    if kind is ScrewKind.TRANSLATION:
+        if space.planar and direction[2] != 0.0:
+            raise unreadable(written.text, "a planar model has no z")
+        return _made(written, space, space.about, space.free(direction))
+    if written.point is not None:
+        point = _place(result, written)
+        return _made(written, space, point, space.line(point, direction, written.pitch))
+    twist = _nearest_line(space, direction, written.pitch)
+    if twist is None:
+        twist = space.line(space.about, direction, written.pitch)
+    point = space.about + np.cross(twist[:3], twist[3:])
+    return _made(written, space, point, twist)
+
+
+def _made(written: Written, space: ScrewSpace, point: FloatArray, twist: FloatArray) -> Wanted:
+    is_free = space.has(twist, _AS_TYPED)
+    return Wanted(
+        *(written.text, written.kind, written.direction, point, written.pitch),
+        space.nearest(twist) if is_free else twist,
+        is_free,
+    )
+
+
+def _nearest_line(space: ScrewSpace, direction: FloatArray, pitch: float) -> FloatArray | None:
+    """The twist of a space about a line of this direction nearest to the middle; None without."""
+    rows = space.scaled
+    if not len(rows):
+        return None
+    shares, _, _, sizes = np.linalg.lstsq(rows[:, :3].T, space.length * direction, rcond=_AS_TYPED)
+    off = rows[:, :3].T @ shares - space.length * direction
+    if np.abs(off).max() > _AS_TYPED * space.length or not sizes.size:
+        return None
+    moment = rows[:, 3:].T @ shares
+    free = [each[3:] for each in space.directions]
+    # Of the moments that directions without a line add, the least with this pitch.
+    for each in free:
+        moment = moment - (moment @ each) * each
+    along = np.array([each @ direction for each in free])
+    size = float(along @ along)
+    lacking = pitch - float(moment @ direction)
+    if size > _AS_TYPED**2:
+        moment = moment + lacking / size * sum(a * e for a, e in zip(along, free, strict=True))
+    elif abs(lacking) > _AS_TYPED * space.length:
+        return None
+    return np.concatenate((direction, moment))
+
+
+def _place(result: Result, written: Written) -> FloatArray:
+    word = written.point or ""
+    planar = result.given.planar
+    if word.startswith("("):
+        return numbers(written.text, word, (2, 3) if planar else (3,))
+    parts, kinds = result.parts, result.given.arrays.node_kind
+    named = {
+        node: parts.name_of_point(node)
+        for node in np.flatnonzero(kinds <= NodeKind.POSITION).tolist()
+        if parts.name_of_point(node)
+    }
+    found = [node for node, name in named.items() if name == word]
+    if len(found) == 1:
+        made: FloatArray = result.given.arrays.node_value[:3, found[0]]
+        return made
+    if found:
+        raise model_error("ambiguous-name", f"{len(found)} points are called {in_short(word)}")
+    near = nearest(word, named.values())
+    raise model_error(
+        "no-such-point",
+        f"there is no point called {in_short(word)}, in the wanted motion {in_short(written.text)}",
+        f"did you mean {' or '.join(map(in_short, near))}?" if near else "write it as (x, y, z)",
+    )
+
+
+#: A body whose part in a motion is less stands still.
+_STILL = 1.0e-6
+#: How many declared degrees of freedom are looked at.
+_MOST = 64
+
+
+def declared_of(result: Result, subject: Subject, space: ScrewSpace) -> tuple[Wanted, ...]:
+    """What the declared degrees of freedom make of a body, those that do not move it left out.
+
+    That of a coordinate of the body itself is the translation along it, or the rotation about
+    it, if the body can do that; every other one is the motion in which the others stand still.
+    """
+    made = []
+    left = Freed.as_declared(result)
+    undeclared = left.space(subject) if left.is_known else None
+    for freedom in result.freedoms[:_MOST]:
+        found = _own(result, subject, space, freedom) or _moved(subject, space, freedom, undeclared)
+        if found is not None:
+            made.append(found)
+    return tuple(made)
+
+
+def not_wanted(result: Result, subject: Subject, aim: Aim) -> Change:
+    """Takes the declarations back that move the body otherwise than is wanted."""
+    coordinates, deformations = [], []
+    for freedom in result.freedoms[:_MOST]:
+        moved = _moved(subject, aim.freedom, freedom)
+        if moved is None or not _is_beside(aim, moved.twist):
+            continue
+        kind, number = freedom.owner
+        if kind == "node":
+            coordinates.append((number, freedom.part, Class.DEPENDENT))
+        else:
+            part, element = freedom.place
+            place, own = result.condensed.in_given(element, part + 1)
+            given = int(result.given.arrays.element_number[place])
+            deformations.append((given, own, Class.DEPENDENT))
+    return Change(tuple(deformations), tuple(coordinates))
+
+
+def _is_beside(aim: Aim, twist: FloatArray) -> bool:
+    """Whether a twist has a part in what is unwanted."""
+    row = twist * np.repeat((aim.freedom.length, 1.0), 3)
+    size = float(np.linalg.norm(row))
+    return float(np.linalg.norm(aim.unwanted @ row)) > 1.0e-3 * size
+
+
+def _own(result: Result, subject: Subject, space: ScrewSpace, freedom: Freedom) -> Wanted | None:
+    kind, number = freedom.owner
+    node = result.given.node_index.get(number) if kind == "node" else None
+    if node is None or node not in (*subject.positions, *subject.orientations):
+        return None
+    turns = freedom.part.startswith("r")
+    direction = np.eye(3)["xyz".index(freedom.part[-1])]
+    way = ScrewKind.ROTATION if turns else ScrewKind.TRANSLATION
+    pitch = 0.0 if turns else math.inf
+    written = Written(freedom.label, None, way, direction, None, pitch)
+    made = wanted_of(result, space, written)
+    return _declared(made) if made.is_free else None
+
+
+def _moved(
+    subject: Subject, space: ScrewSpace, freedom: Freedom, undeclared: ScrewSpace | None = None
+) -> Wanted | None:
+    """What a freedom makes of a body beside what it does undeclared; None where that is nothing."""
+    motion = freedom.motion
+    if motion is None:
+        return None
+    velocity = motion.displacement[list(subject.positions)].mean(axis=0)
+    rotation = motion.rotation[list(subject.orientations)].mean(axis=0)
+    most = np.abs(motion.displacement).max() + space.length * np.abs(motion.rotation).max()
+    if undeclared is not None:
+        both = np.concatenate((rotation, velocity))
+        rotation, velocity = np.split(both - undeclared.nearest(both), 2)
+    screw = screw_of(
+        *(rotation, velocity, space.about, space.length), rest=_STILL * most, rounding=_STILL
+    )
+    if not screw:
+        return None
+    twist = space.nearest(np.concatenate((rotation, velocity)))
+    return Wanted(
+        *(freedom.label, screw.kind, screw.direction, screw.point, screw.pitch),
+        *(twist, True, True),
+    )
+
+
+def _declared(one: Wanted) -> Wanted:
+    return Wanted(
+        *(one.text, one.kind, one.direction, one.point, one.pitch, one.twist, one.is_free, True)
     )

@@ -3,24 +3,194 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from ...advice.describe import verdict_in_words
 from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
-from ...analysis.mode_words import conflict_in_words, stress_in_parts
-from ...analysis.motions import internal_in_words, motion_in_parts
-from ...analysis.naming import counted, counts_in_words
+from ...analysis.mode_words import (
+    conflict_in_words,
+    internal_in_words,
+    motion_in_parts,
+    stress_in_parts,
+)
+from ...analysis.naming import Line, Named, Pieces, counted, counts_in_words, plain
 from ...analysis.result import Result
-from ...analysis.sentences import Line, Named, Pieces, plain
-from ...analysis.text_margin import but_only, margin_line
 from ...analysis.verdict import Verdict
-from ...analysis.warnings import warnings_of
-from ...deck.diagnostics import Severity
-from ...util.plain_text import harmless
-from .finding import Finding, Region, Related
-from .lines import Lines
-from .problems import MORE, findings_of, of_diagnostics
+from ...analysis.verdict_words import but_only, margin_line, warnings_of
+from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source, decode
+from ...util.records import cached_property
+from ...util.text import harmless
+from ..editor.deck import Index, Key
+from ..editor.document import Document, Range, units
+from ..editor.statements import Statements
+
+
+def from_root(path: str, environment: Mapping[str, str] = os.environ) -> str:
+    """A path from the root of the repository, or from the working folder.
+
+    The root is what GitHub's runner says, in GITHUB_WORKSPACE; without, the working folder. What
+    lies elsewhere keeps its whole path.
+    """
+    if path.startswith("<"):
+        return path
+    start = environment.get("GITHUB_WORKSPACE") or os.getcwd()
+    try:
+        found = os.path.relpath(os.path.abspath(path), start)
+        if found.split(os.sep)[0] == os.pardir:
+            found = os.path.relpath(os.path.realpath(path), os.path.realpath(start))
+    except (OSError, ValueError):
+        # Another drive, or a name that no file can have.
+        return path.replace(os.sep, "/")
+    if found.split(os.sep)[0] == os.pardir:
+        found = os.path.abspath(path)
+    return found.replace(os.sep, "/")
+
+
+class Region(NamedTuple):
+    """Part of one line: the columns count UTF-16 code units from 1, the last one is not in it."""
+
+    line: int
+    column: int
+    end_column: int
+
+
+class Related(NamedTuple):
+    """Another place of a finding, and what is said of it."""
+
+    region: Region
+    message: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A problem, or a verdict that is not the expected one.
+
+    Attributes:
+        deck: Path of the deck as a person wrote it.
+        code: Short name that stays the same between versions.
+        severity: Error, warning or note.
+        message: What is wrong, in one line or several.
+        region: Where; None where it has no place in the deck.
+        statement: The words of the line that it stands in, without blanks and comments that may
+            change; empty without a place.
+        related: Other places that take part.
+        help: How to mend it; may be empty.
+    """
+
+    deck: str
+    code: str
+    severity: Severity
+    message: str
+    region: Region | None = None
+    statement: str = ""
+    related: tuple[Related, ...] = ()
+    help: str = ""
+
+
+_COMMENTS = "%#"
+
+
+class Lines:
+    """The lines of a deck.
+
+    Attributes:
+        source: The text; None of a deck that cannot be read.
+    """
+
+    def __init__(self, source: Source | None) -> None:
+        """Keep the text; what is read off it is read when it is asked for."""
+        self.source = source
+
+    def text(self, number: int) -> str:
+        """Line 1, 2, ...; empty where there is none."""
+        return decode(self.source.line(number)) if self.source is not None else ""
+
+    def region(self, place: Place) -> Region:
+        """A place in UTF-16 units."""
+        text = self.text(place.line)
+        first = max(place.column, 1)
+        last = max(place.last_column, first)
+        start = units(text[: first - 1], "utf-16") + 1
+        end = start + max(1, units(text[first - 1 : last], "utf-16"))
+        return Region(place.line, start, end)
+
+    def statement(self, number: int) -> str:
+        """The words of a line in capitals, one blank between them, without the comment."""
+        text = self.text(number)
+        mark = min((k for k in map(text.find, _COMMENTS) if k >= 0), default=len(text))
+        return " ".join(text[:mark].split()).upper()
+
+    def definition(self, key: Key) -> Region | None:
+        """Where an element is made or a node gets its place; None where the text does not say."""
+        where = self._index.definition(key) if self._index is not None else []
+        return self._region_of(where[0]) if where else None
+
+    def _region_of(self, range_: Range) -> Region:
+        line, first = range_.start
+        return self.region(Place(line + 1, first + 1, max(range_.end.character, first + 1)))
+
+    @cached_property
+    def _index(self) -> Index | None:
+        if self.source is None:
+            return None
+        # A CR that ends no line is a blank, as for the core.
+        raw = self.source.text.replace(b"\r\n", b"\n").replace(b"\r", b" ")
+        text = "\n".join(map(decode, raw.split(b"\n")))
+        return Index(Statements(Document.of(text)))
+
+
+#: Code of the finding that says how many more there are.
+MORE = "more-problems"
+
+
+def findings_of(deck: str, problems: Problems, source: Source | None) -> list[Finding]:
+    """All problems that were kept, and how many more there are.
+
+    Args:
+        deck: Path of the deck.
+        problems: What was found in it.
+        source: Its text, if it could be read.
+    """
+    made = list(of_diagnostics(deck, problems.kept, source))
+    more = problems.total - len(problems.kept)
+    if more > 0:
+        words = f"{more} more problem{'s' if more > 1 else ''} in this deck"
+        severity = Severity.ERROR if problems.errors else Severity.WARNING
+        made.append(Finding(deck, MORE, severity, words))
+    return made
+
+
+def of_diagnostics(
+    deck: str, diagnostics: Iterable[Diagnostic], source: Source | None
+) -> Iterable[Finding]:
+    """Diagnostics as findings, in their order."""
+    lines = Lines(source)
+    for item in diagnostics:
+        yield _finding(deck, item, lines)
+
+
+def _finding(deck: str, item: Diagnostic, lines: Lines) -> Finding:
+    region: Region | None = None
+    statement, related = "", []
+    if item.line > 0:
+        region = lines.region(Place(item.line, item.column, item.last_column))
+        statement = lines.statement(item.line)
+    if item.other is not None:
+        is_before = item.other < (item.line, item.column)
+        words = "first here" if is_before else "and here"
+        related.append(Related(lines.region(item.other), words))
+    message = harmless(item.message)
+    if item.label:
+        message = f"{message}: {harmless(item.label)}"
+    return Finding(
+        *(deck, item.code, item.severity, message, region, statement),
+        tuple(related),
+        harmless(item.help),
+    )
+
 
 UNDER, OVER = "under-constrained", "over-constrained"
 MARGINAL, OTHERWISE = "small-margin", "not-as-expected"

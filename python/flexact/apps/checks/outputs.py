@@ -6,9 +6,11 @@ The form is that of "Workflow commands for GitHub Actions" in GitHub's documenta
 
 from __future__ import annotations
 
-from ...deck.diagnostics import Severity
-from .finding import Finding
-from .paths import from_root
+from typing import Any
+
+from ...deck.diagnostics import Diagnostic, Place, Problems, Severity
+from ...util.loading import VERSION
+from .findings import Finding, from_root
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
 
@@ -40,3 +42,37 @@ def _data(text: str) -> str:
 def _property(text: str) -> str:
     """The value of an entry, which commas and colons would end."""
     return _data(text).replace(":", "%3A").replace(",", "%2C")
+
+
+#: Of the JSON; see `docs/command.md` for when it is raised.
+FORMAT = 1
+
+
+def dictionary_of(deck: str, problems: Problems) -> dict[str, Any]:
+    """The names and values of the object of a deck, in their order."""
+    return {
+        "format": FORMAT,
+        "deck": deck,
+        "flexact": VERSION,
+        "errors": problems.errors,
+        "warnings": problems.warnings,
+        "notes": problems.notes,
+        "diagnostics": [_diagnostic(item) for item in problems.kept],
+    }
+
+
+def _diagnostic(item: Diagnostic) -> dict[str, Any]:
+    return {
+        "code": item.code,
+        "severity": item.severity.value,
+        "message": item.message,
+        **_place(Place(item.line, item.column, item.last_column)),
+        "label": item.label,
+        "help": item.help,
+        "other": None if item.other is None else _place(item.other),
+    }
+
+
+def _place(place: Place) -> dict[str, int]:
+    line, first, last = place
+    return {"line": line, "column": first, "end_column": max(first, last) + 1 if line else 0}

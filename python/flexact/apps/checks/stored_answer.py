@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import re
+import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,13 +21,72 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.result import Result
-from ...analysis.result_sparse_basis import support_of
-from ...core.arrays import FloatArray
-from ...core.basis import Basis
-from ...model.labels import column_labels, row_labels
+from ...analysis.sparse_basis import support_of
+from ...core.arrays import Basis, FloatArray
+from ...model.attributes import column_labels, row_labels
 from ...util.errors import BatchError, reason_of
-from ...util.version import VERSION
-from .projections import VECTORS, Images, fixed_vectors, project
+from ...util.loading import VERSION
+
+#: Number of the fixed vectors.
+VECTORS = 3
+#: When the equations of a projection count as solved, and how long that may take.
+_SOLVED = 1.0e-14
+_MOST_STEPS = 500
+
+
+@dataclass(frozen=True)
+class Images:
+    """The images of the fixed vectors under an orthogonal projector.
+
+    Attributes:
+        labels: What each row is; labels that are left out stand for zeros.
+        values: (labels, VECTORS).
+    """
+
+    labels: tuple[str, ...]
+    values: FloatArray
+
+
+def fixed_vectors(labels: Sequence[str]) -> FloatArray:
+    """(labels, VECTORS) numbers between -1 and 1 that follow from the labels alone."""
+    made = np.empty((len(labels), VECTORS))
+    for k in range(VECTORS):
+        made[:, k] = [zlib.crc32(f"{k}/{label}".encode()) for label in labels]
+    return made / 2.0**31 - 1.0
+
+
+def project(basis: Basis, vectors: FloatArray) -> FloatArray:
+    """(size, p) orthogonal projections of vectors onto the span of a basis.
+
+    The basis need not be orthonormal: B (B'B)^-1 B' is applied by conjugate gradients
+    (Hestenes and Stiefel 1952), which take one step where it is.
+    """
+    of_entry = basis.of_entries()
+
+    def combine(factors: FloatArray) -> FloatArray:
+        sums = np.bincount(basis.place, basis.value * factors[of_entry], basis.size)
+        return np.asarray(sums, np.float64)
+
+    def products(vector: FloatArray) -> FloatArray:
+        sums = np.bincount(of_entry, basis.value * vector[basis.place], basis.vectors)
+        return np.asarray(sums, np.float64)
+
+    made = np.zeros((basis.size, vectors.shape[1]))
+    for k in range(vectors.shape[1]):
+        rest = products(vectors[:, k])
+        direction, square = rest, rest @ rest
+        least = _SOLVED**2 * square
+        for _ in range(_MOST_STEPS):
+            if not square > least:
+                break
+            change = combine(direction)
+            step = square / (change @ change)
+            made[:, k] += step * change
+            rest = rest - step * products(change)
+            before, square = square, rest @ rest
+            direction = rest + square / before * direction
+    return made
+
 
 FORMAT = 1
 #: Projectors that reach more labels than this are kept by their images.

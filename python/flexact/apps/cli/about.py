@@ -16,16 +16,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ...analysis.failing import AnalysisError
 from ...analysis.result import Result, result_of
 from ...analysis.spaces import asked_for
+from ...analysis.verdict import AnalysisError
 from ...core import calls
 from ...model.reading import read_bytes
-from ...util import memory
-from ...util.loading import load
-from ...util.plain_text import harmless
-from ...util.processors import processors
-from ...util.version import VERSION
+from ...util import machine as memory
+from ...util.loading import VERSION, load
+from ...util.machine import processors
+from ...util.text import harmless
 
 #: Extras that users have no need of.
 _OF_DEVELOPERS = {"test", "lint", "bench"}

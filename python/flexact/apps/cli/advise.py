@@ -9,24 +9,31 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ...advice.advising import Advice
+from ...advice.advice import Advice, advice_of
+from ...advice.json import line_of
 from ...advice.proposal import After, tried
 from ...advice.steps import together
+from ...advice.words import describe
 from ...analysis.change import Change
-from ...analysis.naming import counts_in_words
+from ...analysis.naming import Pieces, counts_in_words
 from ...analysis.places import listed
-from ...analysis.sentences import Pieces
 from ...analysis.verdict import Verdict
-from ...deck.errors import ModelError
+from ...analysis.verdict_words import verdict_word
+from ...deck.rendering import ModelError
 from ...model.editing import edited_deck
 from ...show.picture import STILLS, SUFFIXES
 from ...show.saving import PAGES
-from ...util.decks import DeckFile
+from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
+from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import STDOUT, plan_file, write_together
-from ...util.plain_text import harmless
+from ...util.text import harmless
+from .decks import add_accuracy, add_decision, add_decks, read_and_analysed, take
+from .help_texts import add_examples
+from .outcome import ExitCode, Outcome
 from .targets import plan_deck, write_text
+from .terminal import Bar, complain, give, say, text_width
 
 _STEP = re.compile(r"([1-9]\d{0,8})(?:\.([1-9]\d{0,8}))?")
 
@@ -182,3 +189,105 @@ def _there(advice: Advice) -> str:
     if advice.analysis.verdict is Verdict.EXACT:
         return "it is exactly constrained, and there is nothing to mend"
     return "nothing was found that would mend this mechanism"
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Say what is wrong with mechanisms and why, and how to mend it: every step was analysed "
+        "before it is shown."
+    )
+    add_decks(parser)
+    parser.add_argument(
+        "--body", metavar="NAME", help="the body whose freedom and constraint are looked at"
+    )
+    parser.add_argument(
+        "--wanted",
+        action="append",
+        default=[],
+        metavar="MOTION",
+        help='what is meant to move, such as "stage: translation z"; may be repeated',
+    )
+    parser.add_argument(
+        "--bodies",
+        action="store_true",
+        help="release insides of rigid bodies, too, where anything else does it as well",
+    )
+    parser.add_argument("--json", action="store_true", help="one JSON object a line on stdout")
+    parser.add_argument(
+        "--apply",
+        type=chosen_steps,
+        metavar="K",
+        help="take step K, or several, such as 1,8; K.2, K.3, ... take the alternatives that "
+        "symmetry gives it",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="with --apply the changed deck, - for stdout; or a page (.html) of before and after; "
+        "or a picture (.png, .svg, .pdf) of the freedom and the constraint of the body",
+    )
+    add_decision(parser)
+    add_accuracy(parser)
+    add_examples(
+        parser,
+        (
+            "What is wrong, and steps that mend it",
+            "flexact advise input_decks/flexures/parallel_guide.dat",
+        ),
+        (
+            "The deck that step 1 makes",
+            "flexact advise input_decks/flexures/parallel_guide.dat --apply 1 "
+            "-o results/mended.dat",
+        ),
+        (
+            "A page of before and after",
+            "flexact advise input_decks/flexures/parallel_guide.dat -o results/mended.html",
+        ),
+    )
+    parser.set_defaults(run=advise_decks)
+
+
+def advise_decks(chosen: argparse.Namespace) -> ExitCode:
+    """Advise on the decks that were asked for."""
+    decks = find_decks(chosen.decks)
+    return take(decks, _Work(chosen, decks).step, as_json=chosen.json)
+
+
+class _Work:
+    """One run of the verb: what was chosen, and what is done with each deck."""
+
+    def __init__(self, chosen: argparse.Namespace, decks: tuple[DeckFile, ...]) -> None:
+        """Find out what is wrong with the choice before anything is analysed."""
+        self.chosen = chosen
+        self.file = AdviceFile(chosen.output, chosen.apply)
+        self.file.plan(decks)
+        if self.file.to_stdout and chosen.json:
+            raise BatchError("--json and -o - both go to standard output: choose one")
+
+    def step(self, deck: DeckFile) -> Outcome:
+        """Advise on one deck, say and write it."""
+        with Bar(deck.name, deck.path) as bar:
+            result = read_and_analysed(deck, self.chosen, bar)
+            try:
+                asked = self.chosen
+                advice = advice_of(result, asked.body, asked.wanted, asked.bodies)
+                advice.found(bar.show_work)
+                with unwinding():
+                    written = self.file.write(advice)
+            except ModelError as error:
+                raise in_short(error) from None
+            words = "" if written and not self.chosen.json else self._words(advice)
+        if words:
+            give(words) if self.chosen.json else say(words)
+        if written:
+            complain(written) if self.chosen.json or self.file.to_stdout else say(written)
+        return Outcome(deck.name, ExitCode.ANALYSED, verdict_word(result))
+
+    def _words(self, advice: Advice) -> str:
+        if self.chosen.json:
+            text: str = load("json").dumps(line_of(advice), allow_nan=False)
+            return text
+        return f"{describe(advice, width=text_width())}\n"

@@ -7,31 +7,111 @@ import argparse
 import re
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...advice.describe import MOST_MODES, describe, verdict_in_words
 from ...analysis.result import Result
-from ...analysis.text_margin import verdict_word
 from ...analysis.verdict import Verdict
+from ...analysis.verdict_words import verdict_word
+from ...deck.rendering import DeckError
+from ...model.reading import read_deck
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.loading import load
 from ...util.partial import attempted
-from ...util.plain_text import harmless
-from . import colour, failures
-from .bar import Bar
-from .cli_decks import add_decks, take
-from .decks import add_accuracy, add_decision, read_and_analysed
-from .findings import TEXT, Findings, add_format, require_one_form
+from ...util.text import harmless
+from . import decks as failures
+from . import terminal as colour
+from .decks import add_accuracy, add_decision, add_decks, read_and_analysed, report_problems, take
 from .help_texts import add_examples
-from .mesh_format import add_mesh
 from .outcome import ExitCode, Outcome
 from .summary import TABLES, Analysed, add_summary, is_table
-from .targets import folder_or
-from .terminal import complain, give, is_coloured, say, text_width
+from .targets import FormatOrMesh, FormsOrMeshes, add_mesh, folder_or
+from .terminal import Bar, complain, give, is_coloured, say, text_width
 
 if TYPE_CHECKING:
-    from .result_files import ResultFiles
+    from .targets import ResultFiles
+
+
+TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
+
+
+def add_format(parser: argparse.ArgumentParser, *, was_mesh: bool = False) -> None:
+    """Add to a verb's parser for whom it writes.
+
+    Args:
+        parser: The parser.
+        was_mesh: Whether the option stood for what is `--mesh` now.
+    """
+    parser.add_argument(
+        "--format",
+        action=FormatOrMesh if was_mesh else "store",
+        choices=FormsOrMeshes(FORMS) if was_mesh else FORMS,
+        default=TEXT,
+        help="words for people (default), annotations of a GitHub workflow, or SARIF 2.1.0",
+    )
+
+
+def require_one_form(chosen: argparse.Namespace) -> None:
+    """Raise where several options say what stdout holds.
+
+    Raises:
+        BatchError: They do.
+    """
+    given = [f"--{name}" for name in ("summary", "json", "log") if getattr(chosen, name, None)]
+    if chosen.format != TEXT:
+        given.append(f"--format {chosen.format}")
+    if "--summary" in given and len(given) > 1:
+        raise BatchError(f"--summary is in place of {given[1]}; choose one")
+    if len(given) > 1 and not ("--log" in given and chosen.output):
+        mend = ", or give -o DIR for the log" if "--log" in given else ""
+        raise BatchError(f"{given[0]} and {given[1]} both go to stdout: choose one{mend}")
+
+
+class Findings:
+    """Writes what is found: annotations deck by deck, SARIF when all decks are done."""
+
+    def __init__(self, form: str) -> None:
+        """Keep the form, one of `FORMS` that is for programs."""
+        self._form = form
+        self._kept: list[Any] = []
+
+    def checked(self, deck: DeckFile) -> Outcome:
+        """Read a deck, and write its problems."""
+        model = read_deck(deck)
+        report_problems(model)
+        module = load("flexact.apps.checks.findings")
+        self._add(module.findings_of(deck.name, model.problems, model.source))
+        return Outcome(deck.name, ExitCode.ANALYSED, "without errors")
+
+    def analysed(self, deck: DeckFile, result: Result, expected: Verdict | None) -> None:
+        """Write what is found in a deck that was analysed."""
+        module = load("flexact.apps.checks.findings")
+        self._add(module.findings_about(deck.name, result, expected))
+
+    def failed(self, deck: DeckFile, error: Exception) -> None:
+        """Write why a deck failed."""
+        source = error.source if isinstance(error, DeckError) else None
+        module = load("flexact.apps.checks.findings")
+        self._add(module.findings_of(deck.name, failures.problems_of(error), source))
+
+    def _add(self, findings: list[Any]) -> None:
+        if self._form == SARIF:
+            self._kept += findings
+            return
+        lines = map(load("flexact.apps.checks.outputs").annotation, findings)
+        if text := "\n".join(lines):
+            give(text)
+
+    def finish(self, code: ExitCode) -> ExitCode:
+        """Write what waits until all decks are done; gives back the code."""
+        if self._form == SARIF:
+            ended_well = code is not ExitCode.OTHER
+            module = load("flexact.apps.checks.sarif")
+            log = module.log_of(self._kept, int(code), ended_well=ended_well)
+            give(load("json").dumps(log, indent=1))
+        return code
+
 
 VERDICTS = {verdict.word: verdict for verdict in Verdict}
 #: Forms of logs beside that of Flexact.
@@ -121,7 +201,7 @@ class _Work:
         self.files: ResultFiles | None = None
         self.findings = None if chosen.format == TEXT else Findings(chosen.format)
         if chosen.output and not is_table(chosen.output):
-            module = load("flexact.apps.cli.result_files")
+            module = load("flexact.apps.cli.targets")
             self.files = module.ResultFiles(
                 decks, chosen.output, chosen.mesh or "vtu", log=chosen.log
             )
@@ -162,7 +242,7 @@ class _Work:
     def _words(self, analysis: Result) -> tuple[str, bool]:
         """What is said, and whether it is data."""
         if self.chosen.json:
-            return load("flexact.analysis.json_result").text_of(analysis), True
+            return load("flexact.analysis.json").text_of(analysis), True
         if self.chosen.log and not self.files:
             return load("flexact.show.spacar_log").spacar_log(analysis), True
         # What concerns the deck stands on stderr already.

@@ -15,20 +15,15 @@ from ...sweeps.journal import Journal, JournalError
 from ...sweeps.writing import require_table
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
-from ...util.loading import load
+from ...util.loading import VERSION, load
+from ...util.machine import processors
 from ...util.outputs import STDOUT, OutputError, plan_file, require_replaceable
-from ...util.processors import processors
-from ...util.version import VERSION
-from .batch_outputs import Outputs
-from .batch_run import BatchRun
-from .batch_work import Work
-from .cli_decks import add_decks
-from .decks import add_accuracy, add_decision
+from .batch_run import BatchRun, Outputs, Work
+from .command import add_renamed
+from .decks import add_accuracy, add_decision, add_decks
 from .help_texts import add_examples
-from .mesh_format import add_mesh
 from .outcome import ExitCode
-from .renamed import add_renamed
-from .targets import folder
+from .targets import add_mesh, folder
 from .terminal import complain, say
 from .workers import add_workers
 

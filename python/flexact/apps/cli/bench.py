@@ -7,13 +7,11 @@ import argparse
 import contextlib
 import os
 
-from ...util.loading import load
-from ...util.processors import processors
-from ...util.version import VERSION
-from .bar import Bar
+from ...util.loading import VERSION, load
+from ...util.machine import processors
 from .help_texts import add_examples
 from .outcome import ExitCode
-from .terminal import complain, give, say
+from .terminal import Bar, complain, give, say
 
 #: Of the JSON; see `docs/command.md` for when it is raised.
 FORMAT = 1
@@ -41,7 +39,7 @@ def fill(parser: argparse.ArgumentParser) -> None:
 
 def bench(chosen: argparse.Namespace) -> ExitCode:
     """Measure, and say what was measured as it comes."""
-    module, words = load("flexact.apps.checks.bench"), load("flexact.apps.checks.words")
+    module, words = load("flexact.apps.checks.bench"), load("flexact.apps.checks.bench")
     machine = [*load("flexact.apps.cli.about").of_machine(), *_load()]
     threads = (1,) if processors() < 2 else (1, 2)
     if not chosen.json:

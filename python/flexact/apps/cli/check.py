@@ -7,19 +7,17 @@ import argparse
 from dataclasses import replace
 
 from ...deck.diagnostics import Problems
-from ...deck.errors import DeckError
+from ...deck.rendering import DeckError
 from ...model.reading import read_deck
 from ...util.decks import DeckFile, find_decks
 from ...util.loading import load
-from ...util.plain_text import harmless
-from . import failures
-from .cli_decks import add_decks, take
-from .decks import report_problems
-from .findings import TEXT, Findings, add_format, require_one_form
+from ...util.text import harmless
+from . import decks as failures
+from .analyse import TEXT, Findings, add_format, require_one_form
+from .decks import add_decks, report_problems, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .summary import Told, add_summary, failed, summarise
-from .summary_table import Cells
+from .summary import Cells, Told, add_summary, failed, summarise
 from .terminal import give, say
 
 
@@ -99,5 +97,5 @@ def _object_of_failure(deck: DeckFile, error: Exception) -> None:
 
 
 def _give(deck: DeckFile, problems: Problems) -> None:
-    made = load("flexact.apps.checks.check_json").dictionary_of(deck.name, problems)
+    made = load("flexact.apps.checks.outputs").dictionary_of(deck.name, problems)
     give(load("json").dumps(made))

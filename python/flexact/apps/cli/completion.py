@@ -3,11 +3,50 @@
 
 from __future__ import annotations
 
+import argparse
 import re
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from ...util.decks import SUFFIX
-from .shell_words import OptionWords, VerbWords
+from .command import VERBS
+from .help_texts import add_examples
+from .outcome import ExitCode
+from .terminal import give
+
+
+class OptionWords(NamedTuple):
+    """An option."""
+
+    names: tuple[str, ...]
+    """Such as -o and --output."""
+    about: str
+    """What help says of it."""
+    has_value: bool
+    choices: tuple[str, ...]
+    """Values that it may have; empty where there are no few."""
+    kind: str
+    """Of its value: file, folder, deck, or nothing."""
+    value: str
+    """What help calls its value."""
+
+
+class VerbWords(NamedTuple):
+    """A verb."""
+
+    name: str
+    about: str
+    options: tuple[OptionWords, ...]
+    choices: tuple[str, ...]
+    """What its argument may be; empty where there are no few."""
+    kind: str
+    """Of its arguments, as of an option's value."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all options."""
+        return tuple(name for option in self.options for name in option.names)
+
 
 _BASH_HEAD = """\
 # Completion of flexact for bash.
@@ -190,3 +229,72 @@ def _quoted_for_fish(text: str) -> str:
 
 
 SCRIPTS = {"bash": bash_script, "zsh": zsh_script, "fish": fish_script}
+
+
+SHELLS = ("bash", "zsh", "fish")
+#: What the values of options and arguments are, by what help calls them.
+_FILES, _FOLDERS = ("FILE", "PAGE", "TABLE"), ("DIR",)
+
+
+def fill(parser: argparse.ArgumentParser) -> None:
+    """Give the verb its description and arguments."""
+    parser.description = (
+        "Write a script by which a shell completes verbs, options, their values, and decks. It is "
+        "made from this version's own options: make it anew after an update, or let each shell "
+        "make it when it starts, as in the examples."
+    )
+    parser.add_argument("shell", choices=SHELLS, metavar="SHELL", help=", ".join(SHELLS))
+    add_examples(
+        parser,
+        ("For bash, in ~/.bashrc", 'eval "$(flexact completion bash)"'),
+        ("For zsh, in ~/.zshrc behind compinit", 'eval "$(flexact completion zsh)"'),
+        ("For fish, in ~/.config/fish/config.fish", "flexact completion fish | source"),
+    )
+    parser.set_defaults(run=complete)
+
+
+def complete(chosen: argparse.Namespace) -> ExitCode:
+    """Print the script of a shell."""
+    verbs = [words_of(verb, chosen.parser_of(verb)) for verb in VERBS]
+    # Those of the command itself.
+    give(SCRIPTS[chosen.shell](words_of("", chosen.parser_of("")), verbs).removesuffix("\n"))
+    return ExitCode.ANALYSED
+
+
+def words_of(verb: str, parser: argparse.ArgumentParser) -> VerbWords:
+    """The words of a verb; of the command itself where it is empty."""
+    options: list[OptionWords] = []
+    choices: tuple[str, ...] = ()
+    takes = ""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction) or action.help == argparse.SUPPRESS:
+            continue
+        if not action.option_strings:
+            choices = tuple(map(str, action.choices or ()))
+            takes = takes or _kind(action)
+            continue
+        options.append(
+            OptionWords(
+                tuple(action.option_strings),
+                _plain(action),
+                action.nargs != 0,
+                tuple(map(str, action.choices or ())),
+                _kind(action),
+                str(action.metavar or action.dest),
+            )
+        )
+    return VerbWords(verb, VERBS.get(verb, ""), tuple(options), choices, takes)
+
+
+def _kind(action: argparse.Action) -> str:
+    """What a value names: a deck, a file, a folder, or nothing that stands in folders."""
+    if action.metavar == "DECK":
+        return "deck"
+    if action.metavar in _FILES:
+        return "file"
+    return "folder" if action.metavar in _FOLDERS else ""
+
+
+def _plain(action: argparse.Action) -> str:
+    """What help says of an option, in a line."""
+    return (action.help or "") % {"prog": "flexact", "default": action.default}

@@ -7,14 +7,13 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ...deck.errors import ProblemsError
-from ...deck.rendering import render
+from ...deck.rendering import ProblemsError, render
 from ...util.decks import STDIN, DeckFile, find_decks
 from ...util.errors import BatchError, FlexactError
 from ...util.outputs import STDOUT
-from ...util.plain_text import harmless
+from ...util.text import harmless
 from ..convert.files import Format, bytes_of, form_of_content, format_of, read_any, read_content
-from ..convert.mesh_data import KINDS
+from ..convert.mesh_files import KINDS
 from ..convert.tables import FLEXIBLE
 from .decks import report_problems
 from .help_texts import add_examples

@@ -7,26 +7,22 @@ import argparse
 import re
 from pathlib import Path
 
-from ...costs.asking import AskedError
+from ...costs.compute import cost_of
 from ...costs.cost import Cost
-from ...costs.making import cost_of
-from ...costs.request import DRIVE, HELD, POINTS, Asked
+from ...costs.request import DRIVE, HELD, POINTS, WIDTH, Asked, AskedError
 from ...costs.saving import content_of, require_suffix, save
-from ...costs.told import WIDTH
 from ...costs.words import describe
-from ...deck.errors import ModelError, ProblemsError
+from ...deck.rendering import ModelError, ProblemsError
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file
-from ...util.plain_text import harmless
-from .bar import Bar
-from .cli_decks import take
-from .decks import opened, report_problems
+from ...util.text import harmless
+from .decks import opened, report_problems, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .showing import number, one_deck
-from .terminal import complain, give, put, say, text_width
+from .targets import number, one_deck
+from .terminal import Bar, complain, give, put, say, text_width
 
 #: What argparse takes for a value although it begins with a minus, such as -5% or -50um.
 _NEGATIVE = re.compile(r"-\.?\d.*")

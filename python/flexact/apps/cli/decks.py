@@ -7,20 +7,208 @@ import argparse
 import math
 import sys
 import time
+from collections import Counter
+from collections.abc import Callable, Sequence
 
-from ...analysis.accuracy import Accuracy
+from ...analysis.decomposition import Accuracy
 from ...analysis.result import Result, result_of
 from ...analysis.spaces import asked_for
 from ...core.calls import METHODS
-from ...deck.rendering import render_problems
+from ...deck.diagnostics import Diagnostic, Problems, Severity
+from ...deck.rendering import DeckError, render_problems
 from ...model.data import ModelData
 from ...model.reading import read_deck
-from ...util import memory
-from ...util.decks import DeckFile
-from ...util.plain_text import harmless
+from ...util import machine as memory
+from ...util.decks import SUFFIX, DeckFile, FolderError
+from ...util.errors import BatchError, FlexactError
+from ...util.loading import load
+from ...util.partial import why
 from ...util.quantities import quantity
-from .bar import Bar
-from .terminal import columns_of, complain, is_verbose
+from ...util.text import harmless
+from .outcome import ExitCode, Outcome, exit_code
+from .terminal import (
+    Bar,
+    ResultsError,
+    columns_of,
+    complain,
+    end_progress,
+    give,
+    is_verbose,
+    say,
+    show_progress,
+)
+
+_MEMORY = "out-of-memory"
+#: Failures that are none of the deck's.
+CODES = {
+    "AnalysisError": "not-analysed",
+    "OutputError": "not-written",
+    "MeshFormatError": "not-written",
+    "MemoryError": _MEMORY,
+    "UnforeseenError": "unforeseen",
+}
+#: Codes of problems with a file that are not about what is stated in it.
+NOT_READ = {
+    "cannot-read",
+    "is-a-folder",
+    "no-such-file",
+    "not-a-file",
+    "not-text",
+    "too-large",
+    _MEMORY,
+}
+
+
+class UnforeseenError(BatchError):
+    """One deck over which this program stumbles, which shall not cost the others."""
+
+
+def foreseen(error: Exception) -> Exception:
+    """An error that is raised on purpose: itself, or what stands for a mistake of Flexact's own.
+
+    Raises:
+        BrokenPipeError: Nobody reads on, so that going on has no use.
+        ResultsError: Likewise.
+        Exception: A mistake of Flexact's own, in tests (`flexact.util.partial`).
+    """
+    if isinstance(error, (BrokenPipeError, ResultsError)):
+        raise error
+    if isinstance(error, (FlexactError, MemoryError)):
+        return error
+    return UnforeseenError(why(error))
+
+
+def report(deck: DeckFile, error: Exception, *, as_json: bool) -> Outcome:
+    """Report why a deck failed: rendered on stderr, and as one JSON line on stdout if asked."""
+    report_failure(deck, error)
+    if as_json:
+        problems = problems_of(error)
+        records = [each.to_dict() for each in problems.kept if each.is_error]
+        failure = {"diagnostics": records, "errors": problems.errors}
+        # Loaded where it is wanted: a command that starts does not wait for it.
+        head = load("flexact.analysis.json").header(deck.name)
+        give(load("json").dumps({**head, "error": failure}))
+    return outcome_of(deck, error)
+
+
+def outcome_of(deck: DeckFile, error: Exception) -> Outcome:
+    """What the command makes of a deck's failure."""
+    is_other = type(error).__name__ in CODES or _MEMORY in _codes(error)
+    code = ExitCode.OTHER if is_other else ExitCode.DECK_ERROR
+    return Outcome(deck.name, code, "failed", _remark(error))
+
+
+def report_failure(deck: DeckFile, error: Exception) -> None:
+    """Report on stderr why a deck failed."""
+    if isinstance(error, DeckError):
+        width = columns_of(sys.stderr)
+        complain(render_problems(error.problems, error.name, error.source, width))
+    elif isinstance(error, FolderError):
+        complain(_reason(error))
+    else:
+        complain(f"{harmless(deck.name)}: error: {_reason(error)}")
+
+
+def _remark(error: Exception) -> str:
+    if isinstance(error, FolderError):
+        return error.remark
+    if not isinstance(error, DeckError):
+        return "failed"
+    return "cannot be read" if _codes(error) & NOT_READ else ""
+
+
+def _codes(error: Exception) -> set[str]:
+    return {each.code for each in error.diagnostics} if isinstance(error, DeckError) else set()
+
+
+def _reason(error: Exception) -> str:
+    words = "not enough memory" if isinstance(error, MemoryError) else repr(error)
+    return harmless(str(error) or words)
+
+
+def problems_of(error: Exception) -> Problems:
+    """Why a deck failed, as problems: those of the deck, else one without a place."""
+    if isinstance(error, DeckError):
+        return error.problems
+    code = getattr(error, "code", CODES.get(type(error).__name__, "failed"))
+    return Problems.of([Diagnostic(Severity.ERROR, code, _reason(error))])
+
+
+REMARKS = {
+    ExitCode.OTHER: "failed",
+    ExitCode.DECK_ERROR: "deck with errors",
+    ExitCode.DIFFERENT: "not as expected",
+}
+
+
+def add_decks(parser: argparse.ArgumentParser) -> None:
+    """Add the decks to a verb's parser."""
+    parser.add_argument(
+        "decks", nargs="+", metavar="DECK", help=f"a deck, a folder of *{SUFFIX}, or - for stdin"
+    )
+
+
+def take(
+    decks: Sequence[DeckFile],
+    step: Callable[[DeckFile], Outcome],
+    *,
+    as_json: bool = False,
+    on_failure: Callable[[DeckFile, Exception], None] | None = None,
+) -> ExitCode:
+    """Take one deck after the other through `step`; a failing deck does not stop the rest.
+
+    Args:
+        decks: The decks.
+        step: What is done with a deck; whatever it raises is told, and the next one is taken.
+        as_json: Whether stdout is for JSON alone.
+        on_failure: Says on stdout why a deck failed, in a form for programs, which stdout is for
+            then.
+
+    Returns:
+        The exit code of the command.
+    """
+    outcomes = []
+    for number, deck in enumerate(decks, start=1):
+        show_progress(number, len(decks), deck.name)
+        outcomes.append(_attempt(deck, step, as_json, on_failure))
+    end_progress()
+    if text := summarise(outcomes):
+        complain(text) if as_json or on_failure else say(text)
+    return exit_code(outcomes)
+
+
+def _attempt(
+    deck: DeckFile,
+    step: Callable[[DeckFile], Outcome],
+    as_json: bool,
+    on_failure: Callable[[DeckFile, Exception], None] | None,
+) -> Outcome:
+    try:
+        if deck.error is not None:
+            raise deck.error
+        return step(deck)
+    except Exception as unforeseen:
+        error = foreseen(unforeseen)
+        outcome = report(deck, error, as_json=as_json)
+        if on_failure is not None:
+            on_failure(deck, error)
+        return outcome
+
+
+def summarise(outcomes: Sequence[Outcome]) -> str:
+    """How many decks gave what, and which of them want attention; empty for a single deck."""
+    if len(outcomes) < 2:
+        return ""
+    counts = Counter(outcome.result for outcome in outcomes)
+    parts = ", ".join(f"{count} {result}" for result, count in counts.most_common())
+    lines = [f"{len(outcomes)} decks: {parts}"]
+    lines += [
+        f"  {outcome.remark or REMARKS[outcome.code]}: {harmless(outcome.deck)}"
+        for outcome in outcomes
+        if outcome.code is not ExitCode.ANALYSED
+    ]
+    return "\n".join(lines)
+
 
 #: From this number of rows and columns on, people wait for the decomposition.
 LONG_WAIT = 2000

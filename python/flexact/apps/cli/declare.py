@@ -7,17 +7,15 @@ import argparse
 from pathlib import Path
 
 from ...model.model import Model
-from ...model.parts.declaring import surplus_of
+from ...model.parts.parts import surplus_of
 from ...model.reading import read_deck
 from ...util.decks import DeckFile
 from ...util.outputs import STDOUT
-from ...util.plain_text import harmless
-from .cli_decks import take
-from .decks import report_problems
+from ...util.text import harmless
+from .decks import report_problems, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .showing import add_deck, one_deck
-from .targets import plan_deck, write_text
+from .targets import add_deck, one_deck, plan_deck, write_text
 from .terminal import complain, say
 
 

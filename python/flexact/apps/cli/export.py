@@ -9,21 +9,17 @@ from pathlib import Path
 
 from ...analysis.naming import motion_in_words
 from ...show.drawing.selection import select_motion
-from ...show.mesh.collection import SUFFIX, folder_of
-from ...show.mesh.cycle import ENDINGS, STEM
-from ...show.mesh.writing import mesh_writer
+from ...show.mesh.collection import ENDINGS, STEM, SUFFIX, folder_of, mesh_writer
 from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file, plan_files
 from ...util.partial import attempted
-from ...util.plain_text import harmless
-from .bar import Bar
-from .cli_decks import take
-from .decks import add_decision, read_and_analysed
+from ...util.text import harmless
+from .decks import add_decision, read_and_analysed, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .showing import add_deck, add_shown, one_deck
-from .terminal import complain, say
+from .targets import add_deck, add_shown, one_deck
+from .terminal import Bar, complain, say
 
 
 def fill(parser: argparse.ArgumentParser) -> None:

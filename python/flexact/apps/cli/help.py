@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import argparse
 
+from .command import VERBS
 from .help_texts import add_examples
 from .outcome import ExitCode
-from .verbs import VERBS
 
 
 def fill(parser: argparse.ArgumentParser) -> None:

@@ -8,7 +8,7 @@ import os
 import sys
 import threading
 
-from ...advice.advising import advice_of
+from ...advice.advice import advice_of
 from ...util.errors import BatchError
 from ...util.loading import load
 from .help_texts import add_examples

@@ -11,14 +11,12 @@ from ...show.picture.subject import refuse_zero
 from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file, write_together
-from ...util.plain_text import harmless
-from .bar import Bar
-from .cli_decks import take
-from .decks import add_accuracy, add_decision, read_and_analysed
+from ...util.text import harmless
+from .decks import add_accuracy, add_decision, read_and_analysed, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .showing import add_deck, add_shown, number, one_deck
-from .terminal import say
+from .targets import add_deck, add_shown, number, one_deck
+from .terminal import Bar, say
 
 _QUANTITIES = ("normal-force", "twist-moment", "in-plane-moment", "out-of-plane-moment")
 

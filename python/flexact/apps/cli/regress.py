@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ...analysis.failing import AnalysisError
+from ...analysis.verdict import AnalysisError
 from ...core.progress import Progress
 from ...model.data import ModelData
 from ...util.decks import DeckFile, find_decks
@@ -18,19 +20,60 @@ from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.loading import load
 from ...util.outputs import OutputError, plan_file, plan_files, write_together
-from ...util.plain_text import harmless
-from ..checks.comparison import Finding, Question, State, answer_place, case_of
-from . import failures
-from .bar import Bar
-from .cli_decks import add_decks
-from .decks import add_method, announce_wait, tolerance
+from ...util.text import harmless
+from ..checks.comparison import Finding, Question, State, answer_place, case_of, reasons
+from . import decks as failures
+from .command import add_renamed
+from .decks import add_decks, add_method, announce_wait, tolerance
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome, exit_code
-from .regress_summary import summary
-from .renamed import add_renamed
 from .targets import file, folder
-from .terminal import end_progress, say, show_progress
+from .terminal import Bar, end_progress, say, show_progress
 from .workers import add_workers, in_order
+
+#: So many decks of a kind are named; what came of each stands above.
+_MOST_NAMED = 20
+
+_Found = Sequence[tuple[DeckFile, Finding]]
+
+
+def summary(found: _Found, chosen: argparse.Namespace) -> str:
+    """How many decks gave what, the worst first, and how new answers are stored."""
+    counts = Counter(finding.state for _, finding in found)
+    parts = [f"{counts[state]} {state.value}" for state in State if counts[state]]
+    lines = [f"{len(found)} decks: {', '.join(parts)}"]
+    for state in (State.DIFFERENT, State.FAILED, State.MISSING):
+        lines += _of(state, [pair for pair in found if pair[1].state is state])
+    if counts[State.DIFFERENT] or counts[State.MISSING]:
+        lines += ["To store the new answers, once they are right:", f"  {_command(chosen)}"]
+    return "\n".join(lines)
+
+
+def _of(state: State, found: _Found) -> Iterator[str]:
+    if not found:
+        return
+    worst = sorted(found, key=lambda pair: (-pair[1].gravity, -len(pair[1].differences)))
+    first = state.value[0].upper() + state.value[1:]
+    yield f"{first}{', the worst first' if state is State.DIFFERENT else ''}:"
+    for deck, finding in worst[:_MOST_NAMED]:
+        yield f"  {harmless(deck.name)}{_why(finding)}"
+    if len(worst) > _MOST_NAMED:
+        yield f"  and {len(worst) - _MOST_NAMED} more"
+
+
+def _why(finding: Finding) -> str:
+    if finding.state is State.MISSING:
+        return ""
+    first, *others = reasons(finding)
+    more = f"; {len(others)} more" if others and finding.state is State.DIFFERENT else ""
+    return f": {first}{more}"
+
+
+def _command(chosen: argparse.Namespace) -> str:
+    """What stores the answers that are new or differ, and leaves the others alone."""
+    method = [] if chosen.method == "auto" else ["--method", chosen.method]
+    words = ["flexact", "regress", *chosen.decks, "--against", str(chosen.against), *method]
+    return harmless(shlex.join([*words, "--store"]))
 
 
 def fill(parser: argparse.ArgumentParser) -> None:
@@ -97,7 +140,7 @@ def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     if len(decks) > 1:
         say(summary(found, chosen))
     if chosen.junit is not None:
-        text = load("flexact.apps.checks.junit").junit_xml(found, time.time() - start, start)
+        text = load("flexact.apps.checks.comparison").junit_xml(found, time.time() - start, start)
         with unwinding():
             write_together({chosen.junit: text})
     return exit_code(codes)

@@ -7,16 +7,88 @@ import codecs
 import contextlib
 import errno
 import os
+import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TextIO
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, TextIO
 
+from ...core.calls import STAGES
+from ...model.data import ModelData
 from ...util.errors import reason_of
 from ...util.loading import load
-from ...util.plain_text import harmless, spelled
-from ...util.text import USUAL, refitted
-from . import colour
+from ...util.text import USUAL, columns, harmless, refitted, spelled
+
+if TYPE_CHECKING:
+    from ...core.progress import Progress
+
+
+CHOICES = ("auto", "always", "never")
+
+_STYLES = {
+    "good": "1;32",
+    "bad": "1;31",
+    "unsure": "1;33",
+    "error": "1;31",
+    "warning": "1;33",
+    "note": "1;36",
+    "mark": "1;31",
+    "faint": "2",
+    "strong": "1",
+}
+_FORCING = ("CLICOLOR_FORCE", "FORCE_COLOR")
+_HEADS = re.compile(
+    r"^(?P<where>(?!error|warning|note|tip)[^\s:][^:]*: )?(?P<kind>error|warning|note|tip)"
+    r"(?P<code>\[[\w-]+\])?(?=:)"
+)
+_PLACE = re.compile(r"^ *(-->|:::)")
+_MARKS = re.compile(r"^( *\| *)([\^]+|-+)( .*)?$")
+_HELP = re.compile(r"^( *= )(help|note)(?=:)")
+
+
+def is_wanted(stream: TextIO | None, choice: str, environment: Mapping[str, str]) -> bool:
+    """Whether a stream is to be coloured.
+
+    `--color` decides; else NO_COLOR, if it is not empty, forbids colour (no-color.org), and
+    CLICOLOR_FORCE or FORCE_COLOR wants it; else it is for terminals that are not dumb.
+    """
+    if choice != "auto":
+        return choice == "always"
+    if environment.get("NO_COLOR"):
+        return False
+    if any(environment.get(name, "0") not in ("", "0") for name in _FORCING):
+        return True
+    seen = stream is not None and stream.isatty()
+    return seen and environment.get("TERM") != "dumb"
+
+
+def painted(text: str, style: str) -> str:
+    """A text in a colour; each row by itself, so that a pager shows it."""
+    rows = text.split("\n")
+    return "\n".join(f"\x1b[{_STYLES[style]}m{row}\x1b[0m" if row else row for row in rows)
+
+
+def painted_problems(text: str) -> str:
+    """Diagnostics as they were rendered, with kinds, places and carets in colour."""
+    return "\n".join(map(_painted_row, text.split("\n")))
+
+
+def _painted_row(row: str) -> str:
+    if found := _HEADS.match(row):
+        kind = found["kind"]
+        where, code = found["where"] or "", found["code"] or ""
+        style = kind if kind in _STYLES else "note"
+        return f"{where}{painted(kind + code, style)}{row[found.end() :]}"
+    if _PLACE.match(row):
+        return painted(row, "faint")
+    if found := _MARKS.match(row):
+        style = "mark" if "^" in found[2] else "note"
+        return found[1] + painted(found[2] + (found[3] or ""), style)
+    if found := _HELP.match(row):
+        return f"{found[1]}{painted(found[2], 'note')}{row[found.end() :]}"
+    return row
+
 
 #: What becomes of characters that an encoding lacks.
 _SPELLED = "flexact.spelled"
@@ -58,7 +130,7 @@ def is_verbose() -> bool:
 
 def is_coloured(stream: TextIO | None) -> bool:
     """Whether a stream is to be coloured."""
-    wanted = colour.is_wanted(stream, _MANNER.colour, os.environ)
+    wanted = is_wanted(stream, _MANNER.colour, os.environ)
     return wanted and (_obeys_escapes(stream) or _MANNER.colour == "always")
 
 
@@ -101,7 +173,7 @@ def say(text: str, style: str = "") -> None:
     if not _MANNER.quiet:
         text = _fitted(text, sys.stdout)
         if style and is_coloured(sys.stdout):
-            text = colour.painted(text, style)
+            text = painted(text, style)
         give(text)
 
 
@@ -152,7 +224,7 @@ def complain(text: str) -> None:
         _clear_progress()
         text = _fitted(text, sys.stderr)
         if is_coloured(sys.stderr):
-            text = colour.painted_problems(text)
+            text = painted_problems(text)
         _to_stderr(f"{text}\n")
 
 
@@ -211,3 +283,152 @@ def discard(stream: TextIO | None) -> None:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, stream.fileno())  # type: ignore[union-attr]
         os.close(nowhere)
+
+
+#: A terminal of fewer columns is taken for one of so many.
+_FITTING_LEAST = 32
+
+
+def columns_to_fill() -> int | None:
+    """How many columns a table may have: those stated, those of the terminal, or any number."""
+    wide = columns_of(sys.stdout)
+    return max(wide, _FITTING_LEAST) if wide else None
+
+
+def padded(text: str, width: int, *, right: bool = False) -> str:
+    """A text in a cell, at its left or its right end."""
+    room = " " * (width - columns(text))
+    return room + text if right else text + room
+
+
+def shortened_middle(text: str, width: int) -> str:
+    """A text without its middle, where it is too wide: a third stays of its beginning."""
+    if columns(text) <= width:
+        return text
+    cut = _cut()
+    room = max(width - len(cut), 0)
+    head = _first(text, room // 3)
+    tail = _first(text[::-1], room - columns(head))[::-1]
+    return f"{head}{cut}{tail}"[:width]
+
+
+def shortened(text: str, width: int) -> str:
+    """A text without its end, where it is too wide."""
+    if columns(text) <= width:
+        return text
+    cut = _cut()
+    return f"{_first(text, max(width - len(cut), 0))}{cut}"[:width]
+
+
+def _first(text: str, width: int) -> str:
+    kept, wide = 0, 0
+    for c in text:
+        wide += columns(c)
+        if wide > width:
+            break
+        kept += 1
+    return text[:kept]
+
+
+def _cut() -> str:
+    """What stands for what is left out."""
+    encoding = getattr(sys.stdout, "encoding", None) or "ascii"
+    try:
+        "\N{HORIZONTAL ELLIPSIS}".encode(encoding)
+    except (UnicodeEncodeError, LookupError):
+        return ".."
+    return "\N{HORIZONTAL ELLIPSIS}"
+
+
+#: Decks of so many bytes, or elements, are worth a bar.
+LARGE_FILE = 2**20
+LARGE_MODEL = 20_000
+
+_WIDTH, _ROWS = 80, 24
+
+_STAGES = ("reading", *STAGES, "writing")
+
+
+class Bar:
+    """A bar on stderr; it says nothing unless a deck is large and somebody watches."""
+
+    def __init__(self, deck: str, path: str) -> None:
+        """The bar of a deck, of which no more than its file is known so far."""
+        self._deck = harmless(os.path.basename(deck))
+        self._bar: Any = None
+        try:
+            self._wanted = os.path.getsize(path) >= LARGE_FILE
+        except (OSError, ValueError):
+            self._wanted = False
+
+    def __enter__(self) -> Bar:
+        """Nothing is shown yet."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Wipe the bar."""
+        self.clear()
+
+    def of_analysis(self, model: ModelData) -> Progress | None:
+        """What shows the progress of an analysis; None where it would show nothing."""
+        self._wanted = model.arrays.element_number.size >= LARGE_MODEL
+        return self.show if self._wanted and is_watched() else None
+
+    def show(self, stage: str, done: float = 0.0) -> None:
+        """Draw the bar at a stage, of which a part from 0 to 1 is done."""
+        if not self._wanted or not is_watched():
+            return
+        text = f"{self._deck}: {stage}"
+        with contextlib.suppress(ImportError, OSError):
+            if self._bar is None:
+                self._bar = _drawn(text)
+            self._bar.n = max(self._bar.n, (_STAGES.index(stage) + done) / len(_STAGES))
+            self._bar.set_description_str(text)
+
+    def show_frames(self, done: float) -> None:
+        """Draw the bar of an animation, of which a part from 0 to 1 is drawn; always wanted."""
+        self.show_work("drawing", done)
+
+    def show_steps(self, done: float) -> None:
+        """Draw the bar of a path, of which a part from 0 to 1 is traced; always wanted."""
+        self.show_work("tracing", done)
+
+    def show_work(self, what: str, done: float) -> None:
+        """Draw the bar of other work, of which a part from 0 to 1 is done; always wanted."""
+        self._wanted = True
+        if not is_watched():
+            return
+        text = f"{self._deck}: {what}"
+        with contextlib.suppress(ImportError, OSError):
+            if self._bar is None or done <= self._bar.n:
+                self.clear()
+                self._bar = _drawn(text)
+            self._bar.set_description_str(text, refresh=False)
+            self._bar.n = done
+            self._bar.refresh()
+
+    def clear(self) -> None:
+        """Wipe the bar, so that something else can be said."""
+        if self._bar is not None:
+            with contextlib.suppress(OSError):
+                self._bar.clear()
+
+
+def _drawn(text: str) -> Any:
+    tqdm = import_module("tqdm").tqdm
+    tqdm.monitor_interval = 0  # no thread of its own: the core's calls say when to draw
+    form = "{desc} {percentage:3.0f}%|{bar}| {elapsed}"
+    size = size_of_terminal()
+    return tqdm(total=1.0, file=sys.stderr, leave=False, desc=text, bar_format=form, **size)
+
+
+def size_of_terminal() -> dict[str, int]:
+    """Columns and rows that a bar may take."""
+    # Some terminals say that they have no columns and no rows.
+    width = os.get_terminal_size(sys.stderr.fileno()).columns or _WIDTH
+    return {"ncols": width - 1, "nrows": _ROWS}
+
+
+def is_watched() -> bool:
+    """Whether stderr is a terminal."""
+    return sys.stderr is not None and sys.stderr.isatty()

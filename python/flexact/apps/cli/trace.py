@@ -9,25 +9,20 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...show.mesh.collection import SUFFIX, folder_of
-from ...tracing.playing import ENDINGS, STEM
-from ...tracing.rows import csv_bytes
-from ...tracing.saving import require_suffix, save
+from ...tracing.output import ENDINGS, STEM, require_suffix, save
 from ...tracing.trace import STEPS, trace
-from ...tracing.words import lines
+from ...tracing.words import csv_bytes, lines
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, plan_file, plan_files
-from ...util.plain_text import harmless
 from ...util.quantities import QuantityError, quantity
-from .bar import Bar
-from .cli_decks import take
-from .decks import add_decision, read_and_analysed
+from ...util.text import harmless
+from .decks import add_decision, read_and_analysed, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .showing import add_shown, number, one_deck
-from .targets import write_text
-from .terminal import complain, say
+from .targets import add_shown, number, one_deck, write_text
+from .terminal import Bar, complain, say
 
 
 def fill(parser: argparse.ArgumentParser) -> None:

@@ -5,26 +5,20 @@ from __future__ import annotations
 
 import argparse
 
-from ...analysis.text_margin import verdict_word
-from ...show.browser import opens
+from ...analysis.verdict_words import verdict_word
 from ...show.page import page
 from ...show.saving import as_bytes, page_bytes
-from ...show.window import page_path, write_page
+from ...show.window import opens, page_path, write_page
 from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file
-from ...util.plain_text import harmless
-from .bar import Bar
-from .cli_decks import take
-from .decks import add_accuracy, add_decision, read_and_analysed
-from .failures import foreseen
+from ...util.text import harmless
+from .decks import add_accuracy, add_decision, foreseen, read_and_analysed, take
 from .help_texts import add_examples
 from .outcome import ExitCode, Outcome
-from .pages import broken_page_of
-from .showing import add_no_browser, one_deck
-from .targets import file
-from .terminal import say
+from .targets import add_no_browser, broken_page_of, file, one_deck
+from .terminal import Bar, say
 
 
 def fill(parser: argparse.ArgumentParser) -> None:

@@ -9,19 +9,19 @@ import time
 from contextlib import closing
 from pathlib import Path
 
-from ...deck.errors import DeckError
+from ...deck.rendering import DeckError
 from ...model.reading import file_bytes
 from ...util.decks import STDIN, DeckFile, FolderError
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.plain_text import harmless
+from ...util.text import harmless
+from ..watch.messages import Answer, Broken
 from ..watch.watch import SCRIPT, Heard, Watch
-from ..watch.watching_messages import Answer, Broken
-from . import failures
+from . import decks as failures
 from .decks import add_accuracy, add_decision
 from .help_texts import add_examples
 from .outcome import ExitCode
-from .showing import add_no_browser, one_deck
+from .targets import add_no_browser, one_deck
 from .terminal import complain, say
 
 _LARGEST_PORT = 65535

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from ...util.loading import load
-from .showing import number
+from .targets import number
 
 
 def add_workers(parser: argparse.ArgumentParser) -> None:
@@ -39,7 +39,7 @@ def in_order(
     """Results in the order of the items, each with why there is none; see `results_of`."""
     waiting: dict[int, tuple[Any, str]] = {}
     place = 0
-    results_of = load("flexact.sweeps.engine_running").results_of
+    results_of = load("flexact.sweeps.running").results_of
     for done in results_of(function, items, executor=chosen.dask, workers=chosen.workers):
         waiting[done.index] = done.result, done.failure
         while place in waiting:

@@ -10,11 +10,9 @@ from pathlib import Path
 
 from ...deck.diagnostics import Diagnostic
 from ...model.model import Model
-from ...model.models import read, read_text
+from ...model.reading import read, read_text
 from ...util.errors import BatchError, reason_of
-from .convert_mesh_files import MeshError, mesh_bytes, read_mesh, suffixes
-from .mesh_files import model_of_mesh
-from .mesh_writing import mesh_of
+from .mesh_files import MeshError, mesh_bytes, mesh_of, model_of_mesh, read_mesh, suffixes
 from .tables import model_of, tables_of
 from .text import JSON, YAML, read_tables, text_of
 

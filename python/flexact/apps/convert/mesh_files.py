@@ -3,21 +3,137 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import contextlib
+import io
+import tempfile
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from importlib import import_module
 from itertools import pairwise
+from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...core.elements import NodeKind
 from ...model.model import Model
-from .convert_mesh_files import MeshError
-from .fields import AXES
-from .mesh_data import INDEPENDENT, KINDS, POINT_DATA, RELEASED, TRUSS, VECTOR
-from .remarks import Remarks
+from ...util.errors import BatchError, require_kind
+from ...util.text import harmless
+from .model_tables import tables_with_remarks
 from .table_input import Entry
 from .tables import model_of
+from .values import AXES, Remarks
+
+#: What a line can be.
+KINDS = ("beam", "truss", "plbeam", "pltruss")
+#: Of points, with the fields of tables that they stand for, but for the axis.
+POINT_DATA = {
+    "fixed": "fix_",
+    "fixed_rotation": "fix_r",
+    "independent": "displ_",
+    "independent_rotation": "rot_",
+}
+#: Of lines: the deformations that are released, or independent.
+RELEASED = {"released": (1, 2, 3), "released_bending": (4, 5, 6)}
+INDEPENDENT = {"independent_deformation": (1, 2, 3), "independent_bending": (4, 5, 6)}
+#: Of lines: the vector along local y; 1 where it is a truss.
+VECTOR, TRUSS = "orien", "truss"
+
+
+class MeshError(BatchError):
+    """A mesh that cannot be read, written or taken for a mechanism."""
+
+    def __init__(self, words: str) -> None:
+        """Why not; names of the file in it move no cursor."""
+        super().__init__(harmless(words))
+
+
+def suffixes() -> tuple[str, ...]:
+    """Those that meshio knows, without decks'."""
+    return tuple(sorted(set(_meshio().extension_to_filetypes) - {".dat"}))
+
+
+def read_mesh(path: Path) -> Any:
+    """A mesh of meshio from a file.
+
+    Raises:
+        MeshError: it cannot be read, or meshio is missing.
+    """
+    meshio = _meshio()
+    if not path.is_file():
+        raise MeshError(f"{path}: there is no such file")
+    said = io.StringIO()
+    try:
+        with _in_silence() as said:
+            return meshio.read(path)
+    except MemoryError:
+        raise
+    except (Exception, SystemExit) as error:
+        words = str(error) if isinstance(error, Exception) else ""
+        words = words or next(iter(said.getvalue().strip().splitlines()), "")
+        reason = " ".join(words.split())[:200] or type(error).__name__
+        raise MeshError(f"{path}: meshio cannot read this mesh: {reason}") from error
+
+
+def mesh_bytes(mesh: Any, suffix: str) -> tuple[bytes, tuple[str, ...]]:
+    """The file that holds a mesh of lines, and names of the data that it lost.
+
+    Of the formats that a suffix may mean, it is the first that holds lines.
+
+    Raises:
+        MeshError: meshio has no such format or cannot write this one, or is missing.
+    """
+    meshio = _meshio()
+    if suffix not in suffixes():
+        raise MeshError(f"meshio writes no {suffix or 'file without a suffix'}: try .vtu or .vtk")
+    reason = ""
+    for form in meshio.extension_to_filetypes[suffix]:
+        with tempfile.TemporaryDirectory(prefix="flexact-") as folder:
+            path = Path(folder) / f"mesh{suffix}"
+            try:
+                with _in_silence():
+                    meshio.write(path, mesh, file_format=form)
+                return path.read_bytes(), _lost(mesh, path, form)
+            except MemoryError:
+                raise
+            except (Exception, SystemExit) as error:
+                reason = " ".join(str(error).split())[:200] or type(error).__name__
+    raise MeshError(f"meshio writes no {suffix} of lines: {reason}; try .vtu or .vtk")
+
+
+def _lost(mesh: Any, path: Path, form: str) -> tuple[str, ...]:
+    """Names of the data that a file has lost, with what of the points it has."""
+    if len(list(path.parent.iterdir())) > 1:
+        raise MeshError("the mesh is several files")
+    with _in_silence():
+        again = _meshio().read(path, file_format=form)
+    lines = sum(len(cells.data) for cells in again.cells if cells.type == "line")
+    if lines != sum(len(cells.data) for cells in mesh.cells):
+        raise MeshError("it holds no lines")
+    lost = [name for name in mesh.point_data if name not in again.point_data]
+    lost += [name for name in mesh.cell_data if name not in again.cell_data]
+    if not np.array_equal(np.asarray(again.points, float), mesh.points):
+        lost.append("the last digits of coordinates")
+    return tuple(lost)
+
+
+@contextlib.contextmanager
+def _in_silence() -> Iterator[io.StringIO]:
+    """Keep what meshio prints from who reads results; it prints why it fails."""
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        yield said
+
+
+def _meshio() -> ModuleType:
+    try:
+        return import_module("meshio")
+    except ImportError as error:
+        raise MeshError(f"meshes need the package meshio: pip install meshio ({error})") from error
+
 
 _LINE_DATA = {**dict.fromkeys((*RELEASED, *INDEPENDENT, VECTOR), 3), TRUSS: 1}
 
@@ -176,3 +292,108 @@ def _deformations(
         for mode, value in zip(modes, cells[name][i], strict=True)
         if value
     ]
+
+
+#: Fields of nodes that no data of points hold.
+_WITHOUT_DATA = {
+    *("mass", "mominertia", "name"),
+    *("force", "force_initial", "moment", "moment_initial"),
+}
+_FIELDS = ("elems", "flex", "type", VECTOR)
+_WHOLE = {
+    "fix": ("fixed", "fixed_rotation"),
+    "fix_pos": ("fixed",),
+    "fix_orien": ("fixed_rotation",),
+}
+
+
+def mesh_of(model: Model) -> tuple[Any, Remarks]:
+    """The mesh of meshio that holds a model, and what it does not hold.
+
+    Raises:
+        DeckError, ModelError: the model is wrong.
+        MeshError: elements are neither beams nor trusses, or share points as lines cannot;
+            or meshio is missing.
+        TypeError: it is no model.
+    """
+    require_kind(model, Model, "a mesh is made of a model")
+    model.check()
+    tables, remarks = tables_with_remarks(model.data)
+    remarks.own.clear()
+    _require_lines(tables, model.planar)
+    nodes: Sequence[Entry] = tables["nprops"]
+    turning = bool((model.node_kinds > NodeKind.POSITION).any())
+    data = [name for name in POINT_DATA if turning or not name.endswith("rotation")]
+    places = np.array(tables["nodes"])
+    if model.planar:
+        places = np.column_stack([places, np.zeros(len(places))])
+        remarks.leave_out("that it is planar: read it with --as plbeam or pltruss")
+    try:
+        meshio = import_module("meshio")
+    except ImportError as error:
+        raise MeshError(f"meshes need the package meshio: pip install meshio ({error})") from error
+    for entry in nodes:
+        remarks.left_out.update(f"of nodes: {name}" for name in entry if name in _WITHOUT_DATA)
+    remarks.leave_out("gravity", int("gravity" in tables.get("opt", {})))
+    return (
+        meshio.Mesh(
+            places,
+            [("line", np.array(tables["elements"]) - 1)],
+            point_data=_used({name: _of_nodes(nodes, name) for name in data}),
+            cell_data={
+                name: [values]
+                for name, values in _used(_of_elements(model, tables, remarks)).items()
+            },
+        ),
+        remarks,
+    )
+
+
+def _require_lines(tables: Mapping[str, Any], planar: bool) -> None:
+    # All lines of a mesh are planar, or none.
+    known = [kind for kind in KINDS if kind.startswith("pl") is planar]
+    wrong: Counter[str] = Counter()
+    for entry in tables["eprops"]:
+        kind = entry.get("type", known[0])
+        if kind not in known:
+            wrong[f"elements of kind {kind}"] += len(entry["elems"])
+    for entry in tables["nprops"]:
+        for name, words in (("same_pos", "position"), ("same_orien", "orientation")):
+            if name in entry:
+                wrong[f"points that share the {words} of another one"] += 1
+    if wrong:
+        words = ", ".join(f"{what} ({count})" for what, count in wrong.items())
+        raise MeshError(f"a mesh of lines cannot say: {words}; tables (.json, .yaml) can")
+
+
+def _of_nodes(nodes: Sequence[Entry], name: str) -> np.ndarray:
+    made = np.zeros((len(nodes), 3))
+    for i, entry in enumerate(nodes):
+        stem = POINT_DATA[name]
+        made[i] = [f"{stem}{axis}" in entry for axis in AXES]
+        if any(entry.get(whole) and name in names for whole, names in _WHOLE.items()):
+            made[i] = 1.0
+    return made
+
+
+def _of_elements(
+    model: Model, tables: Mapping[str, Any], remarks: Remarks
+) -> dict[str, np.ndarray]:
+    count = len(tables["elements"])
+    made: dict[str, np.ndarray] = {VECTOR: np.zeros((count, 3)), TRUSS: np.zeros(count)}
+    classes = model.deformation_classes
+    for names, value in ((RELEASED, 2), (INDEPENDENT, 3)):
+        for name, modes in names.items():
+            made[name] = (classes[:, [mode - 1 for mode in modes]] == value).astype(float)
+    for entry in tables["eprops"]:
+        rows = np.array(entry["elems"]) - 1
+        made[VECTOR][rows] = entry.get(VECTOR, 0.0)
+        made[TRUSS][rows] = entry.get("type", "beam").endswith("truss")
+        for name in (each for each in entry if each not in _FIELDS):
+            remarks.leave_out(f"of elements: {name}", len(rows))
+    return made
+
+
+def _used(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Data that say something."""
+    return {name: values for name, values in data.items() if values.any()}

@@ -3,18 +3,110 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...core.elements import AXES, Class, NodeKind
+from ...core.arrays import ModelArrays
+from ...core.elements import AXES, Class, Member, NodeKind, Vector, element_kinds
 from ...core.raw import ElementKind
+from ...deck.comments import comments_of
+from ...model.attributes import CrossSection
 from ...model.data import ModelData
-from .fields import AXES as LETTERS
-from .fields import LOADS, NODE_FIELDS
-from .points import Points
-from .remarks import Remarks
-from .table_input import Entry
+from ...model.draft import Shape
+from .table_input import Entry, density_of, is_ordinary, moduli_of
+from .values import AXES as LETTERS
+from .values import ELEMENT_FIELDS, LOADS, NODE_FIELDS, NODES_A_POINT, Remarks
+
+
+class Points(NamedTuple):
+    """Points by number from 1, in the order in which the elements name them.
+
+    Attributes:
+        nodes: Index of the position and of the orientation of each; -1 where it has none.
+        ends: The two points of each element.
+    """
+
+    nodes: tuple[tuple[int, int], ...]
+    ends: tuple[tuple[int, int], ...]
+
+    @property
+    def same_position(self) -> dict[int, int]:
+        """Points that share their position with an earlier one, with the first that does."""
+        return _shared([position for position, _ in self.nodes])
+
+    @property
+    def same_orientation(self) -> dict[int, int]:
+        """Likewise of orientations."""
+        return _shared([orientation for _, orientation in self.nodes])
+
+
+def _shared(nodes: list[int]) -> dict[int, int]:
+    first: dict[int, int] = {}
+    made = {}
+    for point, node in enumerate(nodes, start=1):
+        if node >= 0 and first.setdefault(node, point) != point:
+            made[point] = first[node]
+    return made
+
+
+def points_of(arrays: ModelArrays) -> Points:
+    """The points of a sound model."""
+    slots = (arrays.element_node.T - 1).tolist()
+    pairs: dict[tuple[int, int], None] = {}
+    for nodes in slots:
+        for end in (nodes[:2], nodes[2:]):
+            if min(end) >= 0:
+                pairs[end[0], end[1]] = None
+    of_position: dict[int, tuple[int, int]] = {}
+    of_orientation: dict[int, tuple[int, int]] = {}
+    for pair in pairs:
+        of_position.setdefault(pair[0], pair)
+        of_orientation.setdefault(pair[1], pair)
+    _add_turned(arrays, slots, of_orientation)
+    ends = []
+    for nodes in slots:
+        both = []
+        for position, orientation in (nodes[:2], nodes[2:]):
+            if min(position, orientation) >= 0:
+                pair = position, orientation
+            elif position >= 0:
+                pair = of_position.setdefault(position, (position, -1))
+            else:
+                pair = of_orientation[orientation]
+            both.append(pair)
+        ends.append(both)
+    order: dict[tuple[int, int], int] = {}
+    for both in ends:
+        for pair in both:
+            order.setdefault(pair, len(order) + 1)
+    return Points(tuple(order), tuple((order[p], order[q]) for p, q in ends))
+
+
+def _add_turned(
+    arrays: ModelArrays, slots: list[list[int]], known: dict[int, tuple[int, int]]
+) -> None:
+    """Orientations that stand nowhere are where those stand that a hinge joins them to."""
+    kinds = element_kinds()
+    hinges = [
+        (nodes[1], nodes[3])
+        for kind, nodes in zip(arrays.element_kind.tolist(), slots, strict=True)
+        if not kinds[kind - 1].slots[0]
+    ]
+    waiting = hinges
+    while waiting:
+        left = []
+        for one, other in waiting:
+            if one in known:
+                known.setdefault(other, (known[one][0], other))
+            elif other in known:
+                known[one] = known[other][0], one
+            else:
+                left.append((one, other))
+        if len(left) == len(waiting):
+            one, _ = left[0]
+            known[one] = -1, one
+        waiting = left
 
 
 class NodeTables:
@@ -127,3 +219,142 @@ class NodeTables:
                 load = getattr(self.data.loads, kind)[node].tolist()
                 if any(load):
                     entry[f"{stem}{end}"] = load
+
+
+_CROSS_SECTIONS = {CrossSection.RECT: "rect", CrossSection.CIRC: "circ"}
+
+
+class ElementTables:
+    """Fields of the elements of a model."""
+
+    def __init__(self, data: ModelData, kinds: list[ElementKind], remarks: Remarks) -> None:
+        """Of a sound model, and the kinds of its elements."""
+        self.data, self.kinds, self.remarks = data, kinds, remarks
+
+    def sets(self) -> tuple[list[Entry], list[list[int]]]:
+        """Elements that share all their fields, and what is released of each element."""
+        classes = self.data.arrays.deformation_class.T
+        alike: dict[str, Entry] = {}
+        releases = []
+        for i in range(len(self.kinds)):
+            released = (np.flatnonzero(classes[i] == Class.DEPENDENT) + 1).tolist()
+            releases.append(released)
+            entry = self._set_of(i)
+            key = repr(entry)
+            alike.setdefault(key, {"elems": [], **entry})["elems"].append(i + 1)
+        return list(alike.values()), releases
+
+    def _set_of(self, i: int) -> Entry:
+        kind = self.kinds[i]
+        entry: Entry = {}
+        if kind.keyword != ("PLBEAM" if self.data.planar else "BEAM"):
+            entry["type"] = kind.keyword.lower()
+        if name := self.data.element_names[i]:
+            entry["name"] = name
+        classes = self.data.arrays.deformation_class[:, i]
+        flexible = (classes == Class.DEPENDENT) | (classes == Class.INDEPENDENT)
+        if flexible.any():
+            entry["flex"] = (np.flatnonzero(flexible) + 1).tolist()
+        if (vector := self._vector(i, kind)) is not None:
+            entry["orien"] = vector
+        self._add_section(entry, i, kind)
+        self._add_look(entry, i)
+        return entry
+
+    def _vector(self, i: int, kind: ElementKind) -> list[float] | None:
+        given: list[float] = self.data.arrays.element_vector[:, i].tolist()
+        if any(given):
+            return given
+        if kind.member == Member.BEAM and kind.vector != Vector.NONE:
+            # The tables have another local y axis where none is given.
+            axis: list[float] = self.data.frames.frame[i, :, 1].tolist()
+            return axis
+        return None
+
+    def _add_section(self, entry: Entry, i: int, kind: ElementKind) -> None:
+        look, given = self.data.appearance, self.data.properties
+        section = CrossSection(int(look.cross_section[i]))
+        sizes: list[float] = look.dimensions[i].tolist()
+        shape = None
+        if section in _CROSS_SECTIONS and is_ordinary(Shape(section, sizes[0], sizes[1])):
+            shape = Shape(section, sizes[0], sizes[1])
+            entry["cshape"] = _CROSS_SECTIONS[section]
+            entry["dim"] = sizes[:1] if section is CrossSection.CIRC else sizes
+        elif section or any(sizes):
+            self.remarks.leave_out("cross-sections other than whole rectangles and circles")
+        if given is None:
+            return
+        stiff, heavy = (row[~np.isnan(row)] for row in (given.stiffness[i], given.mass[i]))
+        if stiff.size:
+            found = None if shape is None else moduli_of(kind, shape, tuple(stiff.tolist()))
+            if found is None:
+                self.remarks.leave_out("stiffness that no moduli and cross-section give")
+            else:
+                entry.update(found[0])
+                if found[1]:
+                    self.remarks.leave_out("shear stiffness, which follows from the cross-section")
+        if heavy.size:
+            density = None if shape is None else density_of(kind, shape, tuple(heavy.tolist()))
+            if density is None:
+                self.remarks.leave_out("mass of elements that no density and cross-section give")
+            else:
+                entry["dens"] = density
+
+    def _add_look(self, entry: Entry, i: int) -> None:
+        look = self.data.appearance
+        if not np.isnan(look.colour[i]).any():
+            entry["color"] = look.colour[i].tolist()
+        if not np.isnan(look.opacity[i]):
+            entry["opacity"] = float(look.opacity[i])
+        if not look.drawn[i]:
+            entry["hide"] = True
+        if not np.isnan(look.edge_colour[i]).any():
+            self.remarks.leave_out("colours of edges")
+
+
+def tables_with_remarks(data: ModelData) -> tuple[dict[str, Any], Remarks]:
+    """The tables of a sound model, and what they do not hold."""
+    remarks, points = Remarks(), points_of(data.arrays)
+    every = element_kinds()
+    kinds = [every[kind - 1] for kind in data.arrays.element_kind.tolist()]
+    nodes = NodeTables(data, points, kinds, remarks)
+    sets, releases = ElementTables(data, kinds, remarks).sets()
+    made: dict[str, Any] = {
+        "nodes": nodes.places(),
+        "elements": [list(ends) for ends in points.ends],
+        "nprops": nodes.fields(),
+        "eprops": sets,
+    }
+    if any(releases):
+        made["opt"] = {"rls": [{"def": modes} for modes in releases]}
+    if data.loads is not None and data.loads.gravity.any():
+        made.setdefault("opt", {})["gravity"] = data.loads.gravity.tolist()
+    _note_the_rest(data, points, remarks)
+    for fields, entries in ((NODE_FIELDS, made["nprops"]), (ELEMENT_FIELDS, sets)):
+        for entry in entries:
+            remarks.own.update(name for name in entry if fields[name].is_own)
+    if data.planar:
+        remarks.own["nodes with x and y"] = len(made["nodes"])
+    return made, remarks
+
+
+def _note_the_rest(data: ModelData, points: Points, remarks: Remarks) -> None:
+    a = data.arrays
+    elements = a.element_number.size
+    numbered = a.element_number.tolist() == list(range(1, elements + 1)) and all(
+        node < 0 or a.node_number[node] == NODES_A_POINT * (point - 1) + slot
+        for point, nodes in enumerate(points.nodes, start=1)
+        for slot, node in enumerate(nodes, start=1)
+    )
+    if not numbered:
+        what = "numbers of elements and nodes are now those of their rows"
+        remarks.leave_out(what, elements + a.node_number.size)
+    turned = a.node_kind == NodeKind.ORIENTATION
+    upright = np.array([1.0, 0.0, 0.0, 0.0]) == a.node_value.T
+    angles = (a.node_kind == NodeKind.ANGLE) & (a.node_value[0] != 0.0)
+    turned = (turned & ~upright.all(axis=1)) | angles
+    remarks.leave_out("reference values of orientations", int(turned.sum()))
+    comments = comments_of(data.source or data.began_as)
+    lines = sum(map(len, (comments.top, comments.end, comments.rest)))
+    lines += sum(len(x) for part in (comments.before, comments.behind) for x in part.values())
+    remarks.leave_out("lines of comment", lines)

@@ -24,10 +24,10 @@ from ...core.elements import Class
 from ...deck.diagnostics import Diagnostic
 from ...model.model import Model
 from ...util.errors import require_kind
-from .convert_model_tables import tables_with_remarks
-from .problems import Found, TablesError, Text
+from .model_tables import tables_with_remarks
 from .table_input import tables_given
 from .table_model import data_of
+from .values import Found, TablesError, Text
 
 __all__ = ["TablesError", "model_of", "tables_of"]
 

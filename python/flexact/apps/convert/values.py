@@ -4,10 +4,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from ...core.elements import element_kinds
+from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
+from ...deck.rendering import ProblemsError
+from ...util.records import cached_property
+from ...util.text import in_short
 
 #: Fourth powers of sizes, times moduli, are numbers.
 LARGEST = 1e30
@@ -168,3 +173,200 @@ def moments(value: Any) -> tuple[float, ...]:
     if max(map(abs, made)) >= LARGEST:
         raise ValueError(f"numbers below {LARGEST:g} are wanted")
     return made
+
+
+AXES = ("x", "y", "z")
+#: Nodes of a deck by point: a position, an orientation, and a warping node, which is not used.
+NODES_A_POINT = 3
+
+
+class Field(NamedTuple):
+    """A field of a node or of a set of elements.
+
+    Attributes:
+        check: Gives the value as it is used, or raises ValueError in words.
+        left_out: What it says that a model does not hold; empty where it is used.
+        is_own: Whether only Flexact knows it.
+    """
+
+    check: Callable[[Any], Any]
+    left_out: str = ""
+    is_own: bool = False
+
+
+PRESCRIBED = "values of prescribed motions"
+_SIMULATION = "what is for a simulation"
+
+#: Of each node.
+NODE_FIELDS: dict[str, Field] = {
+    **{name: Field(flag) for name in ("fix", "fix_pos", "fix_orien")},
+    **{f"fix_{axis}": Field(flag) for axis in AXES},
+    **{f"fix_r{axis}": Field(flag, is_own=True) for axis in AXES},
+    "fix_warp": Field(flag),
+    **{f"displ{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
+    **{f"rot{start}_{axis}": Field(number) for start in ("", "_initial") for axis in AXES},
+    **{f"rot{start}": Field(vector(4)) for start in ("", "_initial")},
+    "mass": Field(not_negative),
+    "mominertia": Field(moments),
+    **{
+        f"{load}{start}": Field(vector(3))
+        for load in ("force", "moment")
+        for start in ("", "_initial")
+    },
+    "transfer_in": Field(texts, _SIMULATION),
+    "transfer_out": Field(texts, _SIMULATION),
+    "name": Field(text, is_own=True),
+    "same_pos": Field(count, is_own=True),
+    "same_orien": Field(count, is_own=True),
+}
+#: Of each set of elements.
+ELEMENT_FIELDS: dict[str, Field] = {
+    "elems": Field(numbers_from_one),
+    "emod": Field(positive),
+    "smod": Field(positive),
+    "dens": Field(not_negative),
+    "cshape": Field(shape),
+    "dim": Field(sizes),
+    "orien": Field(direction),
+    "nbeams": Field(count),
+    "flex": Field(deformations),
+    "color": Field(colour),
+    "opacity": Field(part),
+    "hide": Field(flag),
+    "warping": Field(flag),
+    "cw": Field(flag),
+    "type": Field(kind, is_own=True),
+    "name": Field(text, is_own=True),
+}
+#: Of the releases, element by element.
+RELEASE_FIELDS = {"def": Field(deformations)}
+#: What SPACAR Light calls the loads of a deck: XF, on which a simulation starts, and DELXF.
+LOADS = {"force": "_initial", "increment": ""}
+#: Options; of these releases and gravity are used, and none of the others is looked at.
+OPTIONS = (
+    *("rls", "filename", "gravity", "silent", "calcbuck", "showinputonly", "loadsteps", "mode"),
+    *("transfer", "calccompl", "customvis", "customdyn", "customkin", "spavisual", "rigidstress"),
+    "stressperelement",
+)
+
+
+def checked(field: Field, value: Any) -> Any:
+    """The value as it is used.
+
+    Raises:
+        ValueError: it is none of the field, in words.
+    """
+    try:
+        return field.check(value)
+    except ValueError as error:
+        raise ValueError(f"{error}, not {in_short(value)}") from None
+
+
+def is_unset(value: Any) -> bool:
+    """Whether a field is there and empty, as MATLAB writes those of other entries."""
+    return value is None or (isinstance(value, Sequence) and len(value) == 0)
+
+
+LEFT_OUT, LOST, OWN_FIELD = "left-out", "lost", "own-field"
+
+
+class Remarks:
+    """Counts of what is left out, and of fields that only Flexact knows.
+
+    Attributes:
+        left_out: What the verdict does not depend on.
+        lost: What it depends on.
+        own: Fields of tables.
+    """
+
+    def __init__(self) -> None:
+        """Nothing yet."""
+        self.left_out: Counter[str] = Counter()
+        self.lost: Counter[str] = Counter()
+        self.own: Counter[str] = Counter()
+
+    def leave_out(self, what: str, times: int = 1) -> None:
+        """Note something that the other format does not hold."""
+        if times:
+            self.left_out[what] += times
+
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """A warning of each thing that is lost, a note of each that is left out."""
+        made = [
+            _remark(Severity.WARNING, LOST, f"lost, though the verdict depends on it: {what} ({n})")
+            for what, n in self.lost.items()
+        ]
+        made += [
+            _remark(Severity.NOTE, LEFT_OUT, f"{what} ({n})") for what, n in self.left_out.items()
+        ]
+        if self.own:
+            fields = ", ".join(f"{name} ({times})" for name, times in self.own.items())
+            words = f"fields that SPACAR Light does not know: {fields}"
+            made.append(_remark(Severity.NOTE, OWN_FIELD, words))
+        return tuple(made)
+
+
+def _remark(severity: Severity, code: str, message: str) -> Diagnostic:
+    return Diagnostic(severity, code, message)
+
+
+class TablesError(ProblemsError, ValueError):
+    """Tables that are no model; each problem begins with its place, such as nprops[3].fix."""
+
+
+class Text:
+    """The text that tables were read from.
+
+    Attributes:
+        source: The text and its name, if there is one.
+    """
+
+    def __init__(
+        self, source: Source | None = None, spans: Callable[[], Mapping[str, Place]] | None = None
+    ) -> None:
+        """Keep the text, and how it is found where each value stands when that is asked for."""
+        self.source = source
+        self._find_spans = spans
+
+    @cached_property
+    def _spans(self) -> Mapping[str, Place]:
+        try:
+            return {} if self._find_spans is None else self._find_spans()
+        except RecursionError:
+            # What stands in each other so deeply has no places.
+            return {}
+
+    def span_of(self, place: str) -> Place:
+        """Where a value stands, or what holds it; zeros where that is not known."""
+        while place and place not in self._spans:
+            place = place[: max(place.rfind("."), place.rfind("["), 0)]
+        return self._spans.get(place, Place(0, 0, 0))
+
+
+class Found:
+    """Problems as they are found."""
+
+    def __init__(self, text: Text, name: str) -> None:
+        """Nothing yet."""
+        self._text = text
+        self._name = name if text.source is None else text.source.name
+        self._items: list[Diagnostic] = []
+        self._said: set[str] = set()
+
+    def error(self, place: str, message: str, hint: str = "") -> None:
+        """Note, once, that something is wrong at a place, such as nprops[3].fix."""
+        words = f"{place}: {message}" if place else message
+        if words in self._said:
+            return
+        self._said.add(words)
+        span = self._text.span_of(place)
+        self._items.append(Diagnostic(Severity.ERROR, "bad-table", words, *span, help=hint))
+
+    def require_none(self) -> None:
+        """Raise if anything was found.
+
+        Raises:
+            TablesError: everything.
+        """
+        if self._items:
+            raise TablesError(Problems.of(self._items), self._name, self._text.source)

@@ -21,9 +21,8 @@ from ...deck.keywords import (
     words_of,
 )
 from ...model.attributes import CrossSection
-from .deck import ELEMENT, NODE, slots_of
+from .deck import ELEMENT, NODE, Deck, slots_of
 from .document import Position, Range
-from .editor_deck import Deck
 from .hover import keyword_words
 from .names import components_of_element, components_of_node, designers_words, kind_words
 from .statements import Statement

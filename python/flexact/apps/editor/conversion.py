@@ -10,9 +10,8 @@ from lsprotocol import types as lsp
 from ...deck.diagnostics import Severity
 from .completion import Kind, Offer, Offers
 from .document import Document, Edit, Position, Range
-from .editor_problems import Problem, Remark, first_word
 from .outline import Fold, Sort, Symbol
-from .problems import Opinion
+from .problems import Opinion, Problem, Remark, first_word
 
 SOURCE = "flexact"
 _SEVERITIES = {

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from ...util.cached import cached_property
+from ...util.records import cached_property
 
 _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)")
 _BYTE_MARK = "\ufeff"

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ...deck import numbers
+from ...deck import keywords as numbers
 from ...deck.keywords import (
     ELEMENTS,
     ENDINGS,
@@ -17,9 +17,8 @@ from ...deck.keywords import (
     operands_of,
     words_of,
 )
-from .deck import slots_of
+from .deck import Deck, slots_of
 from .document import Position, Range
-from .editor_deck import Deck
 from .names import (
     components_of_element,
     components_of_node,

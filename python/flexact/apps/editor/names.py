@@ -6,14 +6,13 @@ from __future__ import annotations
 import numpy as np
 
 from ...analysis.deformation_words import deformation_word, deformation_words
+from ...analysis.naming import length_in_words
 from ...analysis.places import node_words, part_words
-from ...analysis.units import length_in_words
 from ...core.elements import AXES, Class, NodeKind, coordinate_name, element_kinds
 from ...core.raw import ElementKind
 from ...deck.keywords import WITH_WARPING
 from ...model.writing import FIRST_COMPONENT
-from .deck import WARPING
-from .editor_deck import Deck, Told
+from .deck import WARPING, Deck, Told
 
 _CLASSES = {
     Class.FIXED: "fixed",

@@ -3,25 +3,155 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple, Protocol
 
+from ...analysis.change import Change
 from ...analysis.decomposition import Asked
-from ...analysis.mode_words import conflict_in_words, stress_in_parts
-from ...analysis.motions import internal_in_words, motion_in_parts
+from ...analysis.mode_words import (
+    conflict_in_words,
+    internal_in_words,
+    motion_in_parts,
+    stress_in_parts,
+)
+from ...analysis.naming import Named, Pieces, plain
 from ...analysis.result import Result, result_of
-from ...analysis.sentences import Named, Pieces, plain
-from ...analysis.text_margin import margin_in_short, verdict_in_short
 from ...analysis.verdict import Verdict
-from ...analysis.warnings import warnings_of
+from ...analysis.verdict_words import margin_in_short, verdict_in_short, warnings_of
+from ...deck.diagnostics import Diagnostic, Place, Severity
 from ...model.data import ModelData
+from ...model.model import Model
 from ...util.errors import FlexactError
-from ...util.plain_text import harmless
-from .advisor import Advice, Advisor
-from .deck import Key
-from .document import Range
-from .editor_deck import Deck
-from .editor_problems import Remark, first_line
+from ...util.text import harmless
+from .deck import Deck, Key
+from .document import Document, Position, Range
+
+_FIRST_WORD = re.compile(r"^\s*(\S*)")
+
+
+class Remark(NamedTuple):
+    """What stands at another place of a problem."""
+
+    range: Range
+    text: str
+
+
+class Problem(NamedTuple):
+    """A problem at its place.
+
+    Attributes:
+        range: Where it is.
+        severity: How grave it is.
+        code: Its code.
+        message: What is wrong.
+        remarks: What is said besides, and where: the label, the other place, the help.
+        help: How to mend it.
+    """
+
+    range: Range
+    severity: Severity
+    code: str
+    message: str
+    remarks: tuple[Remark, ...] = ()
+    help: str = ""
+
+
+def problems_of(deck: Deck) -> list[Problem]:
+    """All that was found, in the order of the places."""
+    problems = deck.problems
+    made = [_problem(deck.document, item) for item in problems.kept]
+    more = problems.total - len(problems.kept)
+    if more > 0:
+        words = f"and {more} more problem{'s' if more > 1 else ''}"
+        made.append(Problem(first_line(deck.document), Severity.NOTE, "more", words))
+    return made
+
+
+def first_line(document: Document) -> Range:
+    """All of the first line."""
+    return Range.within(0, 0, len(document.bare[0]))
+
+
+def first_word(document: Document) -> Range:
+    """The first word of the first line."""
+    first, last = _FIRST_WORD.search(document.bare[0]).span(1)  # type: ignore[union-attr]
+    return Range.within(0, first, last)
+
+
+def _problem(document: Document, item: Diagnostic) -> Problem:
+    if item.line < 1:
+        range_ = first_line(document)
+    else:
+        range_ = _range(document, Place(item.line, item.column, item.last_column))
+    remarks = []
+    if item.label:
+        remarks.append(Remark(range_, harmless(item.label)))
+    if item.other is not None:
+        is_before = item.other < (item.line, item.column)
+        other = "first here" if is_before else "and here"
+        remarks.append(Remark(_range(document, item.other), other))
+    if item.help:
+        remarks.append(Remark(range_, f"help: {harmless(item.help)}"))
+    return Problem(
+        range_,
+        item.severity,
+        item.code,
+        harmless(item.message),
+        tuple(remarks),
+        item.help,
+    )
+
+
+def _range(document: Document, place: Place) -> Range:
+    start = document.place_of(place.line, place.column)
+    end = document.place_of(place.line, max(place.last_column, place.column) + 1)
+    return Range(start, max(start, Position(*end)))
+
+
+class Step(Protocol):
+    """One way to mend a mechanism, which was tried."""
+
+    @property
+    def number(self) -> int:
+        """From 1."""
+
+    @property
+    def change(self) -> Change:
+        """What is done."""
+
+    @property
+    def alternatives(self) -> tuple[Change, ...]:
+        """Other changes that symmetry makes equal to this one."""
+
+    @property
+    def pieces(self) -> Pieces:
+        """What is done, in words."""
+
+    @property
+    def outcome(self) -> str:
+        """What the mechanism is then."""
+
+    def apply(self, choice: int = 1) -> Model:
+        """The changed model; choices from 2 on are the alternatives."""
+
+
+class Advice(Protocol):
+    """All steps that were found."""
+
+    @property
+    def analysis(self) -> Result:
+        """The analysis of the mechanism as it is."""
+
+    @property
+    def steps(self) -> Sequence[Step]:
+        """By their numbers."""
+
+
+#: Gives the advice on a result.
+Advisor = Callable[[Result], Advice]
+
 
 #: Motions, and self-stresses, that are said one by one, and what takes part in each.
 _MOST, _PARTS = 4, 4

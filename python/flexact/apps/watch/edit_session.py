@@ -10,17 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from ...analysis.result import Result, result_of
-from ...deck.errors import ProblemsError
-from ...show.page.markup import text
-from ...show.page.verdict_part import kind_of
+from ...deck.rendering import ProblemsError
+from ...show.page.assets import text
+from ...show.page.content import kind_of
 from ...util.errors import BatchError, FlexactError
 from ...util.partial import why
-from ...util.plain_text import harmless
-from .answering import shown_of
-from .messages import Told, told_of
+from ...util.text import harmless
+from .live_edit import Session, answered
+from .messages import Answer, Broken, Shown, Told, told_of
 from .scene import Stage
-from .switches import Session, answered
-from .watching_messages import Answer, Broken, Shown
+from .worker import shown_of
 
 
 class Editor:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from http import HTTPStatus
+from typing import NamedTuple
 
 from ...advice.releases.words import outcome_as_given
 from ...analysis.change import Change
@@ -11,12 +13,75 @@ from ...analysis.decomposition import Outcome
 from ...analysis.result import Result
 from ...core.elements import AXES, Class, coordinate_name, element_kinds
 from ...model.data import ModelData
-from ...model.division import classes_of_division
+from ...model.deformations import classes_of_division
 from ...model.parts.chains import Chain
-from ...util.cached import cached_property
-from ...util.plain_text import in_short
-from .places import CoordinatePlace, DeformationPlace, Edit, Place
-from .refusal import RefusedError
+from ...util.errors import FlexactError
+from ...util.records import cached_property
+from ...util.text import in_short
+
+
+class RefusedError(FlexactError):
+    """What was asked for is not understood, or cannot be done; nothing has changed.
+
+    Attributes:
+        status: Of the answer over HTTP.
+    """
+
+    def __init__(self, message: str, status: HTTPStatus = HTTPStatus.UNPROCESSABLE_ENTITY) -> None:
+        """Keep the words and the status."""
+        super().__init__(message)
+        self.status = status
+
+
+class DeformationPlace(NamedTuple):
+    """A deformation of an element; of a divided flexure as if it were its first beam."""
+
+    element: int
+    """Number of the element."""
+    number: int
+    """Number of the deformation, from 1."""
+
+
+class CoordinatePlace(NamedTuple):
+    """A coordinate of a node."""
+
+    node: int
+    """Number of the node."""
+    name: str
+    """Such as x or rz."""
+
+
+Place = DeformationPlace | CoordinatePlace
+
+
+class Edit(NamedTuple):
+    """A deformation or a coordinate, and the class that it gets."""
+
+    place: Place
+    to: Class
+
+
+_DEFORMATION = {
+    "held": Class.FIXED,
+    "released": Class.DEPENDENT,
+    "independent": Class.INDEPENDENT,
+}
+_COORDINATE = {
+    "fixed": Class.FIXED,
+    "free": Class.DEPENDENT,
+    "independent": Class.INDEPENDENT,
+}
+
+
+def states_of(place: Place) -> dict[str, Class]:
+    """The states that a place can have: words and classes."""
+    return _DEFORMATION if isinstance(place, DeformationPlace) else _COORDINATE
+
+
+def state_word(place: Place, value: Class) -> str:
+    """The word of a class: "held", "fixed", ..."""
+    return next(word for word, each in states_of(place).items() if each == value)
+
 
 #: Edits, in the order in which they were made.
 Edits = tuple[Edit, ...]

@@ -6,15 +6,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import islice
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from ...analysis.mode_words import conflict_in_words, stress_in_parts
+from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
 from ...analysis.modes import Motion, SelfStress
-from ...analysis.motions import motion_in_parts
+from ...analysis.naming import Pieces
 from ...analysis.result import Result
-from ...analysis.sentences import Pieces
-from ...analysis.text_margin import margin_in_short, verdict_in_short
 from ...analysis.verdict import Certainty
+from ...analysis.verdict_words import margin_in_short, verdict_in_short
 from ...util.partial import attempted
 
 Mode = TypeVar("Mode", Motion, SelfStress)
@@ -84,3 +83,79 @@ def _stress(stress: SelfStress) -> str:
 
 def _words(parts: Iterable[Pieces]) -> str:
     return "; ".join("".join(map(str, pieces)) for pieces in parts)
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a worker is asked for.
+
+    Attributes:
+        path: The deck or the script.
+        is_script: Which of them it is.
+        decision: Arguments of `flexact.analysis.spaces.asked_for`.
+    """
+
+    path: str
+    is_script: bool
+    decision: tuple[Any, ...] = ("auto", None)
+
+
+@dataclass(frozen=True)
+class Printed:
+    """What a script has printed."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What is told of a result whose scene is still being made."""
+
+    told: Told
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A result as the page shows it.
+
+    Attributes:
+        title: Of the page, as text.
+        body: What stands within its body.
+        told: What is told of the result.
+        which: Which model of a script it is, in words; empty for a deck.
+        problems: Warnings and notes, as the terminal has them.
+        files: What it was made of, besides the file that is watched.
+        result: The result itself, pickled.
+        model: The name of the model in a script; empty for a deck.
+    """
+
+    title: str
+    body: str
+    told: Told
+    which: str
+    problems: str
+    files: tuple[str, ...]
+    result: bytes = b""
+    model: str = ""
+
+
+@dataclass(frozen=True)
+class Broken:
+    """Why there is no result.
+
+    Attributes:
+        title: Of the page, as text.
+        errors: As HTML.
+        body: What stands within the body of a page that has nothing else to show.
+        words: As the terminal has them.
+        files: As in `Shown`.
+    """
+
+    title: str
+    errors: str
+    body: str
+    words: str
+    files: tuple[str, ...]
+
+
+Answer = Shown | Broken

@@ -5,12 +5,111 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from .changes import changed_words
-from .messages import Told
-from .watching_messages import Answer, Broken
+from ...analysis.result import Result
+from ...deck.diagnostics import Diagnostic, Source
+from ...deck.rendering import MOST_SHOWN, ProblemsError, render
+from ...show.page.assets import text
+from ...util.partial import why
+from ...util.text import file_name
+from .messages import Answer, Broken, Told, told_of
+
+
+def errors_part(error: Exception, path: str) -> str:
+    """What is wrong, in full."""
+    if not isinstance(error, ProblemsError):
+        return f"<p>{text(why(error))}</p>"
+    shown = sorted(error.diagnostics, key=lambda item: not item.is_error)[:MOST_SHOWN]
+    name = file_name(error.name or path)
+    parts = [_problem(item, name, error.source) for item in shown]
+    if (more := error.problems.total - len(shown)) > 0:
+        parts.append(f'<p class="note">and {more} more problem{"s" * (more > 1)}</p>')
+    return "".join(parts)
+
+
+def _problem(item: Diagnostic, name: str, source: Source | None) -> str:
+    head, *excerpt = render(item, name, source).split("\n")
+    # Help is a sentence, which breaks into lines as they fit.
+    helps = [line for line in excerpt if line.lstrip().startswith("= help:")]
+    lines = [line for line in excerpt if line not in helps]
+    severity, _, words = head.partition(": ")
+    hint = f'<p class="help">help: {text(item.help)}</p>' if item.help else ""
+    # The label is an arrow's word; without a place it stands alone.
+    place = f"<pre>{chr(10).join(map(text, lines))}</pre>" if lines else ""
+    return (
+        f'<div class="told {item.severity}"><b>{text(severity)}</b>: {text(words)}'
+        f"{place}{hint}</div>"
+    )
+
+
+_ARROW = "\N{RIGHTWARDS ARROW}"
+#: Counts that need no word of their own where the verdict says them.
+_IN_VERDICT = ("motions", "self-stresses")
+
+
+def changed_between(before: Result, after: Result) -> str:
+    """What has changed from one result to another: "over-constrained by 1 → exactly constrained".
+
+    Where the verdict stays, what else has changed: counts, margin, motions and self-stresses.
+    """
+    return changed_words(told_of(before), told_of(after))
+
+
+def changed_words(before: Told, after: Told) -> str:
+    """The same of what was told of them."""
+    if before.verdict != after.verdict:
+        start = f"{before.verdict} {_ARROW} {after.verdict}"
+        rest = [*_counts(before, after), *_certainty(before, after)]
+    else:
+        start = f"still {after.verdict}"
+        motions, stresses = after.counts["motions"], after.counts["self-stresses"]
+        rest = [
+            *_counts(before, after),
+            *_certainty(before, after),
+            *_margin(before, after),
+            *_modes(("motion", "s"), before.motions, after.motions, motions),
+            *_modes(("self-stress", "es"), before.stresses, after.stresses, stresses),
+        ]
+        if not rest:
+            return f"{start}; nothing has changed that the analysis sees"
+    return "; ".join([start, *rest])
+
+
+def _counts(before: Told, after: Told) -> Iterator[str]:
+    for name, now in after.counts.items():
+        was = before.counts[name]
+        if was != now and name not in _IN_VERDICT:
+            yield f"{name} {was} {_ARROW} {now}"
+
+
+def _certainty(before: Told, after: Told) -> Iterator[str]:
+    if before.is_doubtful != after.is_doubtful:
+        yield "the rank is now doubtful" if after.is_doubtful else "the rank is no longer doubtful"
+
+
+def _margin(before: Told, after: Told) -> Iterator[str]:
+    if before.margin != after.margin:
+        yield f"{before.margin} {_ARROW} {after.margin.removeprefix('margin ')}"
+
+
+def _modes(
+    word: tuple[str, str], before: Sequence[str], after: Sequence[str], count: int
+) -> Iterator[str]:
+    """How many motions or self-stresses are others than they were."""
+    what, ending = word
+    new = sum((Counter(after) - Counter(before)).values())
+    if not new or len(before) != len(after):
+        return
+    if count == 1:
+        yield f"the {what} is another"
+        return
+    many = f"{what}{ending}"
+    of = f"{count} {many}" if count == len(after) else f"the first {len(after)} {many}"
+    yield f"{new} of {of} {'is another' if new == 1 else 'are others'}"
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,8 @@ from types import ModuleType, TracebackType
 from typing import Any
 
 from ...analysis.result import Result
-from ...deck.diagnostics import Diagnostic, Place, Problems, Severity
-from ...deck.errors import ProblemsError
-from ...deck.source import Source
+from ...deck.diagnostics import Diagnostic, Place, Problems, Severity, Source
+from ...deck.rendering import ProblemsError
 from ...model.model import Model
 from ...model.reading import file_bytes
 from ...show.window import take_with

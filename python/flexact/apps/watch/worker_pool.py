@@ -5,16 +5,53 @@ from __future__ import annotations
 
 import contextlib
 import os
+import pickle
 import signal
+import struct
 import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import IO, Any
 
 from ...util.errors import FlexactError, reason_of
-from . import frames
-from .watching_messages import Answer, Job, Judged, Printed
+from .messages import Answer, Job, Judged, Printed
+
+_LENGTH = struct.Struct("!Q")
+#: Longer is no value of ours.
+_MOST = 2**32
+
+
+def send(line: IO[bytes], value: Any) -> None:
+    """Write a value.
+
+    Raises:
+        OSError: Nobody reads on.
+    """
+    content = pickle.dumps(value, pickle.HIGHEST_PROTOCOL)
+    line.write(_LENGTH.pack(len(content)) + content)
+    line.flush()
+
+
+def receive(line: IO[bytes]) -> Any:
+    """The next value.
+
+    Raises:
+        EOFError: There is none, or it ends too early.
+        Exception: What is there was not sent by `send`.
+    """
+    (length,) = _LENGTH.unpack(_read(line, _LENGTH.size))
+    if length > _MOST:
+        raise ValueError("longer than any value")
+    return pickle.loads(_read(line, length))
+
+
+def _read(line: IO[bytes], length: int) -> bytes:
+    content = line.read(length)
+    if len(content) < length:
+        raise EOFError
+    return content
+
 
 #: Starts a worker. The folder at hand is no place for modules: a deck lies there.
 _START = (
@@ -58,7 +95,7 @@ class Worker:
         """
         self.is_busy = True
         try:
-            frames.send(self._jobs, job)
+            send(self._jobs, job)
         except OSError:
             raise self._death() from None
         while isinstance(heard := self._hear(), (Printed, Judged)):
@@ -69,7 +106,7 @@ class Worker:
 
     def _hear(self) -> Any:
         try:
-            return frames.receive(self._line)
+            return receive(self._line)
         except (EOFError, OSError):
             raise self._death() from None
         except Exception:

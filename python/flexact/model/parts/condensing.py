@@ -15,8 +15,7 @@ import numpy as np
 
 from ...core.arrays import FloatArray, IntArray, ModelArrays
 from ...core.elements import Class
-from ...util.cached import cached_property
-from ...util.records import Frozen
+from ...util.records import Frozen, cached_property
 from ..attributes import Appearance
 from ..data import ModelData
 from ..names import part_name

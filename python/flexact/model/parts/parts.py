@@ -4,21 +4,84 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
 from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
 
-from ...core.arrays import IntArray
+from ...core.arrays import IntArray, ModelArrays
 from ...core.elements import Class, Member, NodeKind
-from ...deck.errors import model_error
-from ...util.cached import cached_property
-from ...util.plain_text import harmless, in_short
+from ...deck.rendering import model_error
+from ...util.records import cached_property
+from ...util.text import harmless, in_short
 from ..data import ModelData
 from ..names import own_number, part_name
-from .bodies import Body, bodies_of
 from .chains import Chain
-from .forms import Form, forms_of, is_member
+from .forms import Form, all_held, forms_of, is_member
+
+
+class Body(NamedTuple):
+    """A rigid body of one or several rigid members.
+
+    Attributes:
+        elements: Indices of its members, ascending.
+        positions: Indices of the position nodes that it carries, ascending.
+        orientations: Indices of the orientation nodes that turn with it, ascending.
+    """
+
+    elements: tuple[int, ...]
+    positions: tuple[int, ...]
+    orientations: tuple[int, ...]
+
+
+def bodies_of(arrays: ModelArrays) -> tuple[Body, ...]:
+    """The rigid bodies of a model, by their first members.
+
+    Members that share an orientation node belong together; those that share a position alone
+    turn about it.
+    """
+    rigid = np.flatnonzero(
+        is_member(arrays.element_kind, Member.BEAM, Member.LINK) & all_held(arrays)
+    )
+    slots = (arrays.element_node[:, rigid].T - 1).tolist()
+    turning = {
+        orientation for _, op, _, oq in slots for orientation in (op, oq) if orientation >= 0
+    }
+    place = {orientation: k for k, orientation in enumerate(sorted(turning))}
+    group = groups_of(
+        len(place), ((place[op], place[oq]) for _, op, _, oq in slots if oq >= 0)
+    ).tolist()
+    members: dict[int, list[int]] = {}
+    for k, (_, op, _, _) in enumerate(slots):
+        members.setdefault(group[place[op]], []).append(k)
+    made = []
+    for mine in members.values():
+        ends = [slots[k] for k in mine]
+        made.append(
+            Body(
+                tuple(rigid[mine].tolist()),
+                tuple(sorted({node for p, _, q, _ in ends for node in (p, q)})),
+                tuple(sorted({node for _, op, _, oq in ends for node in (op, oq) if node >= 0})),
+            )
+        )
+    return tuple(sorted(made))
+
+
+def groups_of(count: int, pairs: Iterable[tuple[int, int]]) -> np.ndarray:
+    """(count,) of each thing one of its group, the same for all of the group."""
+    owner = list(range(count))
+
+    def root(i: int) -> int:
+        while owner[i] != i:
+            owner[i] = owner[owner[i]]
+            i = owner[i]
+        return i
+
+    for i, j in pairs:
+        owner[root(i)] = root(j)
+    return np.array([root(i) for i in range(count)], dtype=np.int64)
 
 
 class PartKind(str, Enum):
@@ -337,3 +400,29 @@ def natural(name: str) -> tuple[tuple[bool, int, str, str], ...]:
         (not word.isdecimal(), len(number), number, word)
         for word, number in zip(words, numbers, strict=True)
     )
+
+
+class Surplus(NamedTuple):
+    """Released deformations of one beam of a divided sheet that are inside it."""
+
+    element: int
+    """Index of the beam."""
+    deformations: tuple[int, ...]
+    """From 1."""
+
+
+def surplus_of(data: ModelData) -> tuple[Surplus, ...]:
+    """What is to be declared independent, by element."""
+    found = (Surplus(*each) for chain in data.chains for each in chain.surplus)
+    return tuple(sorted(found))
+
+
+def declared(data: ModelData) -> ModelData:
+    """The model with all of that independent; the same object where there is nothing."""
+    surplus = surplus_of(data)
+    if not surplus:
+        return data
+    classes = data.arrays.deformation_class.copy(order="F")
+    for element, deformations in surplus:
+        classes[np.array(deformations) - 1, element] = Class.INDEPENDENT
+    return replace(data, arrays=data.arrays._replace(deformation_class=classes))

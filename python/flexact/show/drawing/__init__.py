@@ -5,21 +5,36 @@ Members with their sizes, symbols, poses, shapes, resultants and views; `picture
 `page` put them down.
 """
 
-from ...analysis.resultants import QUANTITIES
+from ...analysis.part_stresses import QUANTITIES
 from ...model.parts.forms import Form
 from .bodies import Solid
+from .diagrams import (
+    BENDING,
+    UNITS,
+    Resultants,
+    meanings_in,
+    names_in,
+    quantity_named,
+    resultants,
+    sides_in,
+)
 from .drawing import Drawing, drawing_of, joints_of
-from .drawing_pose import Moving, Pose, reference_pose
-from .drawing_spaces import SpaceShape, dashes, shape_of_space
-from .drawing_supports import Arrows, Support, Supports
-from .hinges import Hinges
-from .members import Members
-from .movement import Movement, move, reach_of
-from .pose import Field, Strip, field_along, stations
-from .quantities import BENDING, UNITS, meanings_in, names_in, quantity_named, sides_in
-from .resultants import Resultants, resultants
-from .solids import axes_of, cylinders, solid
-from .swing import swing
+from .members import Hinges, Members
+from .movement import Movement, move, reach_of, swing
+from .pose import (
+    Field,
+    Moving,
+    Pose,
+    Strip,
+    axes_of,
+    cylinders,
+    field_along,
+    reference_pose,
+    solid,
+    stations,
+)
+from .spaces import SpaceShape, dashes, shape_of_space
+from .supports import Arrows, Support, Supports
 
 __all__ = [
     "BENDING",

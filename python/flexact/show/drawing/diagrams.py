@@ -14,14 +14,148 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...analysis.modes import SelfStress
+from ...analysis.part_stresses import QUANTITIES, shared_resultants
 from ...core.arrays import FloatArray
-from ...model.parts.directions import signs_of
+from ...model.parts.chains import signs_of
+from ...model.parts.forms import Form
 from ...util.records import Frozen
 from .drawing import Drawing
 from .members import Members
-from .quantities import BENDING
-from .resultants import Resultants
 from .rotations import unit
+
+FORCE, TWIST, IN_PLANE, OUT_OF_PLANE = QUANTITIES
+#: Those that bend, each with the row of the directions across a member to which it bends.
+BENDING = {IN_PLANE: 0, OUT_OF_PLANE: 1}
+UNITS = {FORCE: "N", TWIST: "N m", IN_PLANE: "N m", OUT_OF_PLANE: "N m"}
+
+#: What they are called besides; My and Mz are those of the local axes that sheets have in decks
+#: of the paper.
+_OTHER_NAMES = {
+    **{"n": FORCE, "normal": FORCE},
+    **{"t": TWIST, "twist": TWIST, "torsion": TWIST},
+    **{"my": IN_PLANE, "in plane": IN_PLANE},
+    **{"mz": OUT_OF_PLANE, "out of plane": OUT_OF_PLANE, "bending moment": OUT_OF_PLANE},
+}
+_SIDES = {
+    FORCE: "blue: compression; red: tension",
+    TWIST: "blue and red: opposite senses",
+    IN_PLANE: "red: stretches the {} towards z (y or x if it lies so)",
+    OUT_OF_PLANE: "red: stretches the {} towards z (y or x if it lies so)",
+}
+
+
+def quantity_named(name: str) -> str | None:
+    """The quantity of this name, however it is written; None where there is none."""
+    plain = " ".join(name.lower().replace("-", " ").replace("_", " ").split())
+    known = {each.replace("-", " "): each for each in QUANTITIES} | _OTHER_NAMES
+    return known.get(plain)
+
+
+def names_in(drawing: Drawing) -> dict[str, str]:
+    """What each quantity is called there: the words of sheets where there are any."""
+    if drawing.planar:
+        bending = ("bending moment out of the plane", "bending moment")
+    elif np.any(drawing.members.form == Form.SHEET):
+        return {each: each for each in QUANTITIES}
+    else:
+        bending = ("upward bending moment", "sideways bending moment")
+    return dict(zip(QUANTITIES, (FORCE, TWIST, *bending), strict=True))
+
+
+def meanings_in(drawing: Drawing) -> dict[str, str]:
+    """What each quantity is, for a legend or a caption."""
+    names = names_in(drawing)
+    return names | {FORCE: f"{names[FORCE]}, tension positive"}
+
+
+def sides_in(drawing: Drawing) -> dict[str, str]:
+    """What the colours of each quantity mean."""
+    edge, face = "edge", "face"
+    if drawing.planar or not np.any(drawing.members.form == Form.SHEET):
+        edge = face = "side"
+    return {each: _SIDES[each].format(edge if each == IN_PLANE else face) for each in QUANTITIES}
+
+
+#: A quantity below this part of the largest one, moments over the length, is rounding.
+_NOISE = 1.0e-10
+
+
+@dataclass(frozen=True, eq=False)
+class Resultants(Frozen):
+    """Stress resultants of a self-stress; only their ratios have a meaning.
+
+    Attributes:
+        members: (k, 4, 2) the `QUANTITIES` [N, N m] at both ends of the drawing's members, linear
+            between.
+        hinges: (h, 4) their sizes in the hinges.
+        flexible: (k,) which members are sheets, wires or bars.
+        shown: (k,) which members are drawn themselves, and not a body in their place.
+        length: The characteristic length [m] by which moments compare with forces.
+    """
+
+    members: FloatArray
+    hinges: FloatArray
+    flexible: np.ndarray
+    shown: np.ndarray
+    length: float
+
+    def __getitem__(self, quantity: str) -> FloatArray:
+        """(k, 2) one of `QUANTITIES` at both ends of the members."""
+        return np.asarray(self.members[:, QUANTITIES.index(quantity)])
+
+    @property
+    def _weight(self) -> FloatArray:
+        """(4,) what makes the quantities comparable with forces."""
+        return np.array([1.0, *[1.0 / self.length] * 3])
+
+    def along(self, quantity: str, member: np.ndarray, at: FloatArray) -> FloatArray:
+        """(rows, s) a quantity at stations (s,) of some members (rows,)."""
+        ends = self[quantity][member]
+        made: FloatArray = ends[:, :1] * (1 - at) + ends[:, 1:] * at
+        made[:, at == 1.0] = ends[:, 1:]
+        return made
+
+    def largest(self, quantity: str) -> float:
+        """Largest magnitude of a quantity, of members that are shown and of hinges."""
+        column, weight = QUANTITIES.index(quantity), self._weight
+        sizes = np.abs(self.members[self.shown]).max(axis=(0, 2), initial=0.0)
+        sizes = np.maximum(sizes, np.abs(self.hinges).max(axis=0, initial=0.0))
+        # Rounding errors are no stress.
+        noise = sizes[column] * weight[column] <= _NOISE * (sizes * weight).max()
+        return 0.0 if noise else float(sizes[column])
+
+    @property
+    def dominant(self) -> str:
+        """The quantity that is largest on the whole, moments over the characteristic length.
+
+        By the root of the sum of squares, and of sheets, wires and bars as long as they carry
+        anything: the stress in rigid bodies is what theirs asks for.
+        """
+        squares = np.sum(self.members[self.flexible] ** 2, axis=(0, 2))
+        if not squares.any():
+            squares = np.sum(self.members[self.shown] ** 2, axis=(0, 2))
+            squares += np.sum(self.hinges**2, axis=0)
+        sizes = np.sqrt(squares) * self._weight
+        # Of practically equal ones the first.
+        return QUANTITIES[int(np.argmax(sizes >= sizes.max() * (1 - 1.0e-9)))]
+
+
+def resultants(drawing: Drawing, stress: SelfStress) -> Resultants:
+    """The stress resultants of a self-stress along the members of a drawing."""
+    value = stress.forces + stress.moments
+    members, hinges = (
+        shared_resultants(drawing.data, index, value[index])
+        for index in (drawing.members.index, drawing.hinges.index)
+    )
+    return Resultants(
+        members,
+        hinges[..., 0],
+        np.isin(drawing.members.form, (Form.SHEET, Form.WIRE, Form.BAR)),
+        ~drawing.in_solid,
+        stress.analysis.characteristic_length,
+    )
+
 
 #: Height of the largest moment, and the gap between a member and its diagram: parts of the
 #: drawing's size.

@@ -10,13 +10,11 @@ import numpy as np
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...model.data import ModelData
-from ...util.cached import cached_property
-from ...util.records import Frozen
+from ...util.records import Frozen, cached_property
 from .bodies import Solid, solids_of
-from .drawing_pose import Pose, reference_pose
-from .drawing_supports import Arrows, Supports, arrows_of, supports_of
-from .hinges import Hinges, hinges_of
-from .members import Members, members_of
+from .members import Hinges, Members, hinges_of, members_of
+from .pose import Pose, reference_pose
+from .supports import Arrows, Supports, arrows_of, supports_of
 
 #: Diameter of a joint, times that of the bars.
 _BALL = 1.9

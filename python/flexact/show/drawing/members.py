@@ -3,20 +3,142 @@
 
 from __future__ import annotations
 
+import itertools
+from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.arrays import FloatArray
+from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Member, keywords_of, planar_table
 from ...model.attributes import Appearance, CrossSection
 from ...model.data import ModelData
 from ...model.parts.forms import Form, all_held, bending_held, forms_of, is_member
 from ...util.records import Frozen
-from .colours import of_forms
-from .places import slots_of
+
+
+def slots_of(arrays: ModelArrays) -> np.ndarray:
+    """(elements, 4) node indices from 0 in the slots p, op, q, oq; -1 where unused."""
+    return np.asarray(arrays.element_node.T.astype(np.int64) - 1)
+
+
+def turned_at(arrays: ModelArrays) -> np.ndarray:
+    """(pairs, 2) position node and orientation node that stand at one end of an element.
+
+    Without repetition, ascending. The far end of a rigid link turns with its near end and has
+    no orientation of its own.
+    """
+    slots = slots_of(arrays)
+    ends = np.concatenate((slots[:, :2], slots[:, 2:]))
+    return np.unique(ends[(ends >= 0).all(axis=1)], axis=0)
+
+
+def places_of_hinges(slots: np.ndarray, is_line: np.ndarray) -> np.ndarray:
+    """Position node of each element without extent, -1 where none is known.
+
+    It is its own; else one that both of its orientation nodes stand at, else one of either.
+    Where an orientation node stands between hinges alone, as in a cardan joint, it is where
+    those are.
+    """
+    hinges = slots[~is_line][:, [1, 3]].tolist()
+    places: dict[int, list[int]] = {node: [] for pair in hinges for node in pair}
+    for p, op, q, oq in slots[is_line].tolist() if hinges else ():
+        for position, orientation in ((p, op), (q, oq if oq >= 0 else op)):
+            if orientation in places:
+                places[orientation].append(position)
+    _place_between_hinges(places, hinges)
+    found = np.array([_common(places[a], places[b]) for a, b in hinges], dtype=np.int64)
+    own = slots[~is_line][:, 0]
+    return np.where(own >= 0, own, found)
+
+
+def _place_between_hinges(places: dict[int, list[int]], hinges: list[list[int]]) -> None:
+    """Place orientation nodes that only hinges name where most of what they join stands."""
+    beyond: dict[int, list[int]] = {node: [] for node in places}
+    for a, b in hinges:
+        beyond[a].append(b)
+        beyond[b].append(a)
+    nowhere: set[int] = set()
+    for start in [node for node in places if not places[node]]:
+        if start in nowhere:
+            continue
+        joined, around, found = [start], Counter[int](), {start}
+        for node in joined:
+            for other in beyond[node]:
+                if places[other]:
+                    around.update(dict.fromkeys(places[other], 1))
+                elif other not in found:
+                    found.add(other)
+                    joined.append(other)
+        if not around:
+            nowhere |= found
+        for node in joined:
+            places[node] = [place for place, _ in around.most_common(1)]
+
+
+def _common(first: list[int], second: list[int]) -> int:
+    others = set(second)
+    shared = (node for node in first if node in others)
+    return next(itertools.chain(shared, first, second), -1)
+
+
+#: (7, 3) from the most negative value over zero to the most positive: blue, grey, red, even in
+#: lightness to both sides and told apart by colour-blind people (Moreland, Diverging Color Maps
+#: for Scientific Visualization, 2009: "cool to warm").
+STOPS = (
+    np.array(
+        [
+            (59, 76, 192),
+            (111, 146, 243),
+            (170, 199, 253),
+            (221, 221, 221),
+            (247, 184, 156),
+            (231, 116, 91),
+            (180, 4, 38),
+        ]
+    )
+    / 255.0
+)
+STOPS.flags.writeable = False
+
+OF_FORMS = {
+    Form.SHEET: (0.53, 0.70, 0.88),
+    Form.WIRE: (0.80, 0.69, 0.20),
+    Form.BAR: (0.25, 0.46, 0.46),
+    Form.BEAM: (0.62, 0.66, 0.72),
+    Form.RIGID: (0.65, 0.66, 0.67),
+}
+HINGE = (0.54, 0.45, 0.65)
+SUPPORT = (0.38, 0.40, 0.43)
+GHOST = (0.72, 0.74, 0.77)
+GHOST_FACE = (0.8936, 0.9012, 0.9126)
+#: Displacements of a motion, and declared degrees of freedom.
+ARROW = (0.80, 0.37, 0.06)
+FREEDOM = (0.0, 0.62, 0.40)
+#: What is pointed at.
+MARK = (1.0, 0.92, 0.0)
+#: Freedom and constraint spaces, red and blue as in the literature on them; wires to add.
+FREEDOM_SPACE = (0.90, 0.15, 0.24)
+CONSTRAINT_SPACE = (0.06, 0.28, 0.84)
+NEW_WIRE = (0.32, 0.16, 0.0)
+
+
+def of_forms(form: np.ndarray) -> FloatArray:
+    """(k, 3) red, green and blue of (k,) forms."""
+    table = np.zeros((max(Form) + 1, 3))
+    for each, colour in OF_FORMS.items():
+        table[each] = colour
+    made: FloatArray = table[form]
+    return made
+
+
+def diverging(values: FloatArray) -> FloatArray:
+    """(..., 3) red, green and blue of values from -1 to 1; those beyond are as the ends."""
+    place = np.linspace(-1.0, 1.0, len(STOPS))
+    return np.stack([np.interp(values, place, STOPS[:, k]) for k in range(3)], axis=-1)
+
 
 #: Sizes across a member where none is given: parts of the drawing's size, and of the member's own
 #: length (of all beams of a sheet together) which they do not exceed. Along local y and z; a
@@ -209,3 +331,36 @@ def _as_given(
     section = np.where(line[:, None], np.minimum(section, _LINE * size), section)
     circle = np.isin(kind, (CrossSection.CIRC, CrossSection.CIRCHOL)) | line
     return section, np.where(known, circle, round_)
+
+
+#: Length and diameter, parts of the drawing's size.
+_HINGES_PARTS = (0.06, 0.03)
+
+
+@dataclass(frozen=True, eq=False)
+class Hinges(Elements):
+    """Drawn elements without extent; ex is the axis.
+
+    Their nodes are the position where each stands, -1 where none is known, and its two
+    orientations.
+
+    Attributes:
+        size: (h, 2) length and diameter of its symbol [m].
+    """
+
+    size: FloatArray
+
+
+def hinges_of(data: ModelData, size: float) -> Hinges:
+    """The hinges of a model; `size` is that of the drawing [m]."""
+    arrays = data.arrays
+    slots = slots_of(arrays)
+    is_line = ~is_member(arrays.element_kind, Member.HINGE)
+    every = np.flatnonzero(~is_line)
+    chosen = data.appearance.drawn[every]
+    place, index = places_of_hinges(slots, is_line)[chosen], every[chosen]
+    return Hinges(
+        **described(data, index, HINGE),
+        nodes=np.column_stack((place, slots[index][:, [1, 3]])),
+        size=np.tile(np.array(_HINGES_PARTS) * size, (index.size, 1)),
+    )

@@ -3,20 +3,302 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...core.arrays import FloatArray
+from ...analysis.body_motions import Velocities
+from ...analysis.decomposition import Outcome
+from ...analysis.freedoms import FreeMotion
+from ...core.arrays import FloatArray, ModelArrays
+from ...core.elements import Class, NodeKind, Role, role_table
+from ...model.configuration import Configuration
+from ...model.data import ModelData
+from ...model.parts.condensing import Condensed, InnerNodes
+from ...model.parts.parts import bodies_of
+from ...motion.constraints import Held, Place, is_followed
+from ...motion.stations import onward, settle
 from ...util.records import Frozen
 from .drawing import Drawing
-from .drawing_pose import Moving, Pose, reference_pose
-from .inner_nodes import poses_with_inner_nodes
-from .natural import Natural
-from .path import follow, has_path, moved_by_screws
-from .pose import field_along, stations
-from .rotations import between, vector_of
+from .pose import Moving, Pose, field_along, pose_of, reference_pose, stations
+from .rotations import between, matrix_of, screw_matrix, vector_of
+
+
+def poses_with_inner_nodes(condensed: Condensed, poses: Iterable[Pose]) -> tuple[Pose, ...]:
+    """Poses of the model as it was given, from those of the model as it was analysed.
+
+    Between its ends a divided sheet or wire is cubic about its chord, as one beam is.
+    """
+    if not condensed.chains:
+        return tuple(poses)
+    return tuple(_whole(condensed, pose) for pose in poses)
+
+
+def _whole(condensed: Condensed, pose: Pose) -> Pose:
+    nodes = condensed.given.arrays.node_number.size
+    position, rotation = np.zeros((nodes, 3)), np.broadcast_to(np.eye(3), (nodes, 3, 3)).copy()
+    position[condensed.nodes], rotation[condensed.nodes] = pose.position, pose.rotation
+    for inner in condensed.inner:
+        place, turned = _between(inner, position[inner.ends[[0, 2]]], rotation[inner.ends[[1, 3]]])
+        position[inner.positions], rotation[inner.orientations] = place, turned
+    return Pose(position, rotation)
+
+
+def _between(
+    inner: InnerNodes, ends: FloatArray, turns: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Positions (k, 3) and rotations (k, 3, 3) of inner nodes."""
+    carried = _carried(inner.chord, ends[1] - ends[0], turns)
+    local = vector_of(np.swapaxes(carried, -1, -2) @ turns)
+    moved, turned = inner.between(np.zeros((2, 3)), local)
+    beside = inner.share[:, None] * inner.chord + inner.offset + moved
+    stretch = (ends[1] - ends[0]) - carried @ inner.chord
+    place = ends[0] + beside @ carried.T + inner.share[:, None] * stretch
+    return place, carried @ matrix_of(turned)
+
+
+def _carried(chord: FloatArray, now: FloatArray, turns: FloatArray) -> FloatArray:
+    """(3, 3) the rotation that the beam makes as a whole: with its ends, and with its chord."""
+    half = vector_of(turns[0].T @ turns[1]) / 2.0
+    mean = turns[0] @ matrix_of(half)
+    along = mean @ chord / np.linalg.norm(chord)
+    length = float(np.linalg.norm(now))
+    if not length > 0.0:
+        return np.asarray(mean)
+    to = now / length
+    axis = np.cross(along, to)
+    sine, cosine = float(np.linalg.norm(axis)), float(along @ to)
+    if sine <= 0.0:
+        return np.asarray(mean)
+    return np.asarray(matrix_of(axis / sine * np.arctan2(sine, cosine)) @ mean)
+
+
+#: More coordinates than these are not followed: it would take seconds.
+_MOST_COORDINATES = 300
+
+
+@dataclass(frozen=True, eq=False)
+class Path(Frozen):
+    """Poses along a motion.
+
+    Attributes:
+        poses: One a share.
+        deviation: The largest deformation in them that the motion holds, as a part of the
+            drawing's size.
+    """
+
+    poses: tuple[Pose, ...]
+    deviation: float
+
+
+def has_path(data: ModelData) -> bool:
+    """Whether a model is small enough for its motions to be followed in a drawing."""
+    return is_followed(data, _MOST_COORDINATES)
+
+
+def follow(motion: Velocities, shares: FloatArray, size: float) -> Path | None:
+    """The poses at shares of a motion that grow from the reference on.
+
+    Args:
+        motion: The motion; what its model holds stays zero, what it fixes stays.
+        shares: (k,) by which the motion is multiplied, of one sign.
+        size: Of the drawing [m].
+
+    Returns:
+        The path, or None where there is none near.
+    """
+    held = Held(motion.data, size)
+    direction = held.direction(motion)
+    length = float(np.linalg.norm(direction))
+    if not length > 0.0:
+        return None
+    direction *= np.sign(shares[0]) / length
+    here: Place | None = held.at(held.reference)
+    poses, deviation = [], 0.0
+    for step in np.abs(np.diff(shares, prepend=0.0)).tolist():
+        here = settle(held, here, direction, step * length) if here else None
+        if here is None:
+            return None
+        deviation = max(deviation, here.residual)
+        poses.append(pose_in(held, here.configuration))
+        direction = onward(here, direction)
+    return Path(tuple(poses), deviation)
+
+
+def pose_in(held: Held, here: Configuration) -> Pose:
+    """The pose that a configuration means, which `Held` has, where the model stands."""
+    placed = (held.arrays.node_kind <= NodeKind.POSITION)[:, None]
+    there = pose_of(held.data.arrays, held.outside(here))
+    return Pose(np.where(placed, there.position, 0.0), there.rotation)
+
+
+def moved_by_screws(motion: Velocities, shares: Iterable[float]) -> tuple[Pose, ...]:
+    """The poses after a motion times each of `shares`.
+
+    Every node of a rigid body moves on the body's screw, so that the body keeps its shape. A
+    node of no body moves straight and turns about its own axis.
+    """
+    reference, moves = reference_pose(motion.data.arrays), BodyMoves(motion.data.arrays)
+    return tuple(_moved(motion, share, reference, moves) for share in shares)
+
+
+def _moved(motion: Velocities, share: float, reference: Pose, moves: BodyMoves) -> Pose:
+    moved, turned = share * motion.displacement, share * motion.rotation
+    rotation = matrix_of(turned)
+    position = moves.carried(reference.position, reference.position + moved, turned)
+    rotation[motion.data.arrays.node_kind <= NodeKind.POSITION] = np.eye(3)
+    return Pose(position, rotation)
+
+
+class BodyMoves:
+    """How the position nodes of rigid bodies move with them."""
+
+    def __init__(self, arrays: ModelArrays) -> None:
+        """Find the bodies."""
+        self._centre, self._turn = _bodies(arrays)
+
+    def carried(self, start: FloatArray, moved: FloatArray, turned: FloatArray) -> FloatArray:
+        """Positions (nodes, 3) after velocities that last for a time of one.
+
+        Args:
+            start: (nodes, 3) where they were [m].
+            moved: (nodes, 3) where they would be, had all gone straight [m].
+            turned: (nodes, 3) rotation vectors of orientations [rad].
+        """
+        made = moved.copy()
+        body = np.flatnonzero(self._centre >= 0)
+        centre, about = self._centre[body], turned[self._turn[body]]
+        gone = np.einsum("kxy,ky->kx", screw_matrix(about), (moved - start)[centre])
+        arm = np.einsum("kxy,ky->kx", matrix_of(about), start[body] - start[centre])
+        made[body] = start[centre] + gone + arm
+        return made
+
+
+def _bodies(arrays: ModelArrays) -> tuple[np.ndarray, np.ndarray]:
+    """Of each position node of a rigid body, a position node and an orientation node of it.
+
+    (nodes,) indices, -1 for nodes of no body.
+    """
+    centre, turn = (np.full(arrays.node_kind.size, -1) for _ in range(2))
+    for body in bodies_of(arrays):
+        p, op = (arrays.element_node[:2, body.elements[0]] - 1).tolist()
+        for node in body.positions:
+            if centre[node] < 0:
+                centre[node], turn[node] = p, op
+    return centre, turn
+
+
+#: More motions that nothing determines are not looked at together.
+_MOST = 200
+#: Stiffness below this part of the largest is none; changes below it are none.
+_NOTHING = 1.0e-10
+#: The column of ESTIFF that stiffens a deformation, by its role in a beam or a bar.
+_COLUMN = {
+    Role.ELONGATION: 0,
+    Role.TORSION: 1,
+    Role.BENDING_XZ_P: 2,
+    Role.BENDING_XZ_Q: 2,
+    Role.BENDING_XY_P: 3,
+    Role.BENDING_XY_Q: 3,
+    Role.PLANAR_BENDING_P: 1,
+    Role.PLANAR_BENDING_Q: 1,
+}
+#: Bending at both ends of a beam, which are stiff together: 4, -2; -2, 4.
+_PAIRS = (
+    (Role.BENDING_XZ_P, Role.BENDING_XZ_Q),
+    (Role.BENDING_XY_P, Role.BENDING_XY_Q),
+    (Role.PLANAR_BENDING_P, Role.PLANAR_BENDING_Q),
+)
+_JOINTS = {Role.ROTATION: 0, Role.ANGLE: 0, Role.TILT_Y: 1, Role.TILT_Z: 2}
+
+
+class Natural(FreeMotion):
+    """The motion of a degree of freedom in which what nothing determines bends least."""
+
+
+def natural_shape(outcome: Outcome, motion: FreeMotion) -> FreeMotion:
+    """A motion of a degree of freedom with the least bending of what is free.
+
+    It is the motion itself where everything is determined, or bends least as it is.
+    """
+    motions = getattr(outcome, "motions", ())
+    if not 0 < len(motions) <= _MOST:
+        return motion
+    data, length = motion.analysed.data, outcome.characteristic_length
+    given = motion.analysed
+    free = np.array([_both(each.analysed) for each in motions])
+    start = _both(given)
+    weight = np.where(_placed(data)[:, None], 1.0, length)
+    # Orthonormal in lengths, so that what stores nothing is told apart from what does.
+    basis = np.linalg.qr((free * weight).reshape(len(free), -1).T)[0].T.reshape(free.shape) / weight
+    rates = np.array([_rates(outcome, each) for each in (*basis, start)])
+    stiff = np.array([_stress(outcome, each) for each in rates])
+    energy = stiff.reshape(len(stiff), -1) @ rates.reshape(len(rates), -1).T
+    # Stiffness of any size may be given.
+    if not np.isfinite(energy).all():
+        return motion
+    inner, outer = energy[:-1, :-1], energy[:-1, -1]
+    shares = np.linalg.lstsq((inner + inner.T) / 2, -outer, rcond=_NOTHING)[0]
+    if np.linalg.norm(shares) <= _NOTHING * np.linalg.norm(start * weight):
+        return motion
+    made = start + np.einsum("k,knx->nx", shares, basis)
+    placed = _placed(data)[:, None]
+    velocities = Velocities(data, np.where(placed, made, 0.0), np.where(placed, 0.0, made))
+    return Natural(**{**vars(replace(motion)), "analysed": velocities})
+
+
+def _placed(data: ModelData) -> np.ndarray:
+    return np.asarray(data.arrays.node_kind <= NodeKind.POSITION)
+
+
+def _both(velocities: Velocities) -> FloatArray:
+    return velocities.displacement + velocities.rotation
+
+
+def _rates(outcome: Outcome, velocity: FloatArray) -> FloatArray:
+    """(elements, 6) of the deformations that are released; the others are 0."""
+    raw, arrays = outcome.assembly, outcome.data.arrays
+    count = arrays.element_number.size
+    made = np.bincount(
+        raw.row_of, raw.value * velocity.reshape(-1)[raw.column_of], minlength=6 * count
+    ).reshape(count, 6)
+    return np.where(arrays.deformation_class.T == Class.DEPENDENT, made, 0.0)
+
+
+def _stiffness(outcome: Outcome) -> FloatArray | None:
+    """(elements, 6) of ESTIFF, where every element with released deformations has it.
+
+    What is not given is 0: rigid bodies have no stiffness, and no rates that it would multiply.
+    """
+    condensed, arrays = outcome.condensed, outcome.data.arrays
+    if condensed.given.properties is None:
+        return None
+    made = np.nan_to_num(condensed.given.properties.stiffness[condensed.elements])
+    released = np.any(arrays.deformation_class == Class.DEPENDENT, axis=0)
+    return made if np.all(made[released].any(axis=1)) else None
+
+
+def _stress(outcome: Outcome, rates: FloatArray) -> FloatArray:
+    """(elements, 6) K e; deformations of beams are lengths, their length times an angle."""
+    data = outcome.data
+    role, length = role_table()[data.arrays.element_kind], data.frames.length
+    size = np.where(length > 0.0, length, 1.0)
+    given = _stiffness(outcome)
+    made = np.zeros_like(rates)
+    for each, column in {**_COLUMN, **_JOINTS}.items():
+        rows, places = np.nonzero(role == each)
+        joint = each in _JOINTS
+        stiff = np.ones(rows.size) if given is None else given[rows, column]
+        power = 0 if joint else (2 if given is None else (1 if each == Role.ELONGATION else 3))
+        made[rows, places] = stiff / size[rows] ** power * rates[rows, places]
+    for first, second in _PAIRS:
+        rows, p = np.nonzero(role == first)
+        _, q = np.nonzero(role[rows] == second)
+        one, other = made[rows, p].copy(), made[rows, q].copy()
+        made[rows, p], made[rows, q] = 4 * one - 2 * other, 4 * other - 2 * one
+    return made
+
 
 #: The largest displacement that is drawn, as a part of the drawing's size, and of the size of what
 #: moves, which it does not exceed.
@@ -204,3 +486,52 @@ def _least(far: float, largest: float, angle: float, turned: float) -> float:
     """The smaller of two quotients whose divisors are not zero; 0 where both are."""
     bounds = [a / b for a, b in ((far, largest), (angle, turned)) if b > 0.0]
     return min(bounds, default=0.0)
+
+
+#: Poses from one end to the other, of which the middle one is the state itself.
+_POSES = 5
+#: The largest rotation that is drawn [rad].
+_SWING_LARGEST_ROTATION = 0.4
+
+
+def swing(
+    drawing: Drawing, state: Configuration, displacement: FloatArray, about: str = "Enlarged."
+) -> Movement:
+    """The poses of a vibrating or buckled shape.
+
+    The largest displacement along the members is a tenth of the drawing's size, or a quarter of
+    the size of what moves where that is less, unless a rotation would be larger than 0.4 rad.
+    Rigid bodies keep their shapes.
+
+    Args:
+        drawing: The drawing of the model whose nodes are displaced.
+        state: Where its nodes are without the shape.
+        displacement: (nodes, 3) of positions, and rotations (spins) of orientations; only their
+            ratios matter.
+        about: What is said of it, a sentence.
+    """
+    arrays = drawing.data.arrays
+    placed = (arrays.node_kind <= NodeKind.POSITION)[:, None]
+    moved, turned = np.where(placed, displacement, 0.0), np.where(placed, 0.0, displacement)
+    amplitude, part = amplitude_of(drawing, moved, turned)
+    scale = _scale(drawing, moved, turned, amplitude)
+    start, bodies = pose_of(arrays, state), BodyMoves(arrays)
+    phases = np.linspace(-1.0, 1.0, _POSES)
+
+    def pose(share: float) -> Pose:
+        there = pose_of(arrays, state.moved(share * (moved + turned)))
+        position = bodies.carried(start.position, there.position, share * turned)
+        return Pose(np.where(placed, position, 0.0), there.rotation)
+
+    poses = tuple(pose(scale * phase) for phase in phases.tolist())
+    return Movement(scale, np.nan, phases, poses, about, part)
+
+
+def _scale(drawing: Drawing, moved: FloatArray, turned: FloatArray, amplitude: float) -> float:
+    """What the shape is multiplied by; 0 of one that does not move."""
+    along = field_along(drawing.members, moved, turned)
+    ways = [float(np.linalg.norm(each.displacement, axis=-1).max(initial=0.0)) for each in along]
+    far = max([*ways, float(np.linalg.norm(moved, axis=1).max(initial=0.0))])
+    angle = float(np.linalg.norm(turned, axis=1).max(initial=0.0))
+    wanted = ((amplitude, far), (_SWING_LARGEST_ROTATION, angle))
+    return min((most / found for most, found in wanted if found > 0.0), default=0.0)

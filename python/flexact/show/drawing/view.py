@@ -9,10 +9,9 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...model.parts.forms import Form
-from ...util.cached import cached_property
 from ...util.errors import BatchError, require_kind
 from ...util.quantities import quantity
-from ...util.records import Frozen
+from ...util.records import Frozen, cached_property
 from .drawing import Drawing
 
 #: Azimuth and elevation [degrees] of the views that have a name.

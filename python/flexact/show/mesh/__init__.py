@@ -25,22 +25,22 @@ Point data
     ``selfstress_k_normal_force`` [N], ``_twist_moment``, ``_in_plane_moment`` and
     ``_out_of_plane_moment`` [N m] of self-stress k at that station of the member: the stress
     resultants of the analysis at its ends, linear between, with the signs of
-    ``flexact.analysis.resultants``, which depend on geometry alone. Equal values at both ends are
-    a constant moment. A rigid link has the components of its force at its far end: the normal
+    ``flexact.analysis.part_stresses``, which depend on geometry alone. Equal values at both ends
+    are a constant moment. A rigid link has the components of its force at its far end: the normal
     force along itself, and the moments that the others make on the way. Hinges have sizes.
 Cell data
     ``element``: number of the element; ``kind``: its code, see ``flexact.core.elements``; ``form``:
-    what it is to the eye, see ``flexact.show.drawing.Form``, 0 for hinges; ``name``: its name, in .vtp
-    files alone. meshio does not read a .vtu file that has text, so that names are field data.
+    what it is to the eye, see ``flexact.show.drawing.Form``, 0 for hinges; ``name``: its name, in
+    .vtp files alone. meshio does not read a .vtu file that has text, so that names are field data.
     Supports and declared degrees of freedom are quads with an ``element`` and a ``kind`` of 0 and
-    the ``form`` that `flexact.show.mesh.symbols` says; they go with their nodes, and have no stress.
+    the ``form`` that `flexact.show.mesh.content` says; they go with their nodes, without stress.
 Field data, in .vtu and .vtp files
-    Verdict, counts, margins, units and names of elements; see `flexact.show.mesh.field_data`.
+    Verdict, counts, margins, units and names of elements; see `flexact.show.mesh.content`.
 
 Of very many motions or self-stresses only the first are there; see `Meshes.most_modes`.
 """
 
-from .mesh_content import Mesh, Meshes, mesh_of, to_meshio
-from .writing import mesh_writer
+from .collection import mesh_writer
+from .content import Mesh, Meshes, mesh_of, to_meshio
 
 __all__ = ["Mesh", "Meshes", "mesh_of", "mesh_writer", "to_meshio"]

@@ -3,30 +3,289 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.modes import SelfStress
+from ...analysis.result import Result
+from ...analysis.verdict_words import certainty_word, verdict_word
 from ...core.arrays import BoolArray, FloatArray
-from ...util.records import Frozen
+from ...model.data import ModelData
+from ...model.parts.forms import forms_of
+from ...util.partial import attempted
+from ...util.records import Frozen, cached_property
 from ..drawing import (
     QUANTITIES,
     Drawing,
+    Form,
     Pose,
     Strip,
+    Support,
     axes_of,
     cylinders,
+    drawing_of,
     field_along,
     resultants,
     solid,
     stations,
 )
+from ..drawing.movement import scale_of
 from ..drawing.pose import by_shape
+from ..drawing.rotations import frames_along, vector_of
+from ..drawing.selection import select_motion
+
+if TYPE_CHECKING:
+    import meshio
+
+    from ..drawing import Moving
+
+
+_UNITS = """\
+points: m
+displacement: m
+rotation: rad
+motion_k: m
+motion_k_rotation: rad
+selfstress_k_normal_force: N
+selfstress_k_twist_moment: N m
+selfstress_k_in_plane_moment: N m
+selfstress_k_out_of_plane_moment: N m
+margin: m
+margin_angle: rad"""
+_TEXTS = ("verdict", "certainty", "element_names")
+#: ParaView looks through the names of components one by one.
+MOST_COMPONENTS = 2_000
+
+
+def field_data_of(analysis: Result) -> dict[str, NDArray[np.generic]]:
+    """The field data of a result's mesh."""
+    data, margin = analysis.given, analysis.margin
+    lengths = (margin.length, margin.angle)
+    return {
+        "verdict": as_bytes(verdict_word(analysis)),
+        "certainty": as_bytes(certainty_word(analysis)),
+        "under_constrained": np.array([analysis.under_constrained]),
+        "over_constrained": np.array([analysis.over_constrained]),
+        "degrees_of_freedom": np.array([analysis.degrees_of_freedom]),
+        **{
+            name: np.array([math.inf if size is None else size])
+            for name, size in zip(("margin", "margin_angle"), lengths, strict=True)
+        },
+        "units": as_bytes(_UNITS),
+        "element_number": data.arrays.element_number.astype(np.int64)[None],
+        "element_names": as_bytes("".join(f"{spelt(name)}\n" for name in data.element_names)),
+    }
+
+
+def as_bytes(text: str) -> NDArray[np.uint8]:
+    """A text as an array."""
+    return np.frombuffer(text.encode("utf-8", "backslashreplace"), np.uint8)
+
+
+def spelt(name: str) -> str:
+    """A name as VTK can keep it, on a line: without zeros, and such that UTF-8 can spell it."""
+    lines = name.replace("\0", "\ufffd").replace("\n", " ")
+    return lines.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def component_names(data: Mapping[str, NDArray[np.generic]]) -> dict[str, list[str]]:
+    """What ParaView is to call the components of field data: texts as they read, units, names."""
+    texts = {name: bytes(data[name].tobytes()).decode() for name in _TEXTS}
+    names = texts["element_names"].split("\n")[:-1]
+    return {
+        "verdict": [texts["verdict"]],
+        "certainty": [texts["certainty"]],
+        "margin": ["m"],
+        "margin_angle": ["rad"],
+        "element_number": names if data["element_number"].size <= MOST_COMPONENTS else [],
+    }
+
 
 Integers = NDArray[np.int64]
+
+#: `form` of a support is this and its `Support`; behind them a declared translation, and rotation.
+SUPPORT = max(Form)
+TRANSLATION = SUPPORT + max(Support) + 1
+ROTATION = TRANSLATION + 1
+
+_ROUND = 12
+#: What stands for a point, so that all faces are quads: a part of the size.
+_TIP = 0.02
+#: Thickness of the plate below a pyramid, a part of a support's size.
+_PLATE = 0.28
+#: Rings of a symbol: place along its axis and radius, parts of its size.
+_PYRAMID = ((-1.0, 0.75), (0.0, _TIP))
+_CONE = ((-1.1, 0.45), (0.0, _TIP))
+_CONES = ((-0.7, 0.4), (0.0, _TIP), (0.7, 0.4))
+#: Of arrows, parts of the drawing's size: length, and where the head begins; radii.
+_LENGTH, _HEAD, _SHAFT, _WIDE = 0.13, 0.095, 0.004, 0.012
+_ARROW = ((0.0, _SHAFT), (_HEAD, _SHAFT), (_HEAD, _WIDE), (_LENGTH, _SHAFT * _TIP))
+#: A turning arrow: radius of its circle, and angles [rad] where it begins, has its head, and ends.
+_CIRCLE, _ANGLES = 0.055, (0.0, 3.9, 4.7)
+_BENDS = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Symbols(Frozen):
+    """Symbols of what is declared of nodes.
+
+    Attributes:
+        points: (n, 3) in the reference configuration [m].
+        node: (n,) index of the position node that a point goes with.
+        quads: (k, 4) points.
+        owner: (k,) number of the symbol of each quad.
+        form: (k,) what it is: see `SUPPORT`, `TRANSLATION` and `ROTATION`.
+        node_of: (symbols,) index of the position node of each symbol.
+    """
+
+    points: FloatArray
+    node: Integers
+    quads: Integers
+    owner: Integers
+    form: Integers
+    node_of: Integers
+
+    def points_in(self, pose: Pose, reference: Pose) -> FloatArray:
+        """(n, 3) where the points are in a pose [m]: symbols go with their nodes."""
+        moved: FloatArray = pose.position[self.node] - reference.position[self.node]
+        return self.points + moved
+
+    def in_words(self, node_names: Sequence[str]) -> list[str]:
+        """What each symbol is called."""
+        forms = np.zeros(len(self.node_of), np.int64)
+        forms[self.owner] = self.form
+        pairs = zip(forms.tolist(), self.node_of.tolist(), strict=True)
+        return [f"{_WORDS[form]} {node_names[node]}" for form, node in pairs]
+
+
+_WORDS = {
+    SUPPORT + Support.CLAMP: "clamp at",
+    SUPPORT + Support.PIN: "pin at",
+    SUPPORT + Support.SLIDE: "fixed translation of",
+    SUPPORT + Support.TURN: "fixed rotation of",
+    TRANSLATION: "declared translation of",
+    ROTATION: "declared rotation of",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class _Tube(Frozen):
+    """Rings (r, c, 3) about an axis, closed at both ends."""
+
+    rings: FloatArray
+
+    @property
+    def quads(self) -> Integers:
+        """(k, 4) corners of its faces, seen from outside against the clock."""
+        r, c, _ = self.rings.shape
+        corner = np.arange(c)
+        side = np.stack((corner, (corner + 1) % c, (corner + 1) % c + c, corner + c), axis=-1)
+        sides = (side + c * np.arange(r - 1)[:, None, None]).reshape(-1, 4)
+        fan = np.arange(1, c // 2)
+        end = np.stack((fan - 1, fan, c - 1 - fan, c - fan), axis=-1)
+        return np.concatenate((sides, end[:, ::-1], end + c * (r - 1)))
+
+
+def symbols_of(drawing: Drawing) -> Symbols:
+    """The symbols of a drawing."""
+    made = [*_supports(drawing), *_arrows(drawing)]
+    points, quads, behind = [np.zeros((0, 3))], [np.zeros((0, 4), np.int64)], 0
+    nodes, owners, forms = [], [], []
+    for number, (node, form, tube) in enumerate(made):
+        corners = tube.rings.reshape(-1, 3)
+        points.append(corners)
+        quads.append(behind + tube.quads)
+        behind += len(corners)
+        nodes += [node] * len(corners)
+        owners += [number] * len(tube.quads)
+        forms += [form] * len(tube.quads)
+    return Symbols(
+        np.concatenate(points),
+        np.array(nodes, np.int64),
+        np.concatenate(quads),
+        np.array(owners, np.int64),
+        np.array(forms, np.int64),
+        np.array([node for node, _, _ in made], np.int64),
+    )
+
+
+def _supports(drawing: Drawing) -> Iterator[tuple[int, int, _Tube]]:
+    supports = drawing.supports
+    for row in range(len(supports)):
+        node, kind = int(supports.node[row]), Support(int(supports.kind[row]))
+        place = drawing.reference.position[node] + supports.offset[row]
+        frame = supports.frame[row]
+        size, half = float(supports.size[row]), supports.extent[row]
+        form = SUPPORT + kind
+        if kind is Support.CLAMP:
+            yield node, form, _block(place, frame, half, float(supports.depth[row]))
+        elif kind is Support.PIN:
+            yield node, form, _turned(place, frame, _PYRAMID, size, 4)
+            ground = place - size * frame[:, 0]
+            yield node, form, _block(ground, frame, np.full(2, 0.85 * size), _PLATE * size)
+        else:
+            rings = _CONE if kind is Support.SLIDE else _CONES
+            yield node, form, _turned(place, frame, rings, size, _ROUND)
+
+
+def _arrows(drawing: Drawing) -> Iterator[tuple[int, int, _Tube]]:
+    arrows = drawing.arrows
+    frames = frames_along(arrows.direction)
+    for row in range(len(arrows)):
+        node = int(arrows.node[row])
+        place = drawing.reference.position[node]
+        if arrows.turning[row]:
+            yield node, ROTATION, _bent(place, frames[row], drawing.size)
+        else:
+            yield node, TRANSLATION, _turned(place, frames[row], _ARROW, drawing.size, _ROUND)
+
+
+def _block(place: FloatArray, frame: FloatArray, half: FloatArray, thick: float) -> _Tube:
+    """A block of ground whose upper face lies at the place."""
+    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
+    upper = place + corner @ frame[:, 1:].T
+    return _Tube(np.stack((upper - thick * frame[:, 0], upper)))
+
+
+def _turned(
+    place: FloatArray,
+    frame: FloatArray,
+    rings: tuple[tuple[float, float], ...],
+    size: float,
+    corners: int,
+) -> _Tube:
+    """Rings about ex of a frame."""
+    angle = 2 * np.pi * (np.arange(corners) + 0.5 * (corners == 4)) / corners
+    circle = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
+    return _Tube(np.stack([place + size * (x * frame[:, 0] + r * circle) for x, r in rings]))
+
+
+def _bent(place: FloatArray, frame: FloatArray, size: float) -> _Tube:
+    """An arrow round ex of a frame."""
+    start, head, end = _ANGLES
+    along = np.linspace(start, head, _BENDS)
+    angle = np.concatenate((along, [head, end]))
+    radius = np.concatenate((np.full(_BENDS, _SHAFT), [_WIDE, _SHAFT * _TIP])) * size
+    outwards = np.cos(angle)[:, None] * frame[:, 1] + np.sin(angle)[:, None] * frame[:, 2]
+    corner = 2 * np.pi * np.arange(_ROUND) / _ROUND
+    # Against the clock about the way that it goes.
+    across = np.cos(corner)[:, None] * outwards[:, None] - np.sin(corner)[:, None] * frame[:, 0]
+    middle = place + _CIRCLE * size * outwards
+    return _Tube(middle[:, None] + radius[:, None, None] * across)
+
+
+NO_SYMBOLS = Symbols(
+    np.zeros((0, 3)),
+    np.zeros(0, np.int64),
+    np.zeros((0, 4), np.int64),
+    *(np.zeros(0, np.int64) for _ in range(3)),
+)
+
 
 #: Lines along a member that bends.
 SEGMENTS = 8
@@ -87,7 +346,7 @@ class Layout(Frozen):
         return made, about
 
     def stress(self, stress: SelfStress) -> dict[str, FloatArray]:
-        """(n,) each: the `QUANTITIES` [N, N m] at the points; see `flexact.show.drawing.Resultants`."""
+        """(n,) each: the `QUANTITIES` [N, N m] at the points; as `flexact.show.drawing` has."""
         found = resultants(self.drawing, stress)
         made = {}
         for column, quantity in enumerate(QUANTITIES):
@@ -224,3 +483,199 @@ def _bodies(
         quads = np.arange(len(points)).reshape(1, -1, 4)
         owner = np.full(len(points), first[row])
         yield _Skin(points, owner, quads, np.array([index]), stressed=False)
+
+
+#: With more elements than these there are no surfaces, and no motion is looked for that the
+#: analysis does not give.
+MOST_SURFACES = 5_000
+
+#: How many motions, and how many self-stresses, are in a mesh at most, and at least, but
+#: 1 in each mesh of a cycle; between the two it is as many as give so many numbers in all.
+_MOST = 200
+_LEAST = 6
+_NUMBERS = 20_000_000
+#: Numbers at a point of a motion and a self-stress.
+_NUMBERS_A_POINT = 10
+
+SHAPES = ("vertex", "line", "quad")
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh(Frozen):
+    """A mesh with its data; see the module.
+
+    Attributes:
+        points: (n, 3) [m].
+        corners: Points of the cells: (vertices, 1), (lines, 2), (quads, 4).
+        point_data: (n,) or (n, 3) each, by name.
+        cell_data: (cells,) each, by name, in the order of `corners`.
+        field_data: (n,) or (1, n) each, by name, of the whole.
+        names: Name of each element, and behind them of each symbol.
+        element: (cells,) index of each cell's name.
+    """
+
+    points: FloatArray
+    corners: tuple[Integers, Integers, Integers]
+    point_data: dict[str, NDArray[np.generic]]
+    cell_data: dict[str, NDArray[np.generic]]
+    field_data: dict[str, NDArray[np.generic]]
+    names: Sequence[str]
+    element: Integers
+
+    def to_meshio(self) -> meshio.Mesh:
+        """The same for meshio; names are in the field data, as bytes.
+
+        Vertices come before lines, and these before quads (the order that gmsh's files keep).
+
+        Raises:
+            ImportError: meshio is not installed.
+        """
+        import meshio
+
+        behind = np.cumsum([len(corners) for corners in self.corners])[:-1]
+        kept = [i for i, corners in enumerate(self.corners) if len(corners)]
+        parts = {name: np.split(values, behind) for name, values in self.cell_data.items()}
+        return meshio.Mesh(
+            self.points,
+            [(SHAPES[i], self.corners[i]) for i in kept],
+            point_data=dict(self.point_data),
+            cell_data={name: [part[i] for i in kept] for name, part in parts.items()},
+            field_data=dict(self.field_data),
+        )
+
+
+def to_meshio(analysis: Result) -> meshio.Mesh:
+    """The mechanism with its motions and self-stresses; see the module.
+
+    Raises:
+        ImportError: meshio is not installed.
+    """
+    return mesh_of(analysis).to_meshio()
+
+
+def mesh_of(analysis: Result, shown: Moving | None = None) -> Mesh:
+    """The mesh of an analysis; `shown` is a motion instead of the one that is chosen."""
+    return Meshes(analysis).still(shown)
+
+
+class Meshes:
+    """The meshes of an analysis, still or in poses."""
+
+    def __init__(self, analysis: Result, count: int = 1) -> None:
+        """The points and cells of an analysis, for so many meshes."""
+        self.analysis = analysis
+        self.count = count
+        self.small = analysis.given.arrays.element_number.size <= MOST_SURFACES
+        drawn = analysis.given.appearance.drawn
+        self.skinned = drawn if self.small else np.zeros_like(drawn)
+        self.reference = self.layout(self.drawing.reference)
+        self.symbols = symbols_of(self.drawn) if self.small else NO_SYMBOLS
+
+    @cached_property
+    def drawn(self) -> Drawing:
+        """The drawing as it is drawn."""
+        return drawing_of(self.analysis.given)
+
+    @cached_property
+    def drawing(self) -> Drawing:
+        """The drawing with what is not drawn, too."""
+        data = self.analysis.given
+        return self.drawn if data.appearance.drawn.all() else drawing_of(_all_drawn(data))
+
+    def layout(self, pose: Pose) -> Layout:
+        """The points and cells in a pose."""
+        return layout_of(self.drawing, pose, self.skinned)
+
+    @property
+    def most_modes(self) -> int:
+        """How many motions, and how many self-stresses, a mesh holds at most."""
+        numbers = _NUMBERS_A_POINT * len(self.reference.points) * self.count
+        least = max(_LEAST // self.count, 1)
+        return min(max(_NUMBERS // max(numbers, 1), least), _MOST)
+
+    def still(self, shown: Moving | None = None) -> Mesh:
+        """The mesh in the reference configuration."""
+        if shown is None and (self.small or self.analysis.under_constrained):
+            # With zeros for what cannot be found the rest is as good.
+            chosen = attempted("", lambda: select_motion(self.analysis), None, None)
+            shown = None if chosen is None else chosen.motion
+        moved, turned = np.zeros((2, len(self.reference.points) + len(self.symbols.points), 3))
+        if shown is not None:
+            scale = scale_of(self.drawn, shown)
+            moved, turned = self._motion(shown.displacement, shown.rotation)
+            moved, turned = scale * moved, scale * turned
+        return self.with_data(self.points(self.drawing.reference), moved, turned)
+
+    def points(self, pose: Pose) -> FloatArray:
+        """(n, 3) all points in a pose [m]."""
+        here = self.reference if pose is self.drawing.reference else self.layout(pose)
+        return np.concatenate((here.points, self.symbols.points_in(pose, self.drawing.reference)))
+
+    def moved(self, pose: Pose) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """(n, 3) each: points in a pose, their displacements [m] and rotations [rad]."""
+        here, start = self.layout(pose), self.reference
+        turned = vector_of(here.frame @ np.swapaxes(start.frame, -1, -2))[start.axis_point]
+        symbols = self.symbols.points_in(pose, self.drawing.reference)
+        points = np.concatenate((here.points, symbols))
+        away = points - np.concatenate((start.points, self.symbols.points))
+        return points, away, np.concatenate((turned, np.zeros_like(symbols)))
+
+    def _motion(
+        self, displacement: FloatArray, rotation: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """(n, 3) displacements and rotations of all points, to first order: symbols go along."""
+        moved, turned = self.reference.motion(displacement, rotation)
+        along = displacement[self.symbols.node]
+        return np.concatenate((moved, along)), np.concatenate((turned, np.zeros_like(along)))
+
+    def with_data(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
+        """A mesh with these points, displacements and rotations, (n, 3) each."""
+        values = {"displacement": moved, "rotation": turned, **self._of_analysis}
+        symbols, given = self.symbols, self.analysis.given
+        vertices, lines, quads = self.reference.corners
+        behind = len(self.reference.points)
+        corners = (vertices, lines, np.concatenate((quads, behind + symbols.quads)))
+        nodes = zip(given.node_names, given.arrays.node_number.tolist(), strict=True)
+        places = [name or f"node {number}" for name, number in nodes]
+        names = [*given.element_names, *symbols.in_words(places)]
+        element = np.concatenate((self.reference.element, len(given.element_names) + symbols.owner))
+        return Mesh(points, corners, values, self._of_cells, self._of_all, names, element)
+
+    @cached_property
+    def _of_cells(self) -> dict[str, NDArray[np.generic]]:
+        """Cell data: a symbol has a form alone."""
+        arrays, element = self.analysis.given.arrays, self.reference.element
+        nothing = np.zeros(len(self.symbols.quads), np.int64)
+        made: dict[str, NDArray[np.generic]] = {
+            "element": np.append(arrays.element_number.astype(np.int64)[element], nothing),
+            "kind": np.append(arrays.element_kind.astype(np.int64)[element], nothing),
+            "form": np.append(forms_of(arrays)[0][element], self.symbols.form),
+        }
+        return made
+
+    @cached_property
+    def _of_all(self) -> dict[str, NDArray[np.generic]]:
+        return field_data_of(self.analysis)
+
+    @cached_property
+    def _of_analysis(self) -> dict[str, NDArray[np.generic]]:
+        """Point data that are the same in every pose."""
+        layout, numbers = self.reference, self.analysis.given.arrays.node_number
+        symbols = np.zeros(len(self.symbols.points))
+        node = np.zeros(len(layout.points) + len(symbols), np.int64)
+        node[: layout.node.size] = np.where(layout.node >= 0, numbers[layout.node], 0)
+        values: dict[str, NDArray[np.generic]] = {"node": node}
+        most = self.most_modes
+        for k, motion in enumerate(self.analysis.motions[:most], start=1):
+            moved, turned = self._motion(motion.displacement, motion.rotation)
+            values |= {f"motion_{k}": moved, f"motion_{k}_rotation": turned}
+        for k, stress in enumerate(self.analysis.self_stresses[:most], start=1):
+            for quantity, of_points in layout.stress(stress).items():
+                name = quantity.replace("-", "_").replace(" ", "_")
+                values[f"selfstress_{k}_{name}"] = np.append(of_points, symbols)
+        return values
+
+
+def _all_drawn(data: ModelData) -> ModelData:
+    drawn = np.ones_like(data.appearance.drawn)
+    return replace(data, given_appearance=replace(data.appearance, drawn=drawn))

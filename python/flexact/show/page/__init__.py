@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A result as one HTML file that opens offline; uses `drawing`, `text`, `advice` and below."""
 
-from .before_and_after import before_and_after
-from .compare import Pair, changes_part, compare_page
-from .content import Content, broken_content, content_of, reason_in_words
+from .compare import Pair, before_and_after, changes_part, compare_page
+from .content import Content, broken_content, broken_page, content_of, page, reason_in_words
 from .designs import Compared, Side, Told, designs_page
-from .entry import Entry, broken_entry, entry_of, unread_entry
-from .index import index_page, index_pieces, with_way_back
-from .page import broken_page, page
+from .index import (
+    Entry,
+    broken_entry,
+    entry_of,
+    index_page,
+    index_pieces,
+    unread_entry,
+    with_way_back,
+)
 
 __all__ = [
     "Compared",

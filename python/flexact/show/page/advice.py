@@ -8,9 +8,9 @@ from ...advice.spaces.spaces import Spaces, spaces_of
 from ...advice.words import sections_of
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked
+from ...analysis.naming import Pieces
 from ...analysis.result import Result, result_of
-from ...analysis.sentences import Pieces
-from ...deck.errors import ModelError, model_error
+from ...deck.rendering import ModelError, model_error
 from ...util.partial import attempted
 from ..picture import has_packages, picture_bytes
 from . import before_and_after, page

@@ -3,29 +3,408 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import hashlib
+import platform
+import shlex
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from ...advice.describe import VerdictInWords, verdict_in_words
 from ...advice.spaces.spaces import Spaces
+from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
+from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
+from ...analysis.modes import Motion, SelfStress
+from ...analysis.naming import Line, Named, Pieces
 from ...analysis.result import Result
-from ...analysis.text_margin import verdict_word
-from ...analysis.warnings import warnings_of
-from ...deck.errors import ProblemsError
+from ...analysis.verdict import Certainty, Verdict
+from ...analysis.verdict_words import (
+    decision,
+    declared_in_words,
+    margin_line,
+    verdict_word,
+    warnings_of,
+)
+from ...deck.diagnostics import Diagnostic, decode
+from ...deck.rendering import ProblemsError
+from ...model.data import ModelData
+from ...model.writing import deck_of
 from ...util.errors import require_kind
+from ...util.loading import VERSION
 from ...util.partial import attempted, why
-from ...util.plain_text import file_name
+from ...util.text import file_name, harmless
 from ..drawing import drawing_of
+from .assets import (
+    FEW_SHAPES,
+    MOST_LINES,
+    MOST_MODES,
+    MOST_PARTS,
+    MOST_SHAPES,
+    PLAIN_SCRIPTS,
+    SCRIPTS,
+    filled,
+    flowing,
+    folded,
+    linked,
+    paragraphs,
+    row,
+    section,
+    table,
+    text,
+    three_version,
+)
 from .controls import choices_part, keys, layers, toolbar
-from .deck_part import deck_of_model, deck_part
-from .drawing import frames_of
-from .drawing_part import drawing_part
-from .limits import FEW_SHAPES, MOST_SHAPES
-from .markup import folded, section, text
-from .modes_part import motions_part, stresses_part
-from .origin_part import origin_part
-from .verdict_part import BROKEN, Advised, advice_part, advised, decision_part, head, verdict
-from .viewer_data import left_out, stuck_in, viewer_data
+from .drawing import drawing_part, frames_of
+from .viewer import left_out, stuck_in, viewer_data
+
+#: A deck of so many lines is shown at once.
+_SHORT = 40
+#: Characters of a line that are shown.
+_LONGEST = 400
+
+
+def deck_part(raw: bytes, diagnostics: Sequence[Diagnostic], is_written: bool = False) -> str:
+    """A deck's text.
+
+    Args:
+        raw: The deck.
+        diagnostics: What is to be told about it.
+        is_written: Whether the deck was written by Flexact, for a model made in Python.
+    """
+    at: dict[int, list[Diagnostic]] = defaultdict(list)
+    for item in diagnostics:
+        at[item.line].append(item)
+    lines = [decode(line.removesuffix(b"\r")) for line in raw.split(b"\n")]
+    if lines and not lines[-1]:
+        lines.pop()
+    chosen = sorted({*range(1, min(len(lines), MOST_LINES) + 1), *at} - {0})
+    shown = "".join(
+        _line(number, lines[number - 1], at[number]) for number in chosen if number <= len(lines)
+    )
+    note = ""
+    if is_written:
+        note = '<p class="note">The model was made in Python; this deck says the same.</p>'
+    if len(lines) > MOST_LINES:
+        note += (
+            f'<p class="note">Of {len(lines)} lines the first {MOST_LINES} are shown, and those '
+            "with diagnostics.</p>"
+        )
+    opened = " open" if len(lines) <= _SHORT or diagnostics else ""
+    summary = f"{len(lines)} line{'s' * (len(lines) != 1)}"
+    return section(
+        "deck",
+        "Deck",
+        "".join(_told(item) for item in at[0]),
+        note,
+        f"<details{opened}><summary>{summary}</summary>"
+        f'<div class="deck" role="group" aria-label="deck" tabindex="0">{shown}</div></details>',
+    )
+
+
+def deck_of_model(data: ModelData) -> tuple[bytes, bool]:
+    """The deck of a model, and whether it was written just now."""
+    if data.source is not None:
+        return data.source.text, False
+    return deck_of(data).encode("utf-8", "backslashreplace"), True
+
+
+def _line(number: int, line: str, diagnostics: Sequence[Diagnostic]) -> str:
+    cut = line[:_LONGEST]
+    shown = _with_marks(cut, diagnostics)
+    rest = "\N{HORIZONTAL ELLIPSIS}" if len(line) > _LONGEST else ""
+    told = "".join(_told(item) for item in diagnostics)
+    kind = f" {diagnostics[0].severity}" if diagnostics else ""
+    return (
+        f'<div class="line{kind}" id="line-{number}"><span class="no">{number}</span>'
+        f"<code>{shown or ' '}{rest}</code></div>{told}"
+    )
+
+
+def _with_marks(line: str, diagnostics: Sequence[Diagnostic]) -> str:
+    """The line, in which the first diagnostic's place is marked."""
+    if not diagnostics or diagnostics[0].column < 1:
+        return _shown(line)
+    first = diagnostics[0].column - 1
+    last = max(diagnostics[0].last_column, first + 1)
+    return f"{_shown(line[:first])}<mark>{_shown(line[first:last])}</mark>{_shown(line[last:])}"
+
+
+def _shown(words: str) -> str:
+    return text(harmless(words, keep_tabs=True).expandtabs(8))
+
+
+def _told(item: Diagnostic) -> str:
+    """A diagnostic: its severity in words, what is wrong, and how to fix it."""
+    label = f' <span class="label">{text(item.label)}</span>' if item.label else ""
+    hint = f'<br><span class="help">help: {text(item.help)}</span>' if item.help else ""
+    other = ""
+    if item.other is not None:
+        other = f' <a href="#line-{item.other.line}">see line {item.other.line}</a>'
+    return (
+        f'<div class="told {item.severity}"><b>{item.severity}[{text(item.code)}]</b>: '
+        f"{text(item.message)}{label}{other}{hint}</div>"
+    )
+
+
+def origin_part(raw: bytes, name: str, analysis: Result | None, is_written: bool) -> str:
+    """Versions, settings, the deck's checksum, and the command.
+
+    Args:
+        raw: The deck.
+        name: The deck's file name, without its folders.
+        analysis: The result, if there is one.
+        is_written: Whether the deck was written by Flexact, for a model made in Python.
+    """
+    rows = [
+        row("Flexact", VERSION),
+        row("Python", platform.python_version()),
+        row("NumPy", np.__version__),
+        row("three.js, in this page", three_version()),
+    ]
+    if analysis is not None:
+        asked = analysis.asked
+        rows.append(row("method", f"{text(analysis.method)} (asked for: {text(asked.method)})"))
+        given = "from the data" if asked.tolerance is None else "as asked for"
+        rows.append(row("tolerance", f"{analysis.tolerance!r} ({given})"))
+    digest = hashlib.sha256(raw).hexdigest()
+    rows.append(row("SHA-256 of the deck", f"<code>{digest}</code>"))
+    if name and not is_written:
+        rows.append(row("made again by", f"<code>{text(_command(name, analysis))}</code>"))
+    return section("origin", "Made with", table(("", ""), rows, kind="origin"))
+
+
+def _command(name: str, analysis: Result | None) -> str:
+    stem = name.rpartition(".")[0] or name
+    words = ["flexact", "report", name, "-o", f"{stem}.html"]
+    if analysis is not None:
+        asked = analysis.asked
+        if asked.method != "auto":
+            words += ["--method", asked.method]
+        if asked.tolerance is not None:
+            words += ["--tolerance", repr(asked.tolerance)]
+        if asked.accuracy is not None:
+            words += ["--accuracy", str(asked.accuracy)]
+    return shlex.join(words)
+
+
+#: How many tables are open at first.
+_OPEN = 2
+
+
+def motions_part(analysis: Result, drawn: int) -> str:
+    """The motions; the first `drawn` of them can be seen in the drawing."""
+    parts = [
+        _mode(f"Motion {k}", f"movement {k - 1}" if k <= drawn else "", _of_motion(motion), k)
+        for k, motion in enumerate(analysis.motions[:MOST_MODES], start=1)
+    ]
+    return _modes("Motion", "s", analysis.under_constrained, parts)
+
+
+def stresses_part(analysis: Result) -> str:
+    """The self-stresses."""
+    parts = [
+        _mode(f"Self-stress {k}", f"stress {k - 1}", _of_stress(stress), k)
+        for k, stress in enumerate(analysis.self_stresses[:MOST_MODES], start=1)
+    ]
+    return _modes("Self-stress", "es", analysis.over_constrained, parts)
+
+
+def _modes(what: str, ending: str, count: int, parts: list[str]) -> str:
+    """Some of so many motions or self-stresses, and what is to be known of all."""
+    if not count:
+        return ""
+    title = f"{what}{ending}"
+    note = "Relative values: only their ratios matter."
+    if count > 1:
+        note += (
+            f" These {title.lower()} are one basis of many: any combination of them is also one."
+        )
+    more, rest = "", count - MOST_MODES
+    if rest > 0:
+        words = f"and {rest} more {what.lower()}{ending * (rest > 1)}."
+        more = f'<p class="note">\N{HORIZONTAL ELLIPSIS} {words}</p>'
+    # Such as "stresses".
+    name = title.lower().rpartition("-")[2]
+    return section(name, title, f'<p class="note">{note}</p>', *parts, more)
+
+
+def _mode(title: str, shown_by: str, content: str, place: int) -> str:
+    show = (
+        f'<button type="button" class="show" data-show="{shown_by}">Show '
+        f'<span class="unseen">{title}</span></button>'
+        if shown_by
+        else ""
+    )
+    opened = " open" if place <= _OPEN else ""
+    return (
+        f'<div class="mode">{show}<details{opened}><summary>{title}</summary>{content}'
+        "</details></div>"
+    )
+
+
+def _of_motion(motion: Motion) -> str:
+    """A row for all that moves as one."""
+    rows = [_row(pieces) for pieces in motion_in_parts(motion, MOST_PARTS)[:MOST_PARTS]]
+    return table(("what moves", "how"), rows, kind="parts")
+
+
+def _of_stress(stress: SelfStress) -> str:
+    """Which parts fight, and a row for each part that carries something."""
+    conflict = conflict_in_words(stress)
+    start = f"<p>{flowing(Line(conflict))}.</p>" if conflict else ""
+    rows = [_row(pieces) for pieces in stress_in_parts(stress, MOST_PARTS)[:MOST_PARTS]]
+    return start + table(("what is stressed", "with"), rows, kind="parts")
+
+
+def _row(pieces: Pieces) -> str:
+    """Names, and in a cell the words behind them."""
+    *named, words = pieces if isinstance(pieces[-1], str) else (*pieces, "")
+    first = next((piece for piece in named if isinstance(piece, Named)), None)
+    about = f' data-{first.kind}="{first.number}"' if first is not None else ""
+    return row(linked(tuple(named)), text(str(words).lstrip(": ")), about=about)
+
+
+#: Class of the page and sign, told apart without colours.
+KINDS = {
+    Verdict.EXACT: ("exact", "\N{CHECK MARK}"),
+    Verdict.UNDER: ("under", "\N{LEFT RIGHT ARROW}"),
+    Verdict.OVER: ("over", "\N{RIGHTWARDS ARROW}\N{LEFTWARDS ARROW}"),
+    Verdict.BOTH: ("both", "\N{LEFT RIGHT ARROW}!"),
+}
+MARGINAL = ("marginal", "\N{ALMOST EQUAL TO}")
+BROKEN = ("broken", "\N{MULTIPLICATION X}")
+
+
+#: How many ways to fix it stand in the head.
+_WAYS = 2
+
+
+class Advised(NamedTuple):
+    """What can be done about motions and about self-stresses, the best first."""
+
+    motions: tuple[Line, ...]
+    stresses: tuple[Line, ...]
+
+
+def kind_of(analysis: Result) -> tuple[str, str]:
+    """Class of the page and sign of a result."""
+    if analysis.verdict is Verdict.EXACT and analysis.is_marginal:
+        return MARGINAL
+    return KINDS[analysis.verdict]
+
+
+def advised(analysis: Result) -> Advised:
+    """What can be done; nothing where nothing need be."""
+    return Advised(lines_on_motions(analysis), lines_on_self_stresses(analysis))
+
+
+def head(
+    kind: str, sign: str, verdict: VerdictInWords, about: str, margin: str = "", todo: str = ""
+) -> str:
+    """The first lines of the page; all but the sign and the verdict are HTML."""
+    return (
+        f'<header class="verdict {kind}">{_headline("h1", sign, verdict)}{margin}'
+        f'<p class="about">{about}</p>{todo}{SWITCH}</header>'
+    )
+
+
+#: From light to dark and back.
+SWITCH = '<button type="button" id="theme" aria-pressed="false" hidden>Dark</button>'
+
+
+def _headline(level: str, sign: str, verdict: VerdictInWords) -> str:
+    return (
+        f'<{level} class="headline"><span class="sign" aria-hidden="true">{sign}</span>'
+        f'<span><b class="says">{text(verdict.start)}:</b> {text(verdict.reason)}</span></{level}>'
+    )
+
+
+def verdict(analysis: Result, name: str, advice: Advised) -> str:
+    """The head of the page of a result: what is wrong, by how much, how sure, and what helps."""
+    kind, sign, margin = _judged(analysis)
+    about = " ".join(_about(analysis, name))
+    return head(kind, sign, verdict_in_words(analysis), about, margin, _todo(advice))
+
+
+def verdict_of_side(analysis: Result, which: str) -> str:
+    """The head of one of several results of a page; `which` is HTML."""
+    kind, sign, margin = _judged(analysis)
+    return (
+        f'<header class="verdict {kind}"><p class="which">{which}</p>'
+        f"{_headline('h2', sign, verdict_in_words(analysis))}{margin}"
+        f'<p class="about">{" ".join(_about(analysis, ""))}</p></header>'
+    )
+
+
+def _judged(analysis: Result) -> tuple[str, str, str]:
+    """Class and sign of a verdict, and how far another one is."""
+    kind, sign = kind_of(analysis)
+    if analysis.certainty is not Certainty.CERTAIN:
+        sign += "?"
+    return kind, sign, f'<p class="margin">{flowing(margin_line(analysis))}</p>'
+
+
+def _certainty(analysis: Result) -> str:
+    """How sure the rank is: of the arithmetic, not of the machine."""
+    if analysis.certainty is Certainty.CERTAIN:
+        is_proven = analysis.proof is not None and analysis.proof.rank == analysis.rank
+        how = "proven" if is_proven else "numerically certain"
+        return f'<span class="sure">rank {how}</span>'
+    counts = (analysis.under_constrained, analysis.over_constrained)
+    under, over = analysis.nearly or counts
+    other = (
+        f": there may be {under} motion{'s' * (under != 1)} and "
+        f"{over} self-stress{'es' * (over != 1)}"
+    ) * ((under, over) != counts)
+    return f'<a class="sure doubt" href="#decision">rank doubtful{other}</a>'
+
+
+def _todo(advice: Advised) -> str:
+    """The first ways to fix it, and where the others are."""
+    kinds = (("Motion", advice.motions), ("Self-stress", advice.stresses))
+    told = [(f"<b>{kind}:</b> ", sentences[0]) for kind, sentences in kinds if sentences]
+    shown = "".join(
+        f"<li>{kind if len(told) > 1 else ''}{flowing(first.shortened(_WAYS))}</li>"
+        for kind, first in told
+    )
+    return f'<ul class="todo">{shown}</ul>' if shown else ""
+
+
+def advice_part(advice: Advised) -> str:
+    """All that can be done."""
+    kinds = (("About motions", advice.motions), ("About self-stresses", advice.stresses))
+    both = all(sentences for _, sentences in kinds)
+    parts = [
+        (f"<h3>{kind}</h3>" if both else "") + paragraphs(sentences)
+        for kind, sentences in kinds
+        if sentences
+    ]
+    return section("remedies", "What can be done", *parts)
+
+
+def _about(analysis: Result, name: str) -> Iterator[str]:
+    if name:
+        yield f'<span class="name">{text(name)}</span>'
+    yield (
+        f'<span class="fact">D(c) {analysis.rows} \N{MULTIPLICATION SIGN} {analysis.columns}, '
+        f"rank {analysis.rank}</span>"
+    )
+    yield _certainty(analysis)
+    yield f'<span class="fact">{text(declared_in_words(analysis))}</span>'
+
+
+def decision_part(analysis: Result) -> str:
+    """Counts by class, rank, gap, certainty and condition."""
+    heads = ("", *analysis.counts.coordinates._fields)
+    rows = (
+        row(name, *(str(value) for value in part))
+        for name, part in analysis.counts._asdict().items()
+    )
+    counts = table(heads, rows, kind="counts")
+    return section("decision", "Counts and decision", counts, paragraphs(decision(analysis)))
+
 
 _SCROLLS = "Until you click on the drawing, the wheel scrolls past it."
 
@@ -160,3 +539,20 @@ def reason_in_words(error: Exception) -> str:
 def _note(item: Any) -> str:
     hint = f" {text(item.help)}" if item.help else ""
     return f"<b>{item.severity}</b>: {text(item.message)}{'.' if hint else ''}{hint}"
+
+
+def page(
+    analysis: Result,
+    still: bytes | None = None,
+    spaces: Spaces | None = None,
+    missing: Sequence[str] = (),
+) -> str:
+    """The page of a result; arguments as those of `content_of`."""
+    content = content_of(analysis, still, spaces, missing=missing)
+    return filled(content.title, content.body, SCRIPTS)
+
+
+def broken_page(error: Exception, name: str) -> str:
+    """The page of a deck that cannot be analysed; it says why."""
+    content = broken_content(error, name)
+    return filled(content.title, content.body, PLAIN_SCRIPTS)

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Sequence
+from html import escape
 from typing import Any
 
 from ...analysis.freedoms import Freedom
-from ...analysis.naming import freedom_in_words
-from ...analysis.sentences import Line
+from ...analysis.naming import Line, freedom_in_words
 from ..drawing import QUANTITIES
-from .markup import flowing, text
+from .assets import flowing, text
 
 _VIEWS = (("iso", "Iso"), ("front", "Front"), ("top", "Top"), ("right", "Right"))
 _LAYERS = (
@@ -154,3 +154,30 @@ def layers(*drawings: dict[str, Any], off: Container[str] = ()) -> str:
         if not lacking.get(layer)
     )
     return f"<fieldset><legend>Also drawn</legend>{made}</fieldset>"
+
+
+def finder(kinds: Iterable[tuple[str, str]], orders: Iterable[tuple[str, str]]) -> str:
+    """The choices, hidden until there is a script.
+
+    Args:
+        kinds: Classes of cards, each with what it is called, and how many there are.
+        orders: What cards are sorted by, the name of the datum with what it is called.
+    """
+    chips = "".join(
+        f'<label class="chip {escape(kind)}"><input type="checkbox" name="kind" '
+        f'value="{escape(kind)}"><span>{text(words)}</span></label>'
+        for kind, words in kinds
+    )
+    options = "".join(
+        f'<option value="{escape(name)}">{text(words)}</option>' for name, words in orders
+    )
+    return (
+        '<section class="finder" role="search" aria-label="Find decks" hidden>'
+        f'<fieldset><legend class="unseen">Show only</legend>{chips}</fieldset>'
+        '<div class="group"><label class="find">Find <input type="search" id="find" '
+        'autocomplete="off" spellcheck="false" placeholder="name or words"></label>'
+        f'<label>Sort by <select id="sort">{options}</select></label>'
+        '<button type="button" id="down" aria-pressed="false">Reverse</button>'
+        '<button type="button" id="all">Show all</button></div>'
+        '<p id="found" class="note" role="status"></p></section>'
+    )

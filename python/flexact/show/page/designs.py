@@ -7,14 +7,12 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from ..drawing import drawing_of
-from .assets import PLAIN_SCRIPTS, SCRIPTS, filled
+from .assets import PLAIN_SCRIPTS, SCRIPTS, filled, row, section, table, text
 from .charts import series_css
+from .content import SWITCH
 from .controls import choices_part, keys, layers, toolbar
-from .drawing import frames_of
-from .drawing_part import drawing_part
-from .markup import row, section, table, text
-from .shapes_data import Shaped, shapes_data
-from .verdict_part import SWITCH
+from .drawing import drawing_part, frames_of
+from .viewer import Shaped, shapes_data
 
 #: Of the page's styles, those of charts come behind those of all pages.
 STYLES = ("style.css", "charts.css")

@@ -5,7 +5,7 @@ matplotlib and pillow are imported only when one is drawn.
 """
 
 from ..drawing.view import ViewError, check_view
-from .animation import VideoError
+from .animation import MOVING, VideoError
 from .files import STILLS
 from .make import (
     SUFFIXES,
@@ -14,11 +14,10 @@ from .make import (
     check_suffix,
     draw,
     has_packages,
+    model_bytes,
     picture_bytes,
+    shape_bytes,
 )
-from .model import model_bytes
-from .picture_animation import SUFFIXES as MOVING
-from .shape import shape_bytes
 from .subject import SubjectError
 
 __all__ = [

@@ -11,16 +11,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...advice.describe import verdict_in_words
-from ...analysis.sentences import plain as without_links
-from ...analysis.text_margin import margin_in_short, margin_line
+from ...analysis.naming import plain as without_links
+from ...analysis.verdict_words import margin_in_short, margin_line
 from ...core.arrays import FloatArray
-from ...util.plain_text import harmless
+from ...util.text import harmless
 from ..drawing import UNITS, Drawing, meanings_in, reach_of
-from ..drawing.colours import diverging
+from ..drawing.members import diverging
 from ..drawing.movement import AMPLITUDE
 from ..drawing.view import View
-from .canvas import Box
-from .labels import Room
+from .canvas import Box, Canvas
 from .panel import Panel, is_simplified, paint
 from .stress import Stress
 from .subject import Subject
@@ -30,6 +29,53 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from ...analysis.result import Result
+
+
+#: How far round a place is looked for room: distances [px], and so many directions.
+_FAR = np.arange(14.0, 190.0, 8.0)
+_WAYS = 16
+
+
+class Room:
+    """What is free of a panel, in pixels from its lower left corner."""
+
+    def __init__(self, axes: Any, canvas: Canvas) -> None:
+        """Find out where something is drawn."""
+        first, last = canvas.boxes()
+        self._low, self._high = axes.bbox.min, axes.bbox.max
+        if len(first):
+            self.first, self.last = axes.transData.transform(first), axes.transData.transform(last)
+        else:
+            self.first = self.last = np.zeros((0, 2))
+
+    def is_free(self, middle: FloatArray, half: FloatArray) -> bool:
+        """Whether a box lies in the panel, and nothing in it."""
+        low, high = middle - half, middle + half
+        if np.any(low < self._low) or np.any(high > self._high):
+            return False
+        return not np.any(np.all((self.first < high) & (self.last > low), axis=1))
+
+    def take(self, middle: FloatArray, half: FloatArray) -> None:
+        """Say that a box is full now."""
+        self.first = np.concatenate((self.first, (middle - half)[None]))
+        self.last = np.concatenate((self.last, (middle + half)[None]))
+
+    def near(self, place: FloatArray, away: FloatArray, half: FloatArray) -> FloatArray | None:
+        """The free box of this half size nearest to a place; None where there is none near.
+
+        Of equally near ones that which lies most in the direction `away`.
+        """
+        start = np.arctan2(away[1], away[0])
+        turns = np.array(
+            [0.0, *(s * k for k in range(1, _WAYS // 2) for s in (1.0, -1.0)), _WAYS / 2]
+        )
+        for far in _FAR:
+            for angle in start + 2 * np.pi / _WAYS * turns:
+                middle = place + far * np.array((np.cos(angle), np.sin(angle)))
+                if self.is_free(middle, half):
+                    return np.asarray(middle)
+        return None
+
 
 #: Pixels an inch, as wide as one panel is [px], and its height.
 DPI = 100
@@ -44,7 +90,7 @@ _TURNED = 0.9
 #: Displacements below this part of the size, and rotations [rad], would be told as 0.
 _UNMOVED, _UNTURNED = 0.005, 0.05
 #: Words farther from their place than this have a line to it [px].
-_FAR = 30.0
+_FIGURE_FAR = 30.0
 #: Half the room of the axes [px].
 _TRIAD = 56.0
 #: Pieces of the bar of colours.
@@ -322,7 +368,7 @@ def _add_label(frame: _Frame, room: Room, place: FloatArray, away: FloatArray, w
         found = place + 14 * frame.scale * away / max(float(np.hypot(*away)), 1.0e-9)
     room.take(found, half)
     far = float(np.linalg.norm(found - place))
-    if far > _FAR * frame.scale:
+    if far > _FIGURE_FAR * frame.scale:
         towards = (place - found) / far
         edge = float(np.min(half / np.maximum(np.abs(towards), 1.0e-9)))
         ends = np.stack((place, found + edge * towards))

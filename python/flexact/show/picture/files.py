@@ -4,7 +4,10 @@
 from __future__ import annotations
 
 import io
+import os
 import re
+import sys
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
@@ -12,6 +15,31 @@ import numpy as np
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+_VARIABLE = "MPLBACKEND"
+_ONE_AT_A_TIME = Lock()
+
+
+def load_matplotlib() -> None:
+    """Import matplotlib, which cannot be imported where MPLBACKEND names no backend.
+
+    A backend that there is stays the user's choice.
+    """
+    with _ONE_AT_A_TIME:
+        wanted = os.environ.get(_VARIABLE)
+        if "matplotlib" in sys.modules or not wanted:
+            return
+        del os.environ[_VARIABLE]
+        try:
+            import matplotlib
+        finally:
+            os.environ[_VARIABLE] = wanted
+    try:
+        matplotlib.rcParams["backend"] = wanted
+    except ValueError:
+        return
+
 
 #: What would differ from run to run is left out; identifiers follow from what is drawn.
 _SVG: Any = {"svg.fonttype": "none", "svg.hashsalt": "flexact"}

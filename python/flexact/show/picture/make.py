@@ -16,21 +16,22 @@ from typing import TYPE_CHECKING, Any
 from ...advice.describe import verdict_in_words
 from ...advice.spaces.spaces import Spaces
 from ...analysis.result import Result
+from ...core.arrays import FloatArray
+from ...model.configuration import Configuration
+from ...model.data import ModelData
 from ...util.errors import BatchError, require_kind
-from ...util.plain_text import harmless, in_short
-from ..drawing import drawing_of
+from ...util.text import harmless, in_short
+from ..drawing import drawing_of, swing
 from ..drawing.view import view_of
+from .animation import MOVING, check_encoder, moving_bytes
 from .animation import SUFFIXES as VIDEOS
-from .animation import check_encoder
 from .figure import compose
-from .files import STILLS, still_bytes
-from .loading import load_matplotlib
-from .picture_animation import SUFFIXES as MOVING
-from .picture_animation import moving_bytes
-from .subject import Chosen, moving_subject, subjects_of
+from .files import STILLS, load_matplotlib, still_bytes
+from .subject import Chosen, Subject, moving_subject, subjects_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
 
 #: Suffixes of the files that a picture can be.
 SUFFIXES = (*STILLS, *MOVING)
@@ -102,8 +103,8 @@ def draw(
         motion: Number of a motion, from 1.
         freedom: Number of a declared degree of freedom, from 1.
         stress: Number of a self-stress, from 1.
-        quantity: Of the self-stress, one of `flexact.show.drawing.QUANTITIES`; by default the dominant
-            one.
+        quantity: Of the self-stress, one of `flexact.show.drawing.QUANTITIES`; by default the
+            dominant one.
         spaces: The freedom space and the constraint space of a body, which are shown side by side
             with the wires of the first proposal, dashed (`flexact.advice.spaces.spaces`).
         held: Whether to show what each flexure of an exactly constrained mechanism holds, its
@@ -223,3 +224,78 @@ def quiet() -> Iterator[None]:
             yield
     finally:
         logger.setLevel(level)
+
+
+def model_bytes(
+    data: ModelData,
+    suffix: str = ".png",
+    *,
+    view: str | None = None,
+    size: tuple[int, int] | None = None,
+) -> bytes:
+    """A picture of a model without words, as the content of a file.
+
+    Args:
+        data: The model.
+        suffix: `.png`, `.svg` or `.pdf`.
+        view: As of `draw`.
+        size: Width and height [px].
+
+    Raises:
+        PictureError: There is no such kind of picture, or a package is missing.
+        ViewError: There is no such view.
+    """
+    kind = check_suffix(suffix)
+    check_packages()
+    with quiet():
+        load_matplotlib()
+        drawing = drawing_of(data)
+        seen = view_of(view, drawing)
+        size = None if size is None else checked_size(size)
+        figure = compose(None, drawing, [Subject()], seen, size=size, plain=True)
+        return still_bytes(figure, kind, harmless(data.name) or "Mechanism", "")
+
+
+def shape_bytes(
+    data: ModelData,
+    state: Configuration,
+    displacement: FloatArray,
+    title: str,
+    suffix: str = ".png",
+    *,
+    view: str | None = None,
+    size: tuple[int, int] | None = None,
+    plain: bool = False,
+) -> bytes:
+    """A picture of an elastic shape as the content of a file.
+
+    Args:
+        data: The model whose nodes are displaced, such as one whose beams are divided.
+        state: Where its nodes are without the shape.
+        displacement: (nodes, 3) of positions, and rotations (spins) of orientations; only their
+            ratios matter.
+        title: Above it, such as "vibrates at 184 Hz".
+        suffix: `.png`, `.svg` or `.pdf`; `.gif`, `.mp4` or `.webm`, which move.
+        view: As of `draw`.
+        size: Width and height [px].
+        plain: Whether title and caption are left out.
+
+    Raises:
+        PictureError: There is no such kind of picture, or a package is missing.
+        ViewError: There is no such view.
+    """
+    kind = check_suffix(suffix)
+    check_packages(kind)
+    with quiet():
+        load_matplotlib()
+        drawing = drawing_of(data)
+        words = harmless(title[:1].upper() + title[1:])
+        subject = Subject(words, movement=swing(drawing, state, displacement, "To first order."))
+        seen = view_of(view, drawing)
+        size = None if size is None else checked_size(size)
+        name = harmless(data.name) or "Mechanism"
+        if kind in MOVING:
+            shown = drawing, subject, seen, kind, f"{name}: {words}"
+            return moving_bytes(None, *shown, size=size, plain=plain)
+        figure = compose(None, drawing, [subject], seen, size=size, plain=plain)
+        return still_bytes(figure, kind, name, words)

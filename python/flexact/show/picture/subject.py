@@ -14,7 +14,7 @@ from ...analysis.places import listed
 from ...analysis.result import Result
 from ...util.errors import BatchError, require_kind
 from ...util.partial import attempted
-from ...util.plain_text import harmless
+from ...util.text import harmless
 from ..drawing import (
     QUANTITIES,
     Drawing,
@@ -27,7 +27,7 @@ from ..drawing import (
     resultants,
 )
 from ..drawing.selection import Selection, require_there, select_motion
-from .spaces import SpaceShown, holds_shown, spaces_shown
+from .arrows import SpaceShown, holds_shown, spaces_shown
 from .stress import Stress, stress_of
 
 
