@@ -11,7 +11,7 @@ from small_decks import BROKEN, DECKS, VERDICTS, files_in, json_lines, write
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 # Verdicts and exit codes
 

@@ -18,38 +18,12 @@ from ...util.text import harmless
 from ..watch.messages import Answer, Broken
 from ..watch.watch import SCRIPT, Heard, Watch
 from . import decks as failures
-from .decks import add_accuracy, add_decision
-from .help_texts import add_examples
-from .outcome import ExitCode
-from .targets import add_no_browser, one_deck
-from .terminal import complain, say
+from .decks import ACCURACY, DECISION
+from .parser import Verb, argument
+from .targets import NO_BROWSER, one_deck
+from .terminal import ExitCode, complain, say
 
 _LARGEST_PORT = 65535
-
-
-def fill(parser: argparse.ArgumentParser) -> None:
-    """Give the verb its description and arguments."""
-    parser.description = (
-        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
-        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
-    )
-    parser.add_argument(
-        "deck",
-        metavar="FILE",
-        help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
-    )
-    parser.add_argument(
-        "--port", type=port, metavar="N", help="the port of this machine (a free one)"
-    )
-    add_no_browser(parser)
-    add_decision(parser)
-    add_accuracy(parser, is_held_against=False)
-    add_examples(
-        parser,
-        ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
-        ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
-    )
-    parser.set_defaults(run=watch)
 
 
 def port(text: str) -> int:
@@ -112,3 +86,27 @@ def harmless_lines(text: str) -> str:
 def _printed(text: str) -> None:
     sys.stdout.write(text)
     sys.stdout.flush()
+
+
+VERB = Verb(
+    run=watch,
+    description=(
+        "Serve the page of a deck, or of what a Python script shows, to the browser of this "
+        "machine, and renew it whenever the file is saved. Ctrl-C ends it."
+    ),
+    examples=(
+        ("A deck", "flexact watch input_decks/paper/five_wires.dat"),
+        ("A script, at a port that stays", "flexact watch design.py --port 8080 --no-browser"),
+    ),
+    arguments=(
+        argument(
+            "deck",
+            metavar="FILE",
+            help="a deck, or a script (*.py): its last .show(), else its last model or analysis",
+        ),
+        argument("--port", type=port, metavar="N", help="the port of this machine (a free one)"),
+        NO_BROWSER,
+        DECISION,
+        ACCURACY,
+    ),
+)
