@@ -16,7 +16,7 @@ from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.text import harmless
 from ..watch.messages import Answer, Broken
-from ..watch.watch import SCRIPT, Heard, Watch
+from ..watch.watch import SCRIPT, Watch
 from . import decks as failures
 from .decks import ACCURACY, DECISION
 from .parser import Verb, argument
@@ -51,31 +51,26 @@ def watch(chosen: argparse.Namespace) -> ExitCode:
         file_bytes(path)
     except (DeckError, FolderError) as error:
         return failures.report(deck, error, as_json=False).code
-    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
-    with unwinding():
-        watched = Watch(path, Heard(_Renewed(path), _printed), chosen.port, decision)
-        with closing(watched):
-            say(f"{harmless(path)} is shown at {watched.server.address}")
-            if not chosen.no_browser and not watched.opens():
-                complain("no browser opens here; open this address in one of this machine")
-            watched.run()
-    return ExitCode.ANALYSED
+    name = harmless(path)
 
-
-class _Renewed:
-    """Tells of each save."""
-
-    def __init__(self, path: str) -> None:
-        self._name = harmless(path)
-
-    def __call__(self, words: str, answer: Answer) -> None:
+    def renewed(words: str, answer: Answer) -> None:
         """Say what has changed, or what is wrong."""
         if isinstance(answer, Broken):
             complain(harmless_lines(answer.words))
             words = "cannot be analysed"
         elif answer.problems:
             complain(harmless_lines(answer.problems))
-        say(f"{time.strftime('%H:%M:%S')} {self._name}: {words}")
+        say(f"{time.strftime('%H:%M:%S')} {name}: {words}")
+
+    decision = (chosen.method, chosen.zero_tolerance, chosen.prove, chosen.accuracy)
+    with unwinding():
+        watched = Watch(path, renewed, _printed, chosen.port, decision)
+        with closing(watched):
+            say(f"{name} is shown at {watched.server.address}")
+            if not chosen.no_browser and not watched.opens():
+                complain("no browser opens here; open this address in one of this machine")
+            watched.run()
+    return ExitCode.ANALYSED
 
 
 def harmless_lines(text: str) -> str:
