@@ -94,7 +94,7 @@ def regress_decks(chosen: argparse.Namespace) -> ExitCode:
     if len(decks) > 1:
         say(summary(found, chosen))
     if chosen.junit is not None:
-        text = load("flexact.apps.checks.comparison").junit_xml(found, time.time() - start, start)
+        text = load("flexact.apps.checks.outputs").junit_xml(found, time.time() - start, start)
         with unwinding():
             write_together({chosen.junit: text})
     return exit_code(codes)

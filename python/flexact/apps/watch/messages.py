@@ -92,8 +92,8 @@ class Job:
     decision: tuple[Any, ...] = ("auto", None)
 
 
-#: What comes before an answer: what a script has printed, and the summary of a result whose scene is
-#: still being made.
+#: What comes before an answer: what a script has printed, and the summary of a result whose scene
+#: is still being made.
 Before = str | ResultSummary
 
 
