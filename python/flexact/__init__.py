@@ -52,7 +52,7 @@ if _typing.TYPE_CHECKING:
     from .model.sections import Material
     from .show.notebook.output import viewer
     from .show.notebook.rows import Results
-    from .sweeps.crossing import Crossing, Crossings
+    from .sweeps.crossings import Crossing, Crossings
     from .sweeps.parameters import grid
     from .sweeps.sweep import sweep
     from .sweeps.table import Table
@@ -137,7 +137,7 @@ _HOMES = {
     "model.sections": ("Material",),
     "show.notebook.output": ("viewer",),
     "show.notebook.rows": ("Results",),
-    "sweeps.crossing": (
+    "sweeps.crossings": (
         "Crossing",
         "Crossings",
     ),
