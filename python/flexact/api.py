@@ -25,8 +25,9 @@ from .model.model import Model
 from .model.reading import read
 from .show.mesh import to_meshio
 from .show.page import broken_page, page
-from .show.saving import as_bytes, save
+from .show.saving import save
 from .show.window import InWords, is_displayed, is_taken, open_page, page_path, write_page
+from .show.writers import as_bytes
 from .util.loading import load
 from .util.partial import attempted
 from .util.records import cached_property

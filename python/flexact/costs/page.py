@@ -11,6 +11,7 @@ from ..show.page.charts import bars_svg, chart_svg
 from ..show.page.viewer import Shape as Played
 from ..show.page.viewer import Shaped
 from ..show.picture import has_packages, shape_bytes
+from ..show.writers import as_bytes
 from ..util.text import file_name, harmless
 from .charts import LARGEST, Key, bars_of, charts_of, choices_of, key_of, typeset
 from .designs import CostValues, Design, Number, in_words
@@ -37,7 +38,7 @@ def page_bytes(cost: CostValues) -> bytes:
         _sides(cost, key),
         tuple(_notes(cost)),
     )
-    return designs_page(compared).encode("utf-8", "backslashreplace")
+    return as_bytes(designs_page(compared))
 
 
 def _sides(cost: CostValues, key: Key) -> tuple[Side, ...]:

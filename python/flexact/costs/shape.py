@@ -15,8 +15,8 @@ from ..elasticity import ElasticError, State
 from ..model.configuration import Configuration
 from ..model.data import ModelData
 from ..show.picture import shape_bytes
+from ..show.writers import require_name, write
 from ..util.errors import require_kind
-from ..util.outputs import OutputError, write_together
 from ..util.records import Frozen
 
 
@@ -71,10 +71,9 @@ class Shape(Frozen):
         Raises:
             FlexactError: As of `picture`, or the file cannot be written.
         """
-        if "\0" in str(path):
-            raise OutputError("a file's name cannot hold a NUL")
         target = Path(path)
-        write_together({target: self.picture(target.suffix, view, size)})
+        require_name(target)
+        write(target, self.picture(target.suffix, view, size))
 
     def _repr_png_(self) -> bytes:
         return self.picture()

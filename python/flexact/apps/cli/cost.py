@@ -8,11 +8,11 @@ import re
 from pathlib import Path
 
 from ...costs.compute import cost_of
-from ...costs.cost import Cost
+from ...costs.cost import COSTS, Cost
 from ...costs.request import DRIVE, HELD, POINTS, WIDTH, Asked, AskedError
-from ...costs.saving import content_of, require_suffix, save
 from ...costs.words import describe
 from ...deck.rendering import ModelError, ProblemsError
+from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
@@ -148,7 +148,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     for target in files:
         plan_file(deck, target)
         with unwinding():
-            require_suffix(target)
+            COSTS.require(target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -164,7 +164,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                     made = cost_of(model, asked, deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
-                        save(made, target)
+                        made.save(target)
             except BatchError:
                 raise
             except ProblemsError as error:
@@ -172,7 +172,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             except FlexactError as error:
                 raise BatchError(str(error)) from error
         if to_stdout:
-            put(content_of(made, ".csv"))
+            put(as_bytes(made.to_csv()))
         else:
             if chosen.json:
                 give(made.to_json())
