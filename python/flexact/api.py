@@ -169,8 +169,8 @@ class Analysis(Result):
         words = describe(self, most=MOST_MODES)
         if self.over_constrained and self.given.properties is not None:
             # It takes a while to load.
-            glance, told = load("flexact.costs.quick_cost"), words
-            words = attempted("", lambda: str(glance.with_glance(told, self)), words, None)
+            quick, told = load("flexact.costs.quick_cost"), words
+            words = attempted("", lambda: str(quick.with_quick_cost(told, self)), words, None)
         return words
 
     def __repr__(self) -> str:

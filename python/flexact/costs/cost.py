@@ -15,10 +15,10 @@ from ..show.picture.make import check_packages
 from ..show.writers import PAGES, STILLS, Writers, as_bytes, write
 from ..util.loading import load
 from ..util.outputs import OutputError
-from .compute import cost_of
+from .compute import compute
 from .designs import CostValues
 from .json import csv_text, dictionary_of, text_of
-from .request import Asked
+from .request import Request
 from .words import describe, first_line
 
 #: Called with what is being done and how much of that is done, from 0 to 1.
@@ -170,7 +170,7 @@ def cost(
         kind = type(model).__name__
         raise TypeError(f"a model or the path of a deck has a cost, not {kind}")
     made = model if isinstance(model, Model) else read(model)
-    asked = Asked.of(
+    asked = Request.of(
         at=at,
         release=release,
         stroke=stroke,
@@ -183,4 +183,4 @@ def cost(
         bodies=bodies,
         beyond=beyond,
     )
-    return cost_of(made.data, asked, name, progress, Cost)
+    return compute(made.data, asked, name, progress, Cost)

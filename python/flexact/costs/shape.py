@@ -103,17 +103,16 @@ def shape(state: State, mode: int = 1, *, buckled: bool = False) -> Shape:
         raise ElasticError(f"there is no {what} {mode}: this state gives {count}")
     value = float(values[order[mode - 1]])
     field = modes[order[mode - 1]]
-    placed = state.data.arrays.node_kind <= NodeKind.POSITION
-    far = float(np.linalg.norm(field[placed], axis=1).max(initial=0.0))
-    size = far or float(np.abs(field).max(initial=0.0)) or 1.0
-    words = f"{_told(value, buckled)} ({state.label})"
-    kind = "buckled" if buckled else "vibrating"
-    return Shape(kind, words, value, state.data, state.configuration, field / size)
-
-
-def _told(value: float, buckled: bool) -> str:
+    words = "unstable" if value < 0.0 else f"vibrates at {value:.4g} Hz"
     if buckled:
-        return f"buckles at {value:.4g} times its stresses"
-    if value < 0.0:
-        return "unstable"
-    return f"vibrates at {value:.4g} Hz"
+        words = f"buckles at {value:.4g} times its stresses"
+    kind, drawn = "buckled" if buckled else "vibrating", unit_mode(state.data, field)
+    return Shape(kind, f"{words} ({state.label})", value, state.data, state.configuration, drawn)
+
+
+def unit_mode(data: ModelData, mode: FloatArray) -> FloatArray:
+    """(nodes, 3) with the largest displacement 1, or rotation where only rotations move."""
+    places = data.arrays.node_kind <= NodeKind.POSITION
+    size = np.linalg.norm(mode[places], axis=1).max(initial=0.0)
+    size = size if size > 1e-9 * np.abs(mode).max(initial=0.0) else np.abs(mode).max(initial=0.0)
+    return mode / size if size > 0.0 else mode.copy()

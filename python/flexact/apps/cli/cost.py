@@ -7,10 +7,10 @@ import argparse
 import re
 from pathlib import Path
 
-from ...costs.compute import cost_of
+from ...costs.compute import compute
 from ...costs.cost import COSTS, Cost
-from ...costs.request import DRIVE, HELD, POINTS, WIDTH, Asked, AskedError
-from ...costs.words import describe
+from ...costs.request import DRIVE, HELD, POINTS, Request, RequestError
+from ...costs.words import WIDTH, describe
 from ...deck.rendering import ModelError, ProblemsError
 from ...show.writers import as_bytes
 from ...util.decks import DeckFile
@@ -123,7 +123,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     if chosen.points is not None and chosen.stroke is None:
         raise BatchError("--points is for the places along a stroke: give --stroke, too")
     try:
-        asked = Asked.of(
+        asked = Request.of(
             at=_point(chosen.at),
             release=chosen.release or None,
             stroke=chosen.stroke,
@@ -136,7 +136,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             bodies=chosen.bodies,
             beyond=chosen.beyond,
         )
-    except AskedError as error:
+    except RequestError as error:
         *others, last = error.messages
         for each in others:
             complain(f"flexact: error: {harmless(each)}")
@@ -161,7 +161,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                         look()
                         bar.show_work(what, done)
 
-                    made = cost_of(model, asked, deck.name, show, Cost)
+                    made = compute(model, asked, deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
                         made.save(target)
