@@ -15,7 +15,8 @@ from ...analysis.result import Result
 from ...analysis.verdict_words import verdict_word
 from ...show.page import Entry, Pair, before_and_after, changes_part, compare_page, index_page
 from ...show.picture import has_packages, picture_bytes
-from ...show.saving import PAGES, as_bytes, small_picture
+from ...show.saving import small_picture
+from ...show.writers import PAGES, as_bytes
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding

@@ -16,8 +16,9 @@ from ...deck.rendering import ProblemsError
 from ...show.mesh import Meshes
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.page import Entry, broken_entry, broken_page, entry_of, unread_entry, with_way_back
-from ...show.saving import as_bytes, page_bytes, small_picture
+from ...show.saving import page_bytes, small_picture
 from ...show.spacar_log import log_text, spacar_log
+from ...show.writers import as_bytes
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
