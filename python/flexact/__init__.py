@@ -27,7 +27,6 @@ if _typing.TYPE_CHECKING:
         Counts,
         Gap,
         Margin,
-        Nearly,
         Proof,
         Verdict,
     )
@@ -80,7 +79,6 @@ _HOMES = {
         "Counts",
         "Gap",
         "Margin",
-        "Nearly",
         "Proof",
         "Verdict",
     ),
@@ -187,7 +185,6 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
-    "Nearly",
     "Node",
     "Notch",
     "Place",

@@ -176,7 +176,7 @@ def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
         return Assessment(Certainty.CERTAIN, alternatives_of(outcome, evidence, 0, 0)[:1], ())
     lower = max(doubt.values for doubt in found)
     higher = max(doubt.zeros for doubt in found)
-    return Assessment(Certainty.NEARLY, alternatives_of(outcome, evidence, lower, higher), found)
+    return Assessment(Certainty.DOUBTFUL, alternatives_of(outcome, evidence, lower, higher), found)
 
 
 def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:

@@ -575,11 +575,12 @@ def _decision(analysis: Result) -> dict[str, Any]:
 
 def _certainty(analysis: Result) -> dict[str, Any]:
     """What is known of the rank: of the arithmetic, not of the machine."""
-    proof = analysis.proof
+    proof, nearly = analysis.proof, analysis.nearly
+    counts = ("under_constrained", "over_constrained")
     return {
         "certainty": certainty_word(analysis),
         "proof": proof._asdict() if proof else None,
-        "nearly": analysis.nearly._asdict() if analysis.nearly else None,
+        "nearly": None if nearly is None else dict(zip(counts, nearly, strict=False)),
         "alternatives": [item._asdict() for item in analysis.alternatives],
     }
 

@@ -30,7 +30,7 @@ from .margin import least, margins
 from .modes import Modes, Motion, SelfStress
 from .rank_evidence import Evidence, Pair
 from .spaces import Spaces, decompose
-from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Nearly, Verdict
+from .verdict import MARGINAL_COLOUR, Alternative, Certainty, Margin, Verdict
 
 if TYPE_CHECKING:
     from .exact import ExactBases
@@ -194,7 +194,7 @@ class Result(Spaces):
 
     @property
     def certainty(self) -> Certainty:
-        """`CERTAIN`, or `NEARLY` where rounding or the method leaves a doubt."""
+        """`CERTAIN`, or `DOUBTFUL` where rounding or the method leaves a doubt."""
         return self.assessment.certainty
 
     @property
@@ -203,14 +203,12 @@ class Result(Spaces):
         return self.assessment.alternatives
 
     @property
-    def nearly(self) -> Nearly | None:
+    def nearly(self) -> Alternative | None:
         """The counts of the first of the `alternatives`; None without doubt."""
         if self.certainty is Certainty.CERTAIN:
             return None
-        first = next(iter(self.alternatives), None)
-        if first is None:
-            return Nearly(self.under_constrained, self.over_constrained)
-        return Nearly(first.under_constrained, first.over_constrained)
+        own = Alternative(self.under_constrained, self.over_constrained, 0.0, 0.0)
+        return next(iter(self.alternatives), own)
 
     @property
     def pairs(self) -> tuple[Pair, ...]:
