@@ -18,7 +18,7 @@ if _typing.TYPE_CHECKING:
     from .advice.advice import Advice
     from .advice.steps import Step
     from .analysis.exact import ExactBases
-    from .analysis.modes import Motion, SelfStress
+    from .analysis.result import Motion, SelfStress
     from .analysis.verdict import (
         Alternative,
         AnalysisError,
@@ -67,7 +67,7 @@ _HOMES = {
     "advice.advice": ("Advice",),
     "advice.steps": ("Step",),
     "analysis.exact": ("ExactBases",),
-    "analysis.modes": (
+    "analysis.result": (
         "Motion",
         "SelfStress",
     ),

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .margin import margin_of
 from .rank_evidence import STORED, Evidence
 from .verdict import Alternative, Certainty, Margin
@@ -21,7 +21,7 @@ _MOST = 3
 
 
 def alternatives_of(
-    outcome: Outcome, evidence: Evidence, lower: int, higher: int
+    outcome: Decomposition, evidence: Evidence, lower: int, higher: int
 ) -> tuple[Alternative, ...]:
     """The counts that may hold instead, likeliest first, at most three.
 
@@ -35,7 +35,7 @@ def alternatives_of(
     return tuple(_alternative(outcome, evidence, rank) for rank in dict.fromkeys(ranks))[:_MOST]
 
 
-def _ranks(outcome: Outcome, evidence: Evidence, lower: int, higher: int) -> Iterator[int]:
+def _ranks(outcome: Decomposition, evidence: Evidence, lower: int, higher: int) -> Iterator[int]:
     """All values in doubt; then as many as stand together, the widest gap above them first."""
     if lower:
         yield outcome.rank - lower
@@ -66,7 +66,7 @@ def _groups(ascending: list[float]) -> list[int]:
     return sorted(range(1, len(gaps) + 1), key=lambda k: -gaps[k - 1])
 
 
-def _alternative(outcome: Outcome, evidence: Evidence, rank: int) -> Alternative:
+def _alternative(outcome: Decomposition, evidence: Evidence, rank: int) -> Alternative:
     counts = (outcome.columns - rank, outcome.rows - rank)
     if rank > outcome.rank:
         # The numbers as they are say so, or nothing is known of how far they are from it.
@@ -162,7 +162,7 @@ class Assessment(NamedTuple):
     doubts: tuple[Doubt, ...]
 
 
-def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
+def assess(outcome: Decomposition, evidence: Evidence) -> Assessment:
     """Whether the decision is certain.
 
     It is in doubt where a value that counts as non-zero is within reach of how the geometry
@@ -179,7 +179,7 @@ def assess(outcome: Outcome, evidence: Evidence) -> Assessment:
     return Assessment(Certainty.DOUBTFUL, alternatives_of(outcome, evidence, lower, higher), found)
 
 
-def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _doubts(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     raw = outcome.raw
     is_proven = raw.proven_rank == outcome.rank
     if not (raw.confirmed or is_proven):
@@ -198,7 +198,7 @@ def _doubts(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
             yield from _zeros_below_noise(outcome, evidence)
 
 
-def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _close_to_noise(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     near = _nonzeros_up_to(outcome, NEAR * outcome.raw.noise)
     if not near:
         return
@@ -212,7 +212,7 @@ def _close_to_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
         yield Doubt(DoubtKind.CLOSE_TO_NOISE, values=count, size=size)
 
 
-def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _explained_by_digits(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     reach = min(REACH_OF_DIGITS, CUT_OFF * outcome.raw.reach_of_digits)
     if not any(outcome.raw.pair_value <= reach):
         return
@@ -228,7 +228,7 @@ def _explained_by_digits(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt
     yield Doubt(DoubtKind.DIGITS_EXPLAIN, values=count, size=reach)
 
 
-def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
+def _zeros_above_noise(outcome: Decomposition) -> Iterator[Doubt]:
     zero = outcome.gap.largest_zero
     if zero is None or zero <= outcome.raw.noise:
         return
@@ -240,7 +240,7 @@ def _zeros_above_noise(outcome: Outcome) -> Iterator[Doubt]:
     yield Doubt(kind, zeros=max(1, rank - outcome.rank), size=zero)
 
 
-def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
+def _zeros_below_noise(outcome: Decomposition, evidence: Evidence) -> Iterator[Doubt]:
     """Zeros that may be tiny, where nothing but the decomposition has seen them."""
     zero = outcome.gap.largest_zero
     if zero is None or not zero <= outcome.raw.noise:
@@ -249,7 +249,7 @@ def _zeros_below_noise(outcome: Outcome, evidence: Evidence) -> Iterator[Doubt]:
         yield from itertools.islice(_perhaps_tiny(outcome, evidence, zero), 1)
 
 
-def _perhaps_tiny(outcome: Outcome, evidence: Evidence, zero: float) -> Iterator[Doubt]:
+def _perhaps_tiny(outcome: Decomposition, evidence: Evidence, zero: float) -> Iterator[Doubt]:
     """Reasons to take a zero for a tiny value, the plainest first."""
     zeros = min(outcome.under_constrained, outcome.over_constrained)
     largest = max(outcome.scaled_singular_values[:1].max(initial=0.0), 1.0)
@@ -269,7 +269,7 @@ def _stored(evidence: Evidence) -> float:
     return STORED * len(evidence.zero_pairs) * max(lifts, default=0.0)
 
 
-def _nonzeros_up_to(outcome: Outcome, limit: float) -> int:
+def _nonzeros_up_to(outcome: Decomposition, limit: float) -> int:
     """How many values that count as non-zero are not above a limit."""
     values = outcome.scaled_singular_values
     zeros = min(outcome.rows, outcome.columns) - outcome.rank

@@ -21,9 +21,8 @@ from ..core.raw import RawAnalysis
 from ..model.data import ModelData
 from ..util.records import Frozen, cached_property
 from .body_motions import Moves, Velocities
-from .decomposition import Asked, Outcome
+from .decomposition import Asked, Decomposition, decompose
 from .mode_basis import coordinate_key, ranked
-from .spaces import decompose
 
 #: Independent velocities that depend on each other to within this part cannot be told apart.
 _DEPENDENT = 1.0e-12
@@ -46,7 +45,7 @@ class FreeMotion(Moves, Frozen):
             without this declaration.
     """
 
-    analysis: Outcome
+    analysis: Decomposition
     analysed: Velocities
 
 
@@ -61,7 +60,7 @@ class Freedom(Frozen):
         block: What finds the motions of some degrees of freedom together.
     """
 
-    analysis: Outcome
+    analysis: Decomposition
     place: tuple[int, int]
     is_coordinate: bool
     block: Block
@@ -156,7 +155,7 @@ class Freedom(Frozen):
 class Block:
     """Some degrees of freedom, and the null space in which none of them is declared."""
 
-    def __init__(self, outcome: Outcome, places: Sequence[_Place]) -> None:
+    def __init__(self, outcome: Decomposition, places: Sequence[_Place]) -> None:
         """Keep what is asked; it is found when the first motion is asked for."""
         self._outcome = outcome
         self.places = tuple(places)
@@ -227,7 +226,7 @@ def _undeclared(data: ModelData, places: Sequence[_Place]) -> ModelData:
     )
 
 
-def freedoms_of(outcome: Outcome) -> tuple[Freedom, ...]:
+def freedoms_of(outcome: Decomposition) -> tuple[Freedom, ...]:
     """The declared degrees of freedom, coordinates first."""
     arrays = outcome.data.arrays
     places: list[_Place] = []

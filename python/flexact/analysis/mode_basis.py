@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
 from ..model.parts.parts import Part, PartKind, natural
-from .decomposition import Outcome, column_weights, row_factors, row_weights
+from .decomposition import Decomposition, column_weights, row_factors, row_weights
 from .sparse_basis import (
     MOST_DIMENSIONS,
     Cost,
@@ -75,7 +75,7 @@ def ranked(weighted: FloatArray, most: int, key: Callable[[int], Any] | None = N
     return chosen
 
 
-def row_key(outcome: Outcome, row: int, *, numbered: bool = True) -> Any:
+def row_key(outcome: Decomposition, row: int, *, numbered: bool = True) -> Any:
     """By what a row of D(c) is sorted among equals: flexures first, part, what deforms, where.
 
     Parts without a name go by the number that they are called by, or by place alone.
@@ -85,7 +85,7 @@ def row_key(outcome: Outcome, row: int, *, numbered: bool = True) -> Any:
 
 
 def deformation_key(
-    outcome: Outcome, element: int, deformation: int, *, numbered: bool = True
+    outcome: Decomposition, element: int, deformation: int, *, numbered: bool = True
 ) -> Any:
     """The same of a deformation, from 0, of an element, by its index in `outcome.data`."""
     data, given = outcome.data, int(outcome.condensed.elements[element])
@@ -107,13 +107,13 @@ def deformation_key(
     return is_body, natural(_name(part, numbered)), kind, of_sheet, direction, end, place
 
 
-def column_key(outcome: Outcome, column: int, *, numbered: bool = True) -> Any:
+def column_key(outcome: Decomposition, column: int, *, numbered: bool = True) -> Any:
     """By what a column of D(c) is sorted among equals: displacement or rotation, where, axis."""
     node, axis = (outcome.raw.column_label[:, column] - 1).tolist()
     return coordinate_key(outcome, node, axis, numbered=numbered)
 
 
-def coordinate_key(outcome: Outcome, node: int, axis: int, *, numbered: bool = True) -> Any:
+def coordinate_key(outcome: Decomposition, node: int, axis: int, *, numbered: bool = True) -> Any:
     """The same of a coordinate of a node, by its index in `outcome.data`."""
     given = int(outcome.condensed.nodes[node])
     position = outcome.parts.place_of(given)
@@ -127,7 +127,7 @@ def coordinate_key(outcome: Outcome, node: int, axis: int, *, numbered: bool = T
     return turns, natural(name), _place(outcome, value), axis
 
 
-def _end(outcome: Outcome, node: int) -> Any:
+def _end(outcome: Decomposition, node: int) -> Any:
     """What is at an end: ground before others, then by name, however the mechanism is turned."""
     given = int(outcome.condensed.nodes[node])
     return not outcome.parts.is_held(given), natural(outcome.parts.name_of_point(given))
@@ -138,7 +138,7 @@ def _name(part: Part, numbered: bool) -> str:
     return part.name if part.is_named or numbered else ""
 
 
-def _place(outcome: Outcome, value: FloatArray) -> tuple[float, ...]:
+def _place(outcome: Decomposition, value: FloatArray) -> tuple[float, ...]:
     step = _SAME_PLACE * outcome.characteristic_length
     whole = np.round(value / step) if step > 0.0 else value
     return tuple((whole + 0.0).tolist())
@@ -175,18 +175,18 @@ def is_large(raw: Basis) -> bool:
     return many or rows * raw.vectors > _MOST_ENTRIES
 
 
-def scaled_motions(outcome: Outcome) -> Basis:
+def scaled_motions(outcome: Decomposition) -> Basis:
     """The core's motions with the largest entry of each one."""
     weights = column_weights(outcome)
     return _scaled_as_they_are(outcome.raw.motions, weights, np.ones(weights.size))
 
 
-def scaled_stresses(outcome: Outcome) -> Basis:
+def scaled_stresses(outcome: Decomposition) -> Basis:
     """The core's self-stresses with the largest force or moment of each one."""
     return _scaled_as_they_are(outcome.raw.stresses, row_weights(outcome), row_factors(outcome))
 
 
-def motion_basis(outcome: Outcome, space: Basis) -> Basis:
+def motion_basis(outcome: Decomposition, space: Basis) -> Basis:
     """A basis of the motions, in metres and radians.
 
     Args:
@@ -207,7 +207,7 @@ def motion_basis(outcome: Outcome, space: Basis) -> Basis:
     )
 
 
-def stress_basis(outcome: Outcome, space: Basis) -> Basis:
+def stress_basis(outcome: Decomposition, space: Basis) -> Basis:
     """A basis of the self-stresses, dual to the deformations.
 
     Args:
@@ -228,7 +228,7 @@ def stress_basis(outcome: Outcome, space: Basis) -> Basis:
     )
 
 
-def internal_motions(outcome: Outcome, basis: Basis) -> int:
+def internal_motions(outcome: Decomposition, basis: Basis) -> int:
     """How many vectors of a basis of the motions move nothing but insides of sheets and wires.
 
     In that of `motion_basis` they are a basis of all such motions: insides of different parts
@@ -239,7 +239,7 @@ def internal_motions(outcome: Outcome, basis: Basis) -> int:
     return int(np.count_nonzero(moves_within(outcome, basis, outcome.carriers.inner)))
 
 
-def moves_within(outcome: Outcome, basis: Basis, nodes: Collection[int]) -> BoolArray:
+def moves_within(outcome: Decomposition, basis: Basis, nodes: Collection[int]) -> BoolArray:
     """(vectors,) whether each vector of a basis of the motions moves nothing but some nodes.
 
     Args:
@@ -334,7 +334,7 @@ def _scaled_as_they_are(raw: Basis, weights: FloatArray, units: FloatArray) -> B
     return raw._replace(value=raw.value / np.repeat(scale, counts))
 
 
-def _sense_of_row(outcome: Outcome, row: int) -> float:
+def _sense_of_row(outcome: Decomposition, row: int) -> float:
     """1 or -1: the sense of a stress resultant that does not depend on how its element is given.
 
     Tension and a torsion are positive as they are; of others the force or moment that the
@@ -389,7 +389,7 @@ def _place_in_order(piece: Piece) -> tuple[object, ...]:
 class _MotionGroups:
     """Rows of the motions, columns of D(c), by what they belong to."""
 
-    def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
+    def __init__(self, outcome: Decomposition, support: NDArray[np.integer]) -> None:
         node, self.axis = outcome.raw.column_label[:, support] - 1
         self.node = outcome.condensed.nodes[node]
         self.owner = np.unique(self.node, return_inverse=True)[1]
@@ -492,7 +492,7 @@ class _MotionGroups:
 class _StressGroups:
     """Rows of the self-stresses, rows of D(c), by the part that they belong to."""
 
-    def __init__(self, outcome: Outcome, support: NDArray[np.integer]) -> None:
+    def __init__(self, outcome: Decomposition, support: NDArray[np.integer]) -> None:
         element = outcome.condensed.elements[outcome.raw.row_label[0, support] - 1]
         parts: dict[Part, list[int]] = {}
         for row, index in enumerate(element.tolist()):

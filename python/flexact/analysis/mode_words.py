@@ -11,8 +11,7 @@ from ..core.arrays import FloatArray
 from ..model.parts.parts import Part, PartKind
 from .body_motions import BodyMotion
 from .carriers import Joint
-from .decomposition import Outcome
-from .modes import Motion, SelfStress
+from .decomposition import Decomposition
 from .naming import (
     Pieces,
     coordinate_in_words,
@@ -24,7 +23,7 @@ from .naming import (
 )
 from .part_stresses import QUANTITIES, Conflict, PartStress, shared_resultants
 from .places import axis_words, direction_words, joint_node, listed, part_words, place_words
-from .result import Result
+from .result import Motion, Result, SelfStress
 from .screws import ROUNDING, Screw, ScrewKind, Wrench, WrenchKind
 
 #: How many names stand in a row.
@@ -85,7 +84,7 @@ def _size(screw: Screw, length: float) -> float:
     )
 
 
-def group_in_words(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
+def group_in_words(outcome: Decomposition, group: BodyMotion, alone: bool) -> Pieces:
     """Bodies or joints and how they move; without sizes where nothing else does."""
     if group.bodies:
         names = parts_in_words(outcome, group.bodies)
@@ -98,7 +97,7 @@ def group_in_words(outcome: Outcome, group: BodyMotion, alone: bool) -> Pieces:
     return (*names, f" {_verb(outcome, group.screw, many, alone)}{together}")
 
 
-def _verb(outcome: Outcome, screw: Screw, many: bool, alone: bool) -> str:
+def _verb(outcome: Decomposition, screw: Screw, many: bool, alone: bool) -> str:
     s = "" if many else "s"
     axis = direction_words(screw.direction)
     if screw.kind is ScrewKind.TRANSLATION:
@@ -110,7 +109,7 @@ def _verb(outcome: Outcome, screw: Screw, many: bool, alone: bool) -> str:
     return f"turn{s} {about}{size} and move{s} along it by {screw.pitch:.4g} m/rad"
 
 
-def line_words(outcome: Outcome, point: FloatArray, direction: FloatArray) -> str:
+def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray) -> str:
     """A line by a point of it [m] and its direction; along an axis any point of it serves.
 
     Across the plane of a planar model it is a point.
@@ -125,12 +124,12 @@ def line_words(outcome: Outcome, point: FloatArray, direction: FloatArray) -> st
     return f"the line through ({', '.join(shown)}) m along {axis}"
 
 
-def _number(outcome: Outcome, value: float) -> str:
+def _number(outcome: Decomposition, value: float) -> str:
     small = abs(value) < _ZERO * outcome.characteristic_length
     return "0" if small else f"{value:.4g}"
 
 
-def parts_in_words(outcome: Outcome, parts: tuple[Part, ...]) -> Pieces:
+def parts_in_words(outcome: Decomposition, parts: tuple[Part, ...]) -> Pieces:
     """Names of parts in a row."""
     numbers = outcome.given.arrays.element_number
     return joined([(named_element(outcome, int(numbers[part.elements[0]])),) for part in parts])
@@ -227,7 +226,7 @@ def _is_between_parts(conflict: Conflict) -> bool:
     return all(load.part is not None for load in conflict.loads) and len(conflict.loads) > 1
 
 
-def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
+def _on(outcome: Decomposition, on: Part | Joint) -> Pieces:
     if isinstance(on, Joint):
         node = joint_node(outcome.parts, on)
         return (named_node(outcome, int(outcome.given.arrays.node_number[node])),)
@@ -235,7 +234,7 @@ def _on(outcome: Outcome, on: Part | Joint) -> Pieces:
     return (named_element(outcome, number),)
 
 
-def _held(outcome: Outcome, on: Pieces, over: Wrench) -> Pieces:
+def _held(outcome: Decomposition, on: Pieces, over: Wrench) -> Pieces:
     """What of a body several parts hold: a rotation, or a displacement along a line."""
     if over.kind is WrenchKind.COUPLE:
         return (*on, f" against rotation about {axis_words(over.direction)}")
@@ -249,7 +248,7 @@ def _against(over: Wrench) -> str:
     }.get(over.kind, "with opposite forces and moments")
 
 
-def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[str]:
+def _carried(outcome: Decomposition, stress: SelfStress, one: PartStress) -> Iterator[str]:
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
     rest = _REST * max(wrench.size for wrench in ends)
@@ -265,7 +264,9 @@ def _carried(outcome: Outcome, stress: SelfStress, one: PartStress) -> Iterator[
         yield f"shear force {_vector(one.shear_force, 'N along')}"
 
 
-def _bending(outcome: Outcome, stress: SelfStress, one: PartStress, rest: float) -> Iterator[str]:
+def _bending(
+    outcome: Decomposition, stress: SelfStress, one: PartStress, rest: float
+) -> Iterator[str]:
     """Bending moments at the ends: of a sheet in its plane and out of it, else as vectors."""
     if one.part.kind is PartKind.SHEET and len(one.ends) == 2:
         moments = moments_at_ends(stress, one).values()
@@ -308,7 +309,7 @@ def moments_at_ends(stress: SelfStress, one: PartStress) -> dict[str, tuple[floa
 
 
 def _along(
-    outcome: Outcome, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
+    outcome: Decomposition, one: PartStress, word: str, at_ends: tuple[float, float], rest: float
 ) -> str:
     first, last = at_ends
     if abs(first - last) <= rest:
@@ -321,7 +322,7 @@ def _along(
     return f"{word} {' and '.join(told)}"
 
 
-def _end(outcome: Outcome, part: Part, position: int) -> str:
+def _end(outcome: Decomposition, part: Part, position: int) -> str:
     return place_words(outcome.parts, position, part)
 
 

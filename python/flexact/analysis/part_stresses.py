@@ -22,7 +22,7 @@ from ..model.parts.forms import is_member
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.records import Frozen, cached_property
 from .carriers import Joint
-from .decomposition import Outcome, row_weights
+from .decomposition import Decomposition, row_weights
 from .locate import part_of, position_of
 from .screws import ROUNDING, Wrench, in_words, sense_of
 
@@ -265,7 +265,7 @@ class Pressing(Frozen):
         vector: (m,) stress resultants dual to the deformations.
     """
 
-    outcome: Outcome
+    outcome: Decomposition
     vector: FloatArray
 
     @cached_property

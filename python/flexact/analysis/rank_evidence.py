@@ -21,7 +21,7 @@ from ..core.arrays import Basis, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, length_table, role_table
 from ..core.raw import RawAssembly, RawSensitivities
 from ..util.records import cached_property
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .sparse_basis import Sparse, index_of
 
 #: How many zeros are looked at, and each against how many vectors of the other side.
@@ -51,7 +51,7 @@ class Pair(NamedTuple):
     """Number of that element, likewise."""
 
 
-def of_nonzeros(outcome: Outcome) -> tuple[Pair, ...]:
+def of_nonzeros(outcome: Decomposition) -> tuple[Pair, ...]:
     """The smallest values that are not zero, ascending, as far as the core gives their vectors."""
     raw = outcome.raw
     most = min(raw.pair_value.size, max(1, affordable_pairs(outcome)))
@@ -67,7 +67,7 @@ def of_nonzeros(outcome: Outcome) -> tuple[Pair, ...]:
     return _named(outcome, raw.pair_value[:most], found)
 
 
-def of_zeros(outcome: Outcome) -> tuple[tuple[Pair, ...], ...]:
+def of_zeros(outcome: Decomposition) -> tuple[tuple[Pair, ...], ...]:
     """For each zero, at most 8, its pairs with the vectors of the other side.
 
     A singular value is zero where there is a self-stress and a motion; those that are in
@@ -93,7 +93,7 @@ def of_zeros(outcome: Outcome) -> tuple[tuple[Pair, ...], ...]:
     return tuple(tuple(named[i] for i in np.flatnonzero(of_zero == k)) for k in range(zeros))
 
 
-def affordable_pairs(outcome: Outcome) -> int:
+def affordable_pairs(outcome: Decomposition) -> int:
     """How many pairs may be looked at; each takes as long as there are nodes and elements."""
     arrays = outcome.data.arrays
     return MOST_WORK // (arrays.node_number.size + arrays.element_number.size)
@@ -107,7 +107,7 @@ def _unscaled(basis: Basis, scale: FloatArray, most: int) -> FloatArray:
     return made
 
 
-def _named(outcome: Outcome, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
+def _named(outcome: Decomposition, value: FloatArray, found: RawSensitivities) -> tuple[Pair, ...]:
     """Pairs with the numbers of nodes and elements in place of their indices."""
     arrays = outcome.data.arrays
     return tuple(
@@ -178,7 +178,7 @@ class Remainder(NamedTuple):
 class Evidence:
     """What small changes and rounding may make of singular values; found when asked for."""
 
-    def __init__(self, outcome: Outcome) -> None:
+    def __init__(self, outcome: Decomposition) -> None:
         """Keep the outcome that it is about."""
         self._outcome = outcome
 
@@ -203,7 +203,7 @@ class Evidence:
         return powers_faded(self._outcome)
 
 
-def largest_remainder(outcome: Outcome) -> Remainder | None:
+def largest_remainder(outcome: Decomposition) -> Remainder | None:
     """The pair whose u' D v exceeds most what rounding makes of it, in the scaled matrix.
 
     Of the first vectors of each side, as far as that takes little time; None where there is
@@ -239,7 +239,7 @@ def largest_remainder(outcome: Outcome) -> Remainder | None:
     return Remainder(float(left[u, v][worst_of_all]), float(found[worst_of_all]))
 
 
-def powers_faded(outcome: Outcome) -> float:
+def powers_faded(outcome: Decomposition) -> float:
     """Through how many powers of ten a motion and a self-stress fade, the less of the two.
 
     The core cuts off what is below 1e-11 of a vector's largest component where it may.
@@ -285,7 +285,7 @@ def _first_of(basis: Basis, scale: FloatArray, chosen: NDArray[np.integer]) -> _
     return _Vectors(support, value / np.linalg.norm(value / scale[support, None], axis=0))
 
 
-def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, FloatArray]:
+def _entries(outcome: Decomposition, rows: NDArray[np.integer]) -> tuple[Sparse, FloatArray]:
     """Entries of some rows of D(c), and what each of them is rounded in proportion to.
 
     An elongation changes with the positions by the direction alone, each entry to its own last
@@ -313,7 +313,7 @@ def _entries(outcome: Outcome, rows: NDArray[np.integer]) -> tuple[Sparse, Float
     return matrix, np.where(direction, np.abs(matrix.value), of_row)
 
 
-def _assembly_of(outcome: Outcome, elements: NDArray[np.integer]) -> RawAssembly:
+def _assembly_of(outcome: Decomposition, elements: NDArray[np.integer]) -> RawAssembly:
     """The Jacobian of some elements alone, of which there may be few among very many."""
     packed = outcome.data.packed
     some = packed._replace(
@@ -338,7 +338,7 @@ def _products(matrix: Sparse, stresses: _Vectors, motions: _Vectors) -> FloatArr
 
 
 def _lifts(
-    outcome: Outcome,
+    outcome: Decomposition,
     stresses: _Vectors,
     motions: _Vectors,
     u: NDArray[np.integer],

@@ -20,7 +20,7 @@ from ..core.elastic import (
     Waypoint,
     element_stiffness,
 )
-from ..core.elements import Class, Dual, NodeKind, dual_table
+from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property
@@ -543,3 +543,49 @@ class Solution:
         """
         if not (self.solver.policy.has_stiffness or self.is_stressed):
             raise ElasticError(NO_STIFFNESS)
+
+
+#: A node rests that moves by less, where the farthest moves by one.
+_NODE_RESTS = 1.0e-6
+#: How many coordinates of a motion without stiffness are named.
+_MOST_NAMED = 4
+
+
+@dataclass(frozen=True, eq=False)
+class LooseMotion(Frozen):
+    """A motion without any stiffness.
+
+    Attributes:
+        displacement: (nodes, 3) displacements and turns of the finer mesh; the largest is one.
+        coordinates: Node and coordinate of what moves in the deck, the most first.
+    """
+
+    displacement: FloatArray
+    coordinates: tuple[tuple[int, str], ...]
+
+    def __str__(self) -> str:
+        """Such as "y of node 2 and z of node 2"."""
+        shown = [f"{name} of node {node}" for node, name in self.coordinates[:_MOST_NAMED]]
+        more = len(self.coordinates) - len(shown)
+        if more > 0:
+            shown.append(f"{more} more")
+        return " and ".join(filter(None, [", ".join(shown[:-1]), *shown[-1:]])) or "inner nodes"
+
+
+def loose_motion(at: Solution, k: int) -> LooseMotion:
+    """A motion without stiffness of a state, by its index."""
+    mesh = at.solver.mesh
+    arrays = mesh.own.arrays
+    moved = at.unit_motions(at.tangent.loose)[:, :, k]
+    size = np.abs(moved) * at.scale
+    found = []
+    for node in range(mesh.nodes):
+        kind = int(arrays.node_kind[node])
+        found += [
+            (float(size[axis, node]), int(arrays.node_number[node]), coordinate_name(kind, axis))
+            for axis in AXES[kind]
+            if size[axis, node] > _NODE_RESTS
+        ]
+    # Of equal ones the first of the deck; rounding does not decide.
+    found.sort(key=lambda each: -round(each[0], 6))
+    return LooseMotion(moved.T.copy(), tuple((node, name) for _, node, name in found))

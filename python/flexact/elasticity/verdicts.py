@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.decomposition import asked_for
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..core import calls
 from ..core.arrays import BoolArray, FloatArray
 from ..core.elements import Class, NodeKind

@@ -16,8 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..analysis.decomposition import column_weights
-from ..analysis.modes import Motion
-from ..analysis.spaces import Spaces
+from ..analysis.result import Motion, Result
 from ..core.arrays import FloatArray
 from ..model.parts.parts import Part
 from ..util.loading import load
@@ -262,7 +261,7 @@ class Decided(NamedTuple):
 class Judge:
     """A component whose motions feel a self-stress."""
 
-    def __init__(self, spaces: Spaces, component: Component) -> None:
+    def __init__(self, spaces: Result, component: Component) -> None:
         """Make the model of the component."""
         self.spaces, self.felt = spaces, Felt(spaces, component)
         self.size, self._asked = self.felt.held.size, 0
@@ -416,7 +415,7 @@ _UNSEEN = 1.0e-9
 _FREE = Extent(Kind.FINITE, EvidenceKind.CERTIFIED, Reason.NO_SELF_STRESS)
 
 
-def extents_of(spaces: Spaces) -> Extents:
+def extents_of(spaces: Result) -> Extents:
     """Whether each motion of an analysis goes on or only begins.
 
     A component without self-stress: D(x) = 0 is a manifold there, and each motion is finite
@@ -456,7 +455,7 @@ def _of_all(parts: list[Extent]) -> Extent:
     return min(felt, key=lambda part: (order[part.kind], by_proof.get(part.evidence, 3)))
 
 
-def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int, FloatArray]]:
+def _told_in(spaces: Result, components: tuple[Component, ...]) -> list[dict[int, FloatArray]]:
     """For each component (columns of it,) of each told motion that has a part in it."""
     told, made = spaces.motion_basis, []
     owner, there = np.full(spaces.columns, -1), np.zeros(spaces.columns, np.int64)
@@ -480,7 +479,7 @@ def _told_in(spaces: Spaces, components: tuple[Component, ...]) -> list[dict[int
 
 
 def _of_component(
-    spaces: Spaces, component: Component, told: dict[int, FloatArray], looked_at: bool
+    spaces: Result, component: Component, told: dict[int, FloatArray], looked_at: bool
 ) -> Decided:
     many = len(component.motions)
     too_large = many > _MOST_MOTIONS or many * component.columns.size > _MOST_ENTRIES

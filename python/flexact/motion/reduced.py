@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.decomposition import column_weights, row_weights
-from ..analysis.spaces import Spaces
+from ..analysis.result import Result
 from ..core.arrays import Basis, FloatArray, ModelArrays
 from ..core.elements import Class, Dual, NodeKind, dual_table
 from ..model.data import ModelData
@@ -42,7 +42,7 @@ class Component(Frozen):
     stresses: int
 
 
-def components_of(spaces: Spaces) -> tuple[tuple[Component, ...], int]:
+def components_of(spaces: Result) -> tuple[tuple[Component, ...], int]:
     """The components in which both motions and self-stresses are, and all other motions' number.
 
     All motions have to be known. A vector that reaches over several components makes one of them.
@@ -104,7 +104,7 @@ def _seen(basis: Basis) -> NDArray[np.bool_]:
     return np.abs(basis.value) > _UNSEEN
 
 
-def _incidence(spaces: Spaces) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+def _incidence(spaces: Result) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Nodes and elements that hold something, side by side."""
     arrays = spaces.data.arrays
     held = (arrays.deformation_class == Class.FIXED) | (
@@ -216,7 +216,7 @@ class Felt:
         is_small: Whether a position in it costs little.
     """
 
-    def __init__(self, spaces: Spaces, component: Component) -> None:
+    def __init__(self, spaces: Result, component: Component) -> None:
         """Make the model of a component and take the null vectors over."""
         data, node_place, element_place = _alone(spaces.data, component.elements)
         whole = Held(data)
@@ -271,7 +271,7 @@ class Felt:
 
 
 def _of_space(
-    spaces: Spaces, many: int, element_place: NDArray[np.integer], held: Held
+    spaces: Result, many: int, element_place: NDArray[np.integer], held: Held
 ) -> FloatArray | None:
     """(m, s) orthonormal, what the self-stresses of the analysis have in a component."""
     if spaces.raw.stresses.vectors < spaces.over_constrained:

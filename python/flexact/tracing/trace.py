@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis.decomposition import asked_for
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..model.model import Model
 from ..model.reading import read
 from ..motion import Ending, Followed, Held, Wishes, follow, is_followed, least_error

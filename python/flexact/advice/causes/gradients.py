@@ -12,11 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...analysis.decomposition import Asked
+from ...analysis.decomposition import Asked, decompose
 from ...analysis.margin import NOTHING
-from ...analysis.modes import Motion, SelfStress
-from ...analysis.result import Result
-from ...analysis.spaces import decompose
+from ...analysis.result import Motion, Result, SelfStress
 from ...core import calls
 from ...core.arrays import Basis, FloatArray, ModelArrays, packed
 from ...core.elements import Class, NodeKind, Role, Vector, element_kinds, length_table, role_table

@@ -14,8 +14,7 @@ import numpy as np
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.mode_basis import without_sense
-from ...analysis.modes import Motion
-from ...analysis.result import Result, result_of
+from ...analysis.result import Motion, Result, result_of
 from ...analysis.screws import Screw
 from ...core.arrays import FloatArray
 from ...core.elements import Vector, element_kinds

@@ -10,9 +10,8 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 
-from ...analysis.decomposition import Accuracy
+from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...core.calls import METHODS
 from ...deck.diagnostics import Diagnostic, Problems, Severity
 from ...deck.rendering import DeckError, render_problems

@@ -136,7 +136,7 @@ class Watch:
             path: The deck, or the script (.py).
             heard: Who hears of what is going on.
             port: The port; by default a free one.
-            decision: Arguments of `flexact.analysis.spaces.asked_for`.
+            decision: Arguments of `flexact.analysis.decomposition.asked_for`.
 
         Raises:
             BatchError: The port cannot be had.

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...analysis.modes import SelfStress
 from ...analysis.part_stresses import QUANTITIES, shared_resultants
+from ...analysis.result import SelfStress
 from ...core.arrays import FloatArray
 from ...model.parts.chains import signs_of
 from ...model.parts.forms import Form

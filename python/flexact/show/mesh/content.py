@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.modes import SelfStress
-from ...analysis.result import Result
+from ...analysis.result import Result, SelfStress
 from ...analysis.verdict_words import certainty_word, verdict_word
 from ...core.arrays import BoolArray, FloatArray
 from ...model.data import ModelData

@@ -16,9 +16,8 @@ from ...advice.describe import VerdictInWords, verdict_in_words
 from ...advice.spaces.spaces import Spaces
 from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.modes import Motion, SelfStress
 from ...analysis.naming import Line, Named, Pieces
-from ...analysis.result import Result
+from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import (
     decision,
