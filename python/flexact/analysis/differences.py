@@ -17,6 +17,7 @@ from ..core.arrays import FloatArray
 from ..deck.diagnostics import decode
 from ..deck.rendering import ProblemsError
 from ..util.errors import FlexactError
+from ..util.matrices import span
 from ..util.text import harmless
 from . import json as json_modes
 from .decomposition import Accuracy
@@ -297,6 +298,8 @@ def _largest(made: Mapping[str, Any], owner: str, component: str) -> Iterator[st
 #: Cosine of the angle up to which a direction is the same: 25 degrees, so that small changes of
 #: the geometry keep it.
 _SAME = 0.9
+#: Singular values of modes of unit length up to here are those of modes that depend on others.
+_DEPENDENT = 1.0e-10
 
 
 def came_and_went(
@@ -305,7 +308,7 @@ def came_and_went(
     """The modes that are new, and those that are no more."""
     labels = sorted({label for mode in (*before, *after) for label in mode.vector})
     place = {label: k for k, label in enumerate(labels)}
-    bases = [_orthonormal(modes, place) for modes in (before, after)]
+    bases = [span(_matrix(modes, place), _DEPENDENT) for modes in (before, after)]
     cosines = np.linalg.svd(bases[0].T @ bases[1], compute_uv=False)
     common = int(np.count_nonzero(cosines > _SAME))
     went = _least(before, place, bases[1], bases[0].shape[1] - common)
@@ -321,11 +324,6 @@ def _matrix(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatAr
             made[place[label], k] = value
     length = np.linalg.norm(made, axis=0)
     return np.asarray(made / np.where(length > 0.0, length, 1.0))
-
-
-def _orthonormal(modes: Sequence[Mode], place: dict[tuple[int, str], int]) -> FloatArray:
-    left, sizes, _ = np.linalg.svd(_matrix(modes, place), full_matrices=False)
-    return np.asarray(left[:, sizes > 1e-10])
 
 
 def _least(

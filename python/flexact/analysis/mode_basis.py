@@ -20,18 +20,18 @@ from numpy.typing import NDArray
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
 from ..model.parts.parts import Part, PartKind, natural
+from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
 from .sparse_basis import (
     MOST_DIMENSIONS,
+    NOTHING,
     Cost,
     Groups,
     Piece,
     classes_of_rows,
     columns_of,
     index_of,
-    null_of,
     pieces_of,
-    rest_of,
     support_of,
 )
 
@@ -473,11 +473,11 @@ class _MotionGroups:
         if space.shape[1] < 2:
             return space
         orthonormal = np.linalg.qr(space)[0]
-        still = null_of(orthonormal[self.turns])
+        still = null_space(orthonormal[self.turns], NOTHING)
         return np.concatenate(
             [
                 self._along_axes(orthonormal @ still, ~self.turns),
-                self._along_axes(orthonormal @ rest_of(still), self.turns),
+                self._along_axes(orthonormal @ complement(still), self.turns),
             ],
             axis=1,
         )

@@ -20,11 +20,12 @@ from ..model.reading import read
 from ..model.variation import with_classes
 from ..util.quantities import Quantity, without_units
 from ..util.records import Frozen, cached_property
+from ..util.rotations import vector_of_euler
 from ..util.text import in_short
 from . import drives, imperfections
 from .drives import force_of, reaction_of, strokes_given, value_at, warn_where_far
 from .errors import ElasticError, Estimate, matched_by_order, matched_by_sign, require_within
-from .imperfections import Angle, Imperfection, misalignment, number_given, vector_of, warmth
+from .imperfections import Angle, Imperfection, misalignment, number_given, warmth
 from .mesh import Beams, Mesh, beams_given, divisible, divisions
 from .points import Coordinate, Points
 from .reduced import Reduced, Reducer, Resultants, peak_of, resultants_of
@@ -610,7 +611,7 @@ class State(Frozen):
         if kind == NodeKind.ANGLE:
             return Angle(self.best(lambda at: at.raw.configuration[0, index]))
         if kind == NodeKind.ORIENTATION:
-            return self.best(lambda at: vector_of(at.raw.configuration[:, index]))
+            return self.best(lambda at: vector_of_euler(at.raw.configuration[:, index]))
         axes = 2 if kind == NodeKind.PLANAR_POSITION else 3
         return self.best(lambda at: at.raw.configuration[:axes, index])
 

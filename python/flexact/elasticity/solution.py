@@ -22,6 +22,7 @@ from ..core.elastic import (
 )
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
 from ..model.data import ModelData
+from ..util.matrices import complement, span
 from ..util.quantities import NOTCH, Quantity, without_units
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
@@ -199,7 +200,7 @@ class Compliance(NamedTuple):
     @property
     def stiffness(self) -> FloatArray:
         """Stiffness in SI units: infinite for what is held, 0 for motions without stiffness."""
-        across = _complement(self.loose)
+        across = complement(self.loose)
         inner = across.T @ self.finite @ across
         values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
         none = np.abs(values) <= _NONE * np.abs(values).max(initial=0.0)
@@ -228,7 +229,7 @@ def compliance_at(
     if np.abs(finite).max(initial=0.0) < least:
         finite[:] = 0.0
     free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
-    return Compliance(finite, _span(free), scale, is_held)
+    return Compliance(finite, span(free, _RESTS), scale, is_held)
 
 
 def kept(before: Compliance, after: Compliance) -> FloatArray:
@@ -239,7 +240,7 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
     """
     free = ~after.is_held
     scale = before.scale / after.scale
-    across = _complement(after.loose[free])
+    across = complement(after.loose[free])
     inner = across.T @ after.finite[np.ix_(free, free)] @ across
     values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
     some = values > _NONE * np.abs(values).max(initial=0.0)
@@ -249,22 +250,6 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
     made = np.linalg.eigvalsh((reduced + reduced.T) / 2.0)
     lost = max(after.loose.shape[1] - before.loose.shape[1], 0)
     return np.sort(np.concatenate([np.zeros(lost), np.maximum(made, 0.0)]))
-
-
-def _span(vectors: FloatArray) -> FloatArray:
-    """(n, r) an orthonormal basis of what columns (n, m) span."""
-    if not vectors.size:
-        return np.zeros((vectors.shape[0], 0))
-    left, values, _ = np.linalg.svd(vectors, full_matrices=False)
-    made: FloatArray = left[:, values > _RESTS]
-    return made
-
-
-def _complement(basis: FloatArray) -> FloatArray:
-    """(n, n - r) an orthonormal basis of what is across another one."""
-    left, _, _ = np.linalg.svd(basis, full_matrices=True)
-    made: FloatArray = left[:, basis.shape[1] :]
-    return made
 
 
 def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:

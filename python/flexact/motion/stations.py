@@ -18,6 +18,7 @@ import numpy as np
 from ..analysis.body_motions import Velocities
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
+from ..util.matrices import complement
 from ..util.records import Frozen
 from .constraints import Held, Place
 
@@ -372,7 +373,7 @@ def least_near(chart: Chart, ahead: FloatArray) -> Near:
     """The place of the least error after a step (n,) ahead from the middle of a chart."""
     held, along = chart.held, ahead / np.linalg.norm(ahead)
     change = _in_chart(chart, ahead, along)
-    basis = across(along)
+    basis = complement(along[:, None])
 
     def errors(share: FloatArray) -> tuple[FloatArray, FloatArray] | None:
         place = held.at(chart.middle, ahead + change + basis @ share)
@@ -408,11 +409,6 @@ def _in_chart(chart: Chart, ahead: FloatArray, along: FloatArray) -> FloatArray:
         share = descend(rest, share, _MOST_IN_CHART)
     near = chart.near(ahead + free @ share) or first
     return free @ share + near.across
-
-
-def across(ahead: FloatArray) -> FloatArray:
-    """(n, n - 1) an orthonormal basis of all directions across a unit vector."""
-    return np.asarray(np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:])
 
 
 Descended = Callable[[FloatArray], "tuple[FloatArray, FloatArray] | None"]

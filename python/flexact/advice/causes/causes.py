@@ -11,7 +11,7 @@ import numpy as np
 
 from ...analysis.result import Motion, Result
 from ...core.arrays import FloatArray
-from ...model.parts.parts import groups_of
+from ...util.groups import groups_of
 from ...util.records import Frozen, cached_property
 from ..proposal import Proposal
 from .cause import Cause, CauseKind, Causes, Relation

@@ -19,8 +19,9 @@ from ...core import calls
 from ...core.arrays import Basis, FloatArray, ModelArrays, packed
 from ...core.elements import Class, NodeKind, Role, Vector, element_kinds, length_table, role_table
 from ...model.data import ModelData
-from ...model.parts.parts import PartKind, groups_of, natural
+from ...model.parts.parts import PartKind, natural
 from ...util.errors import FlexactError
+from ...util.groups import groups_of
 from ...util.records import Frozen, cached_property
 from .cause import Lift
 

@@ -20,9 +20,9 @@ from ...core.arrays import FloatArray
 from ...model.parts.chains import signs_of
 from ...model.parts.forms import Form
 from ...util.records import Frozen
+from ...util.rotations import unit
 from .drawing import Drawing
 from .members import Members
-from .rotations import unit
 
 FORCE, TWIST, IN_PLANE, OUT_OF_PLANE = QUANTITIES
 #: Those that bend, each with the row of the directions across a member to which it bends.

@@ -20,9 +20,9 @@ from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
 from ...motion.stations import onward, settle
 from ...util.records import Frozen
+from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
 from .pose import Moving, Pose, field_along, pose_of, reference_pose, stations
-from .rotations import between, matrix_of, screw_matrix, vector_of
 
 
 def poses_with_inner_nodes(condensed: Condensed, poses: Iterable[Pose]) -> tuple[Pose, ...]:

@@ -18,6 +18,7 @@ from ...model.data import ModelData
 from ...model.parts.forms import forms_of
 from ...util.partial import attempted
 from ...util.records import Frozen, cached_property
+from ...util.rotations import frames_along, vector_of
 from ..drawing import (
     QUANTITIES,
     Drawing,
@@ -35,7 +36,6 @@ from ..drawing import (
 )
 from ..drawing.movement import scale_of
 from ..drawing.pose import by_shape
-from ..drawing.rotations import frames_along, vector_of
 from ..drawing.selection import select_motion
 
 if TYPE_CHECKING:
