@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .decomposition import Decomposition
+from .limits import CLEARLY, CUT_OFF, FADED, NEAR, REACH_OF_DIGITS, STORED
 from .margin import margin_of
-from .rank_evidence import STORED, Evidence
+from .rank_evidence import Evidence
 from .verdict import Alternative, Certainty, Margin
 
 #: So many are given.
@@ -88,20 +89,7 @@ def _largest(sizes: list[float | None]) -> float | None:
     return max(known) if known and len(known) == len(sizes) else None
 
 
-#: Values up to this multiple of the noise are looked at.
-NEAR = 100.0
-#: Of those, the ones up to this multiple of what storing the geometry makes of them are in doubt:
-#: a geometry that was itself computed has lost some bits more, and does not say so.
-CLEARLY = 30.0
 _EPSILON = float(np.finfo(np.float64).eps)
-#: Where motions and self-stresses of sound mechanisms both fade it is by 4 powers of ten at most;
-#: where a tiny value counts as zero, by 10 and more.
-_FADED = 7.0
-#: Values up to this multiple of what half a unit of the last digits makes are in doubt: digits
-#: may have been cut off, zeros at the end leave no trace, and the change is of first order.
-CUT_OFF = 2.0
-#: A unit of a third digit moves a singular value by less than this; see `sensitivity`.
-REACH_OF_DIGITS = 0.1
 
 
 class DoubtKind(str, Enum):
@@ -259,7 +247,7 @@ def _perhaps_tiny(outcome: Decomposition, evidence: Evidence, zero: float) -> It
     left = evidence.largest_remainder
     if left and left.value > left.explained:
         yield Doubt(DoubtKind.REMAINDER, zeros=zeros, size=left.value, explained=left.explained)
-    if evidence.powers_faded >= _FADED:
+    if evidence.powers_faded >= FADED:
         yield Doubt(DoubtKind.FADING, zeros=zeros, size=evidence.powers_faded)
 
 

@@ -25,7 +25,7 @@ from ..util.quantities import Quantity, QuantityError, larger_in_words, measured
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
 from .carriers import Carriers
-from .screws import ROUNDING
+from .limits import LARGEST_ROUNDING, ROUNDING
 from .sparse_basis import orthonormal
 from .verdict import AnalysisError, ClassCounts, Counts, Gap, Margin, Proof, Verdict, completed
 
@@ -105,10 +105,6 @@ def _checked(part: Any, unit: str) -> float:
     if not (math.isfinite(value) and value > 0.0):
         raise ValueError(f"the accuracy must be finite and positive, not {value}")
     return value
-
-
-#: More than this of a null vector is not taken for rounding.
-_LARGEST_ROUNDING = 1.0e-3
 
 
 class Asked(NamedTuple):
@@ -352,7 +348,7 @@ class Decomposition(Frozen):
         above = self.gap.smallest_nonzero
         if not above:
             return ROUNDING
-        return max(ROUNDING, min(_LARGEST_ROUNDING, 10.0 * self.raw.noise / above))
+        return max(ROUNDING, min(LARGEST_ROUNDING, 10.0 * self.raw.noise / above))
 
     @cached_property
     def condition_number(self) -> float | None:

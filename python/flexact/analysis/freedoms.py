@@ -22,12 +22,9 @@ from ..model.data import ModelData
 from ..util.records import Frozen, cached_property
 from .body_motions import Moves, Velocities
 from .decomposition import Asked, Decomposition, decompose
+from .limits import DEPENDENT_VELOCITIES, NOT_ONE
 from .mode_basis import coordinate_key, ranked
 
-#: Independent velocities that depend on each other to within this part cannot be told apart.
-_DEPENDENT = 1.0e-12
-#: A degree of freedom moves if its velocity can be one to within this, the others being zero.
-_NOT_ONE = 1.0e-6
 #: How many degrees of freedom one further decomposition serves.
 _AT_ONCE = 64
 
@@ -197,8 +194,10 @@ class Block:
         if not (size @ wanted > 0.0):
             return None
         scale = 1.0 / np.where(size > 0.0, size, 1.0)
-        shares = np.linalg.lstsq(scale[:, None] * rates, scale * wanted, rcond=_DEPENDENT)[0]
-        if np.abs(scale * (rates @ shares - wanted)).max() > _NOT_ONE * (scale @ wanted):
+        shares = np.linalg.lstsq(
+            scale[:, None] * rates, scale * wanted, rcond=DEPENDENT_VELOCITIES
+        )[0]
+        if np.abs(scale * (rates @ shares - wanted)).max() > NOT_ONE * (scale @ wanted):
             return None
         basis = self._freed.motions
         node, axis = self._freed.column_label - 1

@@ -22,9 +22,9 @@ from ..core.elements import NodeKind, Role, role_table
 from ..model.parts.parts import Part, PartKind, natural
 from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
+from .limits import NO_SENSE, ROUNDING, SAME_PLACE
 from .sparse_basis import (
     MOST_DIMENSIONS,
-    NOTHING,
     Cost,
     Groups,
     Piece,
@@ -44,10 +44,6 @@ _AT_P = (Role.BENDING_XZ_P, Role.BENDING_XY_P, Role.PLANAR_BENDING_P)
 _AT_Q = (Role.BENDING_XZ_Q, Role.BENDING_XY_Q, Role.PLANAR_BENDING_Q)
 #: Bendings of both ends and planes together, behind elongation and torsion.
 _BENDING = int(Role.BENDING_XZ_P)
-#: Places that differ by less than this part of the characteristic length are one.
-_SAME_PLACE = 1.0e-9
-#: Parts of a mode below this part of its largest are not named.
-_UNNAMED = 1.0e-9
 #: Of values of practically one size, no more than so many are put in order.
 _MOST_KEYS = 5_000
 
@@ -67,7 +63,7 @@ def ranked(weighted: FloatArray, most: int, key: Callable[[int], Any] | None = N
         return []
     rounded = np.round(size / largest, 9)
     least = np.partition(rounded, -most)[-most] if 0 < most < size.size else 0.0
-    able = np.flatnonzero((rounded > _UNNAMED) & (rounded >= least))
+    able = np.flatnonzero((rounded > ROUNDING) & (rounded >= least))
     order = able[np.argsort(-rounded[able], kind="stable")].tolist()
     if key is not None and len(order) <= _MOST_KEYS:
         order.sort(key=lambda i: (-rounded[i], key(i)))
@@ -139,7 +135,7 @@ def _name(part: Part, numbered: bool) -> str:
 
 
 def _place(outcome: Decomposition, value: FloatArray) -> tuple[float, ...]:
-    step = _SAME_PLACE * outcome.characteristic_length
+    step = SAME_PLACE * outcome.characteristic_length
     whole = np.round(value / step) if step > 0.0 else value
     return tuple((whole + 0.0).tolist())
 
@@ -159,10 +155,6 @@ def _direction(axis: FloatArray) -> tuple[float, ...]:
 _MOST_ROWS = 4_000
 _MOST_ENTRIES = 400_000
 _MOST_VECTORS = 200
-#: A component of a direction below this says nothing of its sense.
-_NO_SENSE = 1.0e-6
-#: An entry below this part of the largest is none.
-_UNSEEN = 1.0e-9
 
 Sense = Callable[[int], float]
 Key = Callable[[int], Hashable]
@@ -306,11 +298,11 @@ def _scaled(vectors: FloatArray, rows: _Rows, key: Key, sense: Sense) -> Basis:
     support = rows.support
     for k, vector in enumerate(vectors.T):
         outside = np.where(rows.outside, vector, 0.0)
-        seen = outside if np.abs(outside).max() > _UNSEEN * np.abs(vector).max() else vector
+        seen = outside if np.abs(outside).max() > ROUNDING * np.abs(vector).max() else vector
         sizes = np.sqrt(np.bincount(rows.owner, seen**2))
         (largest,) = ranked(sizes, 1, lambda i: key(int(support[np.argmax(rows.owner == i)])))
         mine = np.flatnonzero(rows.owner == largest)
-        first = mine[np.argmax(np.abs(vector[mine]) > _NO_SENSE * sizes[largest])]
+        first = mine[np.argmax(np.abs(vector[mine]) > NO_SENSE * sizes[largest])]
         plain = vector / rows.weights[support]
         size = float(np.linalg.norm(plain[mine] * rows.units[support[mine]]))
         made[:, k] = plain * (sense(int(support[first])) * np.sign(vector[first]) / size)
@@ -355,7 +347,7 @@ def _sense_of_row(outcome: Decomposition, row: int) -> float:
         np.add.at(direction, whole.column_of[here] % 3, -whole.value[here])
         size = np.abs(direction).max()
         if size > 0.0:
-            first = int(np.argmax(np.abs(direction) > _NO_SENSE * size))
+            first = int(np.argmax(np.abs(direction) > NO_SENSE * size))
             return float(np.sign(direction[first]))
     return 1.0
 
@@ -473,7 +465,7 @@ class _MotionGroups:
         if space.shape[1] < 2:
             return space
         orthonormal = np.linalg.qr(space)[0]
-        still = null_space(orthonormal[self.turns], NOTHING)
+        still = null_space(orthonormal[self.turns], ROUNDING)
         return np.concatenate(
             [
                 self._along_axes(orthonormal @ still, ~self.turns),

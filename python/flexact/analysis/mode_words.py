@@ -12,6 +12,7 @@ from ..model.parts.parts import Part, PartKind
 from .body_motions import BodyMotion
 from .carriers import Joint
 from .decomposition import Decomposition
+from .limits import SAME_PLACE, TOLD
 from .naming import (
     Pieces,
     coordinate_in_words,
@@ -24,12 +25,10 @@ from .naming import (
 from .part_stresses import QUANTITIES, Conflict, PartStress, shared_resultants
 from .places import axis_words, direction_words, joint_node, listed, part_words, place_words
 from .result import Motion, Result, SelfStress
-from .screws import ROUNDING, Screw, ScrewKind, Wrench, WrenchKind
+from .screws import Screw, ScrewKind, Wrench, WrenchKind
 
 #: How many names stand in a row.
 _MOST_NAMES = 4
-#: Coordinates below this part of the mechanism's size are zero.
-_ZERO = 1.0e-9
 
 
 def motion_in_parts(motion: Motion, most: int) -> tuple[Pieces, ...]:
@@ -125,7 +124,7 @@ def line_words(outcome: Decomposition, point: FloatArray, direction: FloatArray)
 
 
 def _number(outcome: Decomposition, value: float) -> str:
-    small = abs(value) < _ZERO * outcome.characteristic_length
+    small = abs(value) < SAME_PLACE * outcome.characteristic_length
     return "0" if small else f"{value:.4g}"
 
 
@@ -146,8 +145,6 @@ def joined(names: Sequence[Pieces]) -> Pieces:
     return tuple(piece for pieces in made for piece in pieces)
 
 
-#: What is below this part of a part's largest force or moment is not told.
-_REST = 1.0e2 * ROUNDING
 #: How many parts that fight are named.
 _MODE_WORDS_MOST_NAMES = 3
 _MOMENTS = ("in-plane moment", "out-of-plane moment")
@@ -251,7 +248,7 @@ def _against(over: Wrench) -> str:
 def _carried(outcome: Decomposition, stress: SelfStress, one: PartStress) -> Iterator[str]:
     """Tension, shear, twist and bending of a part."""
     ends = [end.wrench for end in one.ends]
-    rest = _REST * max(wrench.size for wrench in ends)
+    rest = TOLD * max(wrench.size for wrench in ends)
     length = ends[-1].length
     if abs(one.normal_force) * length > rest:
         kind = "tension" if one.normal_force > 0.0 else "compression"
@@ -329,7 +326,7 @@ def _end(outcome: Decomposition, part: Part, position: int) -> str:
 def _vector(vector: FloatArray, unit: str) -> str:
     """Size and axis where it is along one, else the components; `unit` ends with a preposition."""
     size = float(np.abs(vector).max())
-    parts = np.where(np.abs(vector) > _REST * size, vector, 0.0) + 0.0
+    parts = np.where(np.abs(vector) > TOLD * size, vector, 0.0) + 0.0
     if np.count_nonzero(parts) == 1:
         axis = int(np.argmax(np.abs(parts)))
         return f"{parts[axis]:.4g} {unit} {'xyz'[axis]}"

@@ -22,6 +22,7 @@ from ..core.elements import NodeKind, Role, length_table, role_table
 from ..core.raw import RawAssembly, RawSensitivities
 from ..util.records import cached_property
 from .decomposition import Decomposition
+from .limits import LAST_POWER, LONGEST_STEP, ROUNDINGS, STORED
 from .sparse_basis import Sparse, index_of
 
 #: How many zeros are looked at, and each against how many vectors of the other side.
@@ -129,20 +130,11 @@ def _number(numbers: IntArray, index: int) -> int | None:
     return int(numbers[index]) if index >= 0 else None
 
 
-#: What of a lift by the last bits is the storing of a number far from the origin: one unit of 4.
-STORED = 0.25
-
 _EPSILON = float(np.finfo(np.float64).eps)
-#: How many roundings each entry of D(c) has gone through.
-_ROUNDINGS = 8.0
 #: What the errors of both vectors, multiplied by each other, may leave: eps**2 over the smallest
 #: singular value that is told from zero.
 _LEAST = _EPSILON / 1024
 
-#: Neighbouring components of a vector that fades are no further apart, in powers of ten.
-_LONGEST_STEP = 4.5
-#: Components this many powers of ten below the largest may be rounding.
-_LAST_POWER = 13.0
 #: Components are sorted into so many bins for a power of ten.
 _BINS = 4
 
@@ -225,7 +217,7 @@ def largest_remainder(outcome: Decomposition) -> Remainder | None:
     left = np.abs(_products(matrix, stresses, motions))
     added = stresses._replace(value=np.abs(stresses.value))
     moved = motions._replace(value=np.abs(motions.value))
-    made = _ROUNDINGS * _EPSILON * _products(matrix._replace(value=rounding), added, moved)
+    made = ROUNDINGS * _EPSILON * _products(matrix._replace(value=rounding), added, moved)
     explained = np.maximum(made, _LEAST)
     ratio = (left / explained).ravel()
     most = max(1, min(_MOST_PAIRS, affordable_pairs(outcome)))
@@ -258,13 +250,13 @@ def _faded(basis: Basis, scale: FloatArray) -> float:
     scaled = np.abs(basis.value[:entries] / scale[place])
     largest = np.maximum.reduceat(scaled, basis.start[:vectors])
     part = scaled / largest[vector]
-    there = part > 10.0**-_LAST_POWER
-    bins = int(_LAST_POWER * _BINS) + 1
+    there = part > 10.0**-LAST_POWER
+    bins = int(LAST_POWER * _BINS) + 1
     depth = (-_BINS * np.log10(part[there])).astype(np.int64)
     filled = np.bincount(vector[there] * bins + depth, minlength=vectors * bins) > 0
     each = np.arange(bins)
     last = np.maximum.accumulate(np.where(filled.reshape(vectors, bins), each, 0), axis=1)
-    torn = np.maximum.accumulate(each - last > _LONGEST_STEP * _BINS, axis=1)
+    torn = np.maximum.accumulate(each - last > LONGEST_STEP * _BINS, axis=1)
     return float(np.where(torn, 0, last).max()) / _BINS
 
 

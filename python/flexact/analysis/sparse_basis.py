@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..core.arrays import Basis, FloatArray
 from ..util.groups import least_of_groups
 from ..util.matrices import complement, null_space, span
+from .limits import ROUNDING
 
 #: How many entries are held in full.
 _MOST_ENTRIES = 20_000_000
@@ -234,8 +235,6 @@ def _first_that_fit(basis: Basis, uses: NDArray[np.integer]) -> Basis:
     )
 
 
-#: A group with less of a unit vector than this has nothing of it.
-NOTHING = 1.0e-9
 #: A vector that has less than this outside what is spanned already is not taken for a new one.
 _NEW = 1.0e-2
 #: A group that has all of a vector but this is looked at as one that may have it alone.
@@ -337,14 +336,14 @@ def classes_of_rows(space: FloatArray) -> list[NDArray[np.integer]]:
     Rows that are zero are in none.
     """
     size = np.linalg.norm(space, axis=1)
-    there = np.flatnonzero(size > NOTHING * size.max(initial=0.0))
+    there = np.flatnonzero(size > ROUNDING * size.max(initial=0.0))
     unit = space[there] / size[there, None]
     left = np.ones(there.size, bool)
     made = []
     for k in range(there.size):
         if left[k]:
             off = unit - np.outer(unit @ unit[k], unit[k])
-            mine = left & (np.linalg.norm(off, axis=1) < 1.0e3 * NOTHING)
+            mine = left & (np.linalg.norm(off, axis=1) < 1.0e3 * ROUNDING)
             left &= ~mine
             made.append(there[mine])
     return made
@@ -356,16 +355,16 @@ def _by_what_is_seen(space: FloatArray, groups: Groups) -> tuple[FloatArray, Flo
     orthonormal = np.linalg.qr(space)[0]
     if np.unique(every).size == len(space):
         return orthonormal[:, :0], orthonormal
-    unseen = null_space(np.linalg.qr(orthonormal[every])[1], NOTHING)
+    unseen = null_space(np.linalg.qr(orthonormal[every])[1], ROUNDING)
     return orthonormal @ unseen, orthonormal @ complement(unseen)
 
 
 def _reduced(block: FloatArray) -> FloatArray:
     """A matrix of few rows with the same product with its transpose."""
     if len(block) == 1:
-        return block if np.linalg.norm(block) > NOTHING else block[:0]
+        return block if np.linalg.norm(block) > ROUNDING else block[:0]
     _, values, right = np.linalg.svd(block, full_matrices=False)
-    made: FloatArray = (values[:, None] * right)[values > NOTHING]
+    made: FloatArray = (values[:, None] * right)[values > ROUNDING]
     return made
 
 
@@ -393,7 +392,7 @@ class _Search:
             if not block.size or _norm(block) < 1.0 - _ALL_BUT:
                 continue
             others = [other for k, other in enumerate(self.blocks) if k != i]
-            mine = null_space(np.concatenate([np.zeros((0, size)), *others]), NOTHING)
+            mine = null_space(np.concatenate([np.zeros((0, size)), *others]), ROUNDING)
             if mine.shape[1]:
                 alone.append(mine)
                 yield Piece(self.costs[i], (i,), self.refine(mine))
@@ -479,7 +478,7 @@ def _components(blocks: list[FloatArray]) -> list[list[int]]:
     stacked = np.concatenate([blocks[i] for i in there])
     start = np.cumsum([0, *(len(blocks[i]) for i in there[:-1])])
     square = np.add.reduceat((stacked @ stacked.T) ** 2, start, axis=0)
-    joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * NOTHING
+    joined = np.sqrt(np.add.reduceat(square, start, axis=1)) > 1.0e3 * ROUNDING
     group = least_of_groups(len(there), *np.nonzero(joined)).tolist()
     made: dict[int, list[int]] = {}
     for k, first in zip(there, group, strict=True):
@@ -520,7 +519,7 @@ class _Stack:
 
     def zero(self, vectors: FloatArray) -> int:
         """The blocks in which they are zero, a bit each."""
-        small = np.flatnonzero(self.norms(vectors) < 10.0 * NOTHING).tolist()
+        small = np.flatnonzero(self.norms(vectors) < 10.0 * ROUNDING).tolist()
         return self._never | sum(1 << self._there[k] for k in small)
 
 
@@ -542,7 +541,7 @@ def _all_flats(blocks: list[FloatArray], d: int) -> list[_Flat] | None:
             cuts += 1
             if cuts > _MOST_CUTS:
                 return None
-            left = null_space(blocks[i] @ flat.vectors, NOTHING)
+            left = null_space(blocks[i] @ flat.vectors, ROUNDING)
             if not left.shape[1]:
                 continue
             vectors = flat.vectors @ left
@@ -578,7 +577,7 @@ def _descended(blocks: list[FloatArray], start: int, norms: FloatArray, d: int) 
     for i in order.tolist():
         if i == start or not blocks[i].size:
             continue
-        left = vectors @ null_space(blocks[i] @ vectors, NOTHING)
+        left = vectors @ null_space(blocks[i] @ vectors, ROUNDING)
         if left.shape[1] and np.linalg.norm(blocks[start] @ left) > _NEW:
             vectors = left
     return _Flat(_Stack(blocks).zero(vectors), vectors)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..analysis.limits import NO_COMPLIANCE, NODE_RESTS, POINT_RESTS, ROUNDING
 from ..core import calls, elastic
 from ..core.arrays import BoolArray, FloatArray, PackedModel, packed
 from ..core.elastic import (
@@ -168,14 +169,6 @@ def indexed(data: ModelData, release: Mapping[tuple[int, int], float]) -> Releas
     return {(data.element_index[e], k - 1): value for (e, k), value in release.items()}
 
 
-#: Below this part of the largest, with rotations times a length, a compliance is none.
-_NONE = 1.0e-13
-#: Components of unit vectors below this are rounding.
-_ROUNDING = 1.0e-9
-#: A point rests in a motion without stiffness that moves others by 1 and it by less.
-_RESTS = 1.0e-8
-
-
 class Compliance(NamedTuple):
     """What a point does under unit loads, rotations times a length of the model.
 
@@ -203,7 +196,7 @@ class Compliance(NamedTuple):
         across = complement(self.loose)
         inner = across.T @ self.finite @ across
         values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
-        none = np.abs(values) <= _NONE * np.abs(values).max(initial=0.0)
+        none = np.abs(values) <= NO_COMPLIANCE * np.abs(values).max(initial=0.0)
         turned = across @ vectors
         some = turned[:, ~none]
         made = (some / values[~none]) @ some.T * np.outer(self.scale, self.scale)
@@ -229,7 +222,7 @@ def compliance_at(
     if np.abs(finite).max(initial=0.0) < least:
         finite[:] = 0.0
     free = np.where(is_held[:, None], 0.0, loose * scale[:, None])
-    return Compliance(finite, span(free, _RESTS), scale, is_held)
+    return Compliance(finite, span(free, POINT_RESTS), scale, is_held)
 
 
 def kept(before: Compliance, after: Compliance) -> FloatArray:
@@ -243,7 +236,7 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
     across = complement(after.loose[free])
     inner = across.T @ after.finite[np.ix_(free, free)] @ across
     values, vectors = np.linalg.eigh((inner + inner.T) / 2.0)
-    some = values > _NONE * np.abs(values).max(initial=0.0)
+    some = values > NO_COMPLIANCE * np.abs(values).max(initial=0.0)
     root = across @ (vectors[:, some] / np.sqrt(values[some]))
     first = (before.finite * np.outer(1.0 / scale, 1.0 / scale))[np.ix_(free, free)]
     reduced = root.T @ first @ root
@@ -254,7 +247,7 @@ def kept(before: Compliance, after: Compliance) -> FloatArray:
 
 def _with_infinity(finite: FloatArray, along: FloatArray) -> FloatArray:
     """The matrix with infinity, signed, where a projector has entries."""
-    there = np.abs(along) > _ROUNDING
+    there = np.abs(along) > ROUNDING
     return np.where(there, np.copysign(np.inf, along), finite)
 
 
@@ -530,8 +523,6 @@ class Solution:
             raise ElasticError(NO_STIFFNESS)
 
 
-#: A node rests that moves by less, where the farthest moves by one.
-_NODE_RESTS = 1.0e-6
 #: How many coordinates of a motion without stiffness are named.
 _MOST_NAMED = 4
 
@@ -569,7 +560,7 @@ def loose_motion(at: Solution, k: int) -> LooseMotion:
         found += [
             (float(size[axis, node]), int(arrays.node_number[node]), coordinate_name(kind, axis))
             for axis in AXES[kind]
-            if size[axis, node] > _NODE_RESTS
+            if size[axis, node] > NODE_RESTS
         ]
     # Of equal ones the first of the deck; rounding does not decide.
     found.sort(key=lambda each: -round(each[0], 6))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.decomposition import column_weights, row_weights
+from ..analysis.limits import ROUNDING
 from ..analysis.result import Result
 from ..core.arrays import Basis, FloatArray, ModelArrays
 from ..core.elements import Class, Dual, NodeKind, dual_table
@@ -124,8 +125,6 @@ _AXES = {
     NodeKind.ANGLE: (2,),
     NodeKind.ORIENTATION: (0, 1, 2),
 }
-#: What is below this is zero.
-_ZERO = 1.0e-9
 
 
 def rigid_motions(held: Held) -> FloatArray:
@@ -138,8 +137,8 @@ def rigid_motions(held: Held) -> FloatArray:
     fields = _fields(held)
     free = np.isin(every, held.columns)
     stopped = fields[every[~free]]
-    ways = null_space(np.asarray(np.linalg.qr(stopped, mode="r")), _ZERO)
-    return span(fields[held.columns] @ ways, _ZERO)
+    ways = null_space(np.asarray(np.linalg.qr(stopped, mode="r")), ROUNDING)
+    return span(fields[held.columns] @ ways, ROUNDING)
 
 
 def leading_rows(vectors: FloatArray) -> NDArray[np.integer]:

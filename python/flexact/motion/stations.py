@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..analysis.body_motions import Velocities
+from ..analysis.limits import ZERO_AT_REFERENCE
 from ..core.arrays import FloatArray
 from ..model.configuration import Configuration
 from ..util.matrices import complement
@@ -323,8 +324,6 @@ _STATIONS_SETTLED = 2.0e-16
 _GOES_DOWN = 1.0e-4
 #: Damping, times the largest singular value squared: at first, and how it changes.
 _DAMPING, _MORE, _LESS, _MOST = 1.0e-3, 8.0, 0.1, 1.0e8
-#: Scaled singular values up to here are zero where no rank is given.
-_ZERO = 1.0e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -357,8 +356,9 @@ def least_error(
         rank: Of D(c) at the reference; by default as its scaled singular values say.
     """
     held = motion if isinstance(motion, Held) else Held(motion.data)
-    known = int(np.count_nonzero(held.values(held.reference) > _ZERO)) if rank is None else rank
-    chart = Chart(held, held.reference, known)
+    if rank is None:
+        rank = int(np.count_nonzero(held.values(held.reference) > ZERO_AT_REFERENCE))
+    chart = Chart(held, held.reference, rank)
     ahead = direction * (distance / held.reach(direction))
     near = least_near(chart, ahead)
     return Least(

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...analysis.decomposition import Asked, decompose
-from ...analysis.margin import NOTHING
+from ...analysis.limits import NO_CHANGE
 from ...analysis.result import Motion, Result, SelfStress
 from ...core import calls
 from ...core.arrays import Basis, FloatArray, ModelArrays, packed
@@ -377,7 +377,7 @@ class Lifts:
 
 
 #: Differences are good to some 1e-8.
-_NOTHING = max(NOTHING, 1.0e-7)
+_NOTHING = max(NO_CHANGE, 1.0e-7)
 
 
 def _largest(blocks: FloatArray) -> FloatArray:
