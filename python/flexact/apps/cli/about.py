@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ...analysis.decomposition import asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...analysis.verdict import AnalysisError
 from ...core import calls
 from ...model.reading import read_bytes
