@@ -78,7 +78,7 @@ def _built_in() -> Iterator[tuple[str, str]]:
     library = ctypes.CDLL(_core_file())
     sparse, proofs = _works(method="sparse"), _works(prove=True)
     yield "sparse method", _suitesparse(library) if sparse else "not built in"
-    yield "proofs", _flint(library) if proofs else "not built in"
+    yield "proofs", "own arithmetic" if proofs else "not built in"
 
 
 def _linked() -> tuple[str, str]:
@@ -109,16 +109,6 @@ def _suitesparse(library: ctypes.CDLL) -> str:
     except AttributeError:
         return "SuiteSparse"
     return "SuiteSparse " + ".".join(map(str, numbers))
-
-
-def _flint(library: ctypes.CDLL) -> str:
-    if "FLINT" not in calls.linked():
-        return "own arithmetic"
-    try:
-        version = (ctypes.c_char * 16).in_dll(library, "flint_version").value.decode("ascii")
-    except ValueError:
-        return "FLINT"
-    return f"FLINT {version}"
 
 
 def _blas(paths: bool) -> Iterator[tuple[str, str]]:
