@@ -170,7 +170,7 @@ class Result(Decomposition):
         They are those of the numbers of the proof. Parts of some 300 columns take seconds.
 
         Raises:
-            AnalysisError: this build has no FLINT, or D(c) or the fractions are too large.
+            AnalysisError: D(c) or the fractions are too large.
         """
         # Fractions take some milliseconds to load.
         made: ExactBases = load("flexact.analysis.exact").exact_bases(self)
