@@ -34,11 +34,11 @@ from ...analysis.ways import Part as WayPart
 from ...core.elements import Class, NodeKind, Role, coordinate_name, element_kinds, keywords_of
 from ...deck.diagnostics import decode
 from ...model.data import ModelData
+from ...model.deformations import AT_P
 from ...model.editing import edited_to_the_letter
 from ...model.names import nearest
 from ...model.parts.parts import Part, PartKind, Parts
 from ...model.reading import read_bytes
-from ...model.words import AT_P
 from ...model.writing import deck_of, statements_of
 from ...util.decks import SUFFIX
 from ...util.outputs import OutputError, write_together
