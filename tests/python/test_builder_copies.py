@@ -347,3 +347,19 @@ def test_wrong_copies(call: object, code: str) -> None:
         call(model)  # type: ignore[operator]
     assert code_of(error) == code
     assert model.element_numbers.size == 2
+
+
+def test_a_copy_that_fails_leaves_no_stiffness_behind() -> None:
+    """Elements made later have the indices that its elements had."""
+    model = Model()
+    model.truss((0, 0, 0), (1, 0, 0), "bar", thickness=0.01, material="steel")
+    model.truss((2, 0, 0), (2, 1, 0))
+    model.fix((0, 0, 0), "x")
+    model.independent((2, 0, 0), "x")
+    with pytest.raises(ModelError) as error:
+        model.pattern(2, step=(2, 0, 0), parts=["bar"])
+    assert code_of(error) == "class-conflict"
+    model.truss((5, 5, 5), (6, 5, 5))
+    given = model.data.properties
+    assert given is not None
+    assert (~np.isnan(given.stiffness[:, 0])).tolist() == [True, False, False]
