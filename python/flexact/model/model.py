@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +15,7 @@ from ..core.elements import Class, NodeKind, keywords_of
 from ..deck.diagnostics import Diagnostic
 from ..deck.rendering import model_error
 from ..util.errors import require_kind
+from ..util.loading import feature
 from ..util.quantities import Quantity
 from ..util.text import in_short
 from . import assemblies, coordinates, copies, edits, elements, flexures
@@ -56,16 +56,6 @@ from .selection import (
 from .selection import position as position_number
 from .variation import held_given, positions_given, with_held, with_positions
 from .writing import deck_of
-
-#: What shows a model: its page, and its HTML in notebooks.
-_SHOWING: dict[str, Callable[..., Any]] = {}
-
-
-def shown_by(
-    show: Callable[[Any, str | os.PathLike[str] | None], Path | None], html: Callable[[Any], str]
-) -> None:
-    """Set how models are shown, and what notebooks show of them."""
-    _SHOWING.update(show=show, html=html)
 
 
 class Model:
@@ -125,7 +115,7 @@ class Model:
         return f"<flexact {kind}{name}: {size}>"
 
     def _repr_html_(self) -> str:
-        made: str = _SHOWING["html"](self)
+        made: str = feature("html")(self.data)
         return made
 
     def _change(self) -> Draft:
@@ -182,7 +172,7 @@ class Model:
         Raises:
             FlexactError: the page cannot be written, or the path is not that of a page.
         """
-        made: Path | None = _SHOWING["show"](self, path)
+        made: Path | None = feature("show")(self, path)
         return made
 
     # Points and parts that are made -----------------------------------------
