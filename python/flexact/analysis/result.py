@@ -16,10 +16,10 @@ from ..core.elements import Class, Dual, NodeKind, Role, coordinate_name, role_t
 from ..core.progress import Progress
 from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
+from ..model.deformations import AT_P, AT_Q
 from ..model.parts.condensing import condensed
 from ..model.parts.parts import PartKind, declared
 from ..model.variation import with_classes
-from ..model.words import AT_P, AT_Q
 from ..util.loading import load
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
