@@ -17,7 +17,7 @@ if _typing.TYPE_CHECKING:
     from .advice.advice import Advice
     from .advice.steps import Step
     from .analysis.exact import ExactBases
-    from .analysis.modes import Motion, SelfStress
+    from .analysis.result import Motion, SelfStress
     from .analysis.verdict import (
         Alternative,
         AnalysisError,
@@ -26,7 +26,6 @@ if _typing.TYPE_CHECKING:
         Counts,
         Gap,
         Margin,
-        Nearly,
         Proof,
         Verdict,
     )
@@ -67,7 +66,7 @@ _HOMES = {
     "advice.advice": ("Advice",),
     "advice.steps": ("Step",),
     "analysis.exact": ("ExactBases",),
-    "analysis.modes": (
+    "analysis.result": (
         "Motion",
         "SelfStress",
     ),
@@ -79,7 +78,6 @@ _HOMES = {
         "Counts",
         "Gap",
         "Margin",
-        "Nearly",
         "Proof",
         "Verdict",
     ),
@@ -186,7 +184,6 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
-    "Nearly",
     "Node",
     "Notch",
     "Place",

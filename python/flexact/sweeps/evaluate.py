@@ -19,9 +19,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.certainty import CUT_OFF, NEAR, REACH_OF_DIGITS
 from ..analysis.decomposition import Asked
-from ..analysis.margin import NOTHING, least_misalignments
+from ..analysis.limits import CUT_OFF, NEAR, NO_CHANGE, REACH_OF_DIGITS
+from ..analysis.margin import least_misalignments
 from ..analysis.rank_evidence import MOST_OTHERS, MOST_WORK, MOST_ZEROS
 from ..analysis.result import Result, result_of
 from ..analysis.verdict import AnalysisError, Certainty, Verdict
@@ -435,7 +435,7 @@ def _decided_by_core(some: _Variants, want: str, room: float) -> tuple[Columns, 
     wishes = calls.VariantWishes(
         *(NEAR, CUT_OFF, REACH_OF_DIGITS, with_values, room, None),
         some.data.has_long_numbers,
-        (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NOTHING),
+        (MOST_ZEROS, MOST_OTHERS, MOST_WORK, NO_CHANGE),
     )
     positions = own if some.positions is None else some.positions
     raw = calls.analyse_variants(some.data.packed, wishes, positions, some.classes())

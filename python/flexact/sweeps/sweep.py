@@ -11,8 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..analysis.decomposition import Asked
-from ..analysis.spaces import asked_for
+from ..analysis.decomposition import Asked, asked_for
 from ..core.progress import Progress
 from ..model.model import Model
 from ..model.variation import held_given, positions_given

@@ -10,7 +10,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
-from ...analysis.spaces import asked_for
+from ...analysis.decomposition import asked_for
 from ...sweeps.journal import Journal, JournalError
 from ...sweeps.writing import require_table
 from ...util.decks import DeckFile, find_decks

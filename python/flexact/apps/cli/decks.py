@@ -11,9 +11,8 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeVar
 
-from ...analysis.decomposition import Accuracy
+from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...core.calls import METHODS
 from ...deck.diagnostics import Diagnostic, Problems, Severity
 from ...deck.rendering import DeckError, render_problems

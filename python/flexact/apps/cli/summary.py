@@ -271,7 +271,7 @@ def _cells(result: Result) -> Cells:
     if result.verdict is Verdict.EXACT and result.is_marginal:
         word = "marginal"
     sure = certainty_word(result)
-    doubt = "?" * (result.certainty is Certainty.NEARLY)
+    doubt = "?" * (result.certainty is Certainty.DOUBTFUL)
     return Cells(
         {
             "verdict": word + doubt,

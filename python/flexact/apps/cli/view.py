@@ -7,16 +7,18 @@ import argparse
 
 from ...analysis.verdict_words import verdict_word
 from ...show.page import page
-from ...show.saving import as_bytes, page_bytes
+from ...show.saving import page_bytes
 from ...show.window import opens, page_path, write_page
+from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file
 from ...util.text import harmless
+from .deck_files import broken_page_of
 from .decks import ACCURACY_AND_BEYOND, DECISION, foreseen, read_and_analysed, take
 from .parser import Verb, argument
-from .targets import DECK, NO_BROWSER, broken_page_of, file, one_deck
+from .targets import DECK, NO_BROWSER, file, one_deck
 from .terminal import Bar, ExitCode, Outcome, say
 
 
