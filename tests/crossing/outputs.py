@@ -27,17 +27,15 @@ from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.messages import Job, Shown
 from flexact.apps.watch.scene import Stage
 from flexact.apps.watch.worker import answer_of
-from flexact.costs.saving import SUFFIXES as COSTS
+from flexact.costs.cost import COSTS
 from flexact.show.drawing import QUANTITIES
-from flexact.show.mesh.collection import SUFFIX as CYCLE
+from flexact.show.mesh.collection import MESHES
 from flexact.show.mesh.file import FORMATS
-from flexact.show.picture import STILLS, SUFFIXES
-from flexact.show.saving import PAGES
-from flexact.tracing.output import SUFFIXES as TRACES
+from flexact.show.writers import PAGES, PICTURES, STILLS
+from flexact.tracing.output import TRACES
 
 #: Verbs that take no deck.
 WITHOUT_DECK = {"bench", "completion", "help"}
-MESHES = (*(f".{form}" for form in FORMATS), ".vtp", CYCLE)
 #: Of suffixes that mean the same the first.
 PAGE, TABLE = PAGES[0], TABLES[0]
 
@@ -102,21 +100,21 @@ def _commands() -> Iterator[str]:
         yield f"advise DECK -o OUT/advice{suffix}"
     yield "cost DECK"
     yield "cost DECK --json"
-    for suffix in COSTS:
+    for suffix in COSTS.suffixes:
         yield f"cost DECK -o OUT/cost{suffix} --beams 1 --release none"
     yield "declare DECK -o OUT/declared.dat"
     yield "regress DECK DECK2 --against OUT --store"
-    for suffix in SUFFIXES:
+    for suffix in PICTURES:
         yield f"picture DECK -o OUT/picture{suffix} {decision}"
     for which in ("motion", "freedom", "stress"):
         yield f"picture DECK --{which} 1 -o OUT/{which}{STILLS[0]}"
     yield f"picture DECK --held -o OUT/held{STILLS[0]}"
     for quantity in QUANTITIES:
         yield f"picture DECK --quantity {quantity.replace(' ', '-')} -o OUT/quantity.svg"
-    for suffix in MESHES:
+    for suffix in MESHES.suffixes:
         yield f"export DECK -o OUT/mesh{suffix}"
         yield f"export DECK --freedom 1 -o OUT/mesh{suffix}"
-    for suffix in TRACES:
+    for suffix in TRACES.suffixes:
         yield f"trace DECK --steps 6 -o OUT/trace{suffix}"
         yield f"trace DECK --freedom 1 --steps 6 -o OUT/trace{suffix}"
     yield f"view DECK --no-browser -o OUT/view{PAGE}"

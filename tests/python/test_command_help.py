@@ -142,8 +142,8 @@ def test_the_version_with_what_is_built_in(
     assert said["flexact"] == flexact.__version__
     assert said["Python"].startswith(platform.python_version())
     assert said["numpy"] == np.__version__
-    assert re.match(r"SuiteSparse|own factorisation|not built in", said["sparse method"])
-    assert re.match(r"FLINT|own arithmetic|not built in", said["proofs"])
+    assert said["sparse method"].startswith("own factorisation")
+    assert said["proofs"] == "own arithmetic"
     assert "(GPL-3.0 + GCC exception)" in said["linked with"]
     assert {"matplotlib", "vtk", "pyarrow", "distributed", "pandas", "PyYAML"} <= set(said)
     assert os.sep not in out, "no path of a machine unless it is asked for"

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from proofs import NEEDS_FLINT
 from wording import AsStored
 
 import flexact
@@ -58,7 +57,6 @@ def guide(tmp_path: Path) -> Path:
     return tmp_path / "guide.dat"
 
 
-@NEEDS_FLINT
 @pytest.mark.usefixtures("at_root")
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if shown(page)], ids=lambda page: page.name

@@ -16,8 +16,9 @@ import numpy as np
 from ..analysis.naming import length_in_words
 from ..analysis.verdict import Verdict
 from ..core.arrays import BoolArray, FloatArray
-from ..show.picture.files import STILLS, load_matplotlib, png_bytes, still_bytes
+from ..show.picture.files import load_matplotlib, png_bytes, still_bytes
 from ..show.picture.make import PictureError, check_packages
+from ..show.writers import STILLS
 from ..util.outputs import write_together
 from ..util.text import harmless
 from .columns import Rows

@@ -106,7 +106,7 @@ class Table(Frozen):
     @property
     def is_doubtful(self) -> BoolArray:
         """(variants,) whether the rank is in doubt."""
-        found: BoolArray = self.certainty == Certainty.NEARLY.value
+        found: BoolArray = self.certainty == Certainty.DOUBTFUL.value
         return found
 
     @property

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ...analysis.decomposition import asked_for
 from ...analysis.result import result_of
-from ...analysis.spaces import asked_for
 from ...analysis.verdict import AnalysisError
 from ...core.arrays import FloatArray
 from ...core.progress import Progress

@@ -21,8 +21,7 @@ from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
 from ...deck.rendering import ModelError
 from ...model.editing import edited_deck
-from ...show.picture import STILLS, SUFFIXES
-from ...show.saving import PAGES
+from ...show.writers import PAGES, PICTURES, STILLS
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
@@ -116,7 +115,7 @@ class AdviceFile:
             return
         if len(decks) > 1:
             raise BatchError(f"-o is for one deck, and there are {len(decks)}")
-        if self.kind in SUFFIXES and self.steps is not None:
+        if self.kind in PICTURES and self.steps is not None:
             raise BatchError(
                 "a picture shows the mechanism as it is; for what --apply makes of it name a "
                 "page (.html), or a deck"

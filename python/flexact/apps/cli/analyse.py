@@ -182,11 +182,11 @@ def _words(analysis: Result, chosen: argparse.Namespace, has_files: bool) -> tup
     words = describe(analysis, about_model=False, most=MOST_MODES, width=width)
     if analysis.over_constrained and analysis.given.properties is not None:
         # It takes a while to load.
-        glance, told = load("flexact.costs.quick_cost"), words
+        quick, told = load("flexact.costs.quick_cost"), words
         missing: list[str] = []
         words = attempted(
             "What over-constraint costs",
-            lambda: str(glance.with_glance(told, analysis, width)),
+            lambda: str(quick.with_quick_cost(told, analysis, width)),
             words,
             missing,
         )

@@ -19,8 +19,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ...analysis.decomposition import Asked
-from ...analysis.spaces import asked_for
+from ...analysis.decomposition import Asked, asked_for
 from ...analysis.verdict import AnalysisError
 from ...deck.rendering import DeckError
 from ...model.reading import deck_bytes

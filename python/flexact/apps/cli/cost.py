@@ -7,12 +7,12 @@ import argparse
 import re
 from pathlib import Path
 
-from ...costs.compute import cost_of
-from ...costs.cost import Cost
-from ...costs.request import DRIVE, HELD, POINTS, WIDTH, Asked, AskedError
-from ...costs.saving import content_of, require_suffix, save
-from ...costs.words import describe
+from ...costs.compute import compute
+from ...costs.cost import COSTS, Cost
+from ...costs.request import DRIVE, HELD, POINTS, Request, RequestError
+from ...costs.words import WIDTH, describe
 from ...deck.rendering import ModelError, ProblemsError
+from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError, FlexactError
 from ...util.interruption import unwinding
@@ -39,7 +39,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     if chosen.points is not None and chosen.stroke is None:
         raise BatchError("--points is for the places along a stroke: give --stroke, too")
     try:
-        asked = Asked.of(
+        asked = Request.of(
             at=_point(chosen.at),
             release=chosen.release or None,
             stroke=chosen.stroke,
@@ -52,7 +52,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             bodies=chosen.bodies,
             beyond=chosen.beyond,
         )
-    except AskedError as error:
+    except RequestError as error:
         *others, last = error.messages
         for each in others:
             complain(f"flexact: error: {harmless(each)}")
@@ -64,7 +64,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
     for target in files:
         plan_file(deck, target)
         with unwinding():
-            require_suffix(target)
+            COSTS.require(target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -77,10 +77,10 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
                         look()
                         bar.show_work(what, done)
 
-                    made = cost_of(model, asked, deck.name, show, Cost)
+                    made = compute(model, asked, deck.name, show, Cost)
                     for target in files:
                         bar.show_work("writing", 1.0)
-                        save(made, target)
+                        made.save(target)
             except BatchError:
                 raise
             except ProblemsError as error:
@@ -88,7 +88,7 @@ def cost_deck(chosen: argparse.Namespace) -> ExitCode:
             except FlexactError as error:
                 raise BatchError(str(error)) from error
         if to_stdout:
-            put(content_of(made, ".csv"))
+            put(as_bytes(made.to_csv()))
         else:
             if chosen.json:
                 give(made.to_json())

@@ -15,9 +15,8 @@ from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from ...analysis.decomposition import Accuracy
+from ...analysis.decomposition import Accuracy, asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import certainty_word, margin_cells
 from ...core.calls import METHODS
@@ -588,7 +587,7 @@ def _cells(result: Result) -> Cells:
     if result.verdict is Verdict.EXACT and result.is_marginal:
         word = "marginal"
     sure = certainty_word(result)
-    doubt = "?" * (result.certainty is Certainty.NEARLY)
+    doubt = "?" * (result.certainty is Certainty.DOUBTFUL)
     return Cells(
         {
             "verdict": word + doubt,

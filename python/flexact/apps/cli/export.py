@@ -13,9 +13,10 @@ from ...analysis.naming import motion_in_words
 from ...analysis.result import Result
 from ...show.drawing.selection import select_motion
 from ...show.mesh import Meshes
-from ...show.mesh.collection import ENDINGS, STEM, SUFFIX, folder_of, mesh_writer
+from ...show.mesh.collection import ENDINGS, MESHES, STEM, folder_of
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.spacar_log import log_text, spacar_log
+from ...show.writers import PLAYING, write
 from ...util.decks import DeckFile
 from ...util.interruption import unwinding
 from ...util.outputs import plan_file, plan_files, write_together
@@ -32,9 +33,9 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
     deck = one_deck(chosen)
     target: Path = chosen.output
     with unwinding():
-        write = mesh_writer(target)
+        MESHES.require(target)
     plan_file(deck, target)
-    if target.suffix.lower() == SUFFIX:
+    if target.suffix.lower() == PLAYING:
         plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
 
     def step(deck: DeckFile) -> Outcome:
@@ -48,7 +49,8 @@ def export_deck(chosen: argparse.Namespace) -> ExitCode:
             else:
                 shown = select_motion(analysis, *wanted)
             with unwinding():
-                write(analysis, None if shown is None else shown.motion, target)
+                motion = None if shown is None else shown.motion
+                write(target, MESHES.contents((analysis, motion), target))
         name = harmless(deck.name)
         if missing:
             complain(f"{name}: note: {missing[0]}")

@@ -29,7 +29,8 @@ from ...show.page import (
     with_way_back,
 )
 from ...show.picture import has_packages, picture_bytes
-from ...show.saving import PAGES, as_bytes, page_bytes, small_picture
+from ...show.saving import page_bytes, small_picture
+from ...show.writers import PAGES, as_bytes
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding

@@ -8,8 +8,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from ...show.mesh.collection import SUFFIX, folder_of
-from ...tracing.output import ENDINGS, STEM, require_suffix, save
+from ...show.mesh.collection import STEM, folder_of
+from ...show.writers import PLAYING
+from ...tracing.output import ENDINGS, TRACES
 from ...tracing.trace import STEPS, trace
 from ...tracing.words import csv_bytes, lines
 from ...util.decks import DeckFile
@@ -40,7 +41,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
     if target is not None and target != STDOUT:
         _plan(deck, target)
         with unwinding():
-            require_suffix(target)
+            TRACES.require(target)
 
     def step(deck: DeckFile) -> Outcome:
         with Bar(deck.name, deck.path) as bar:
@@ -68,7 +69,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
                 raise BatchError(str(error)) from error
             if target is not None and target != STDOUT:
                 with unwinding():
-                    save(made, target)
+                    made.save(target)
         tell: Callable[[str], None] = say
         if target == STDOUT:
             write_text(target, csv_bytes(made))
@@ -85,7 +86,7 @@ def trace_deck(chosen: argparse.Namespace) -> ExitCode:
 def _plan(deck: DeckFile, target: Path) -> None:
     """Find out what is wrong with the file before anything is analysed."""
     plan_file(deck, target)
-    if target.suffix.lower() == SUFFIX:
+    if target.suffix.lower() == PLAYING:
         plan_files([replace(deck, relative=Path(STEM))], folder_of(target), ENDINGS)
 
 

@@ -7,8 +7,9 @@ import argparse
 
 from ...analysis.verdict_words import verdict_word
 from ...show.page import page
-from ...show.saving import as_bytes, page_bytes
+from ...show.saving import page_bytes
 from ...show.window import opens, page_path, write_page
+from ...show.writers import as_bytes
 from ...util.decks import DeckFile
 from ...util.errors import BatchError
 from ...util.interruption import unwinding

@@ -19,8 +19,8 @@ from ...analysis.deformation_words import part_of, role_of
 from ...core.elements import Class, Role, coordinate_name
 from ...deck.diagnostics import decode
 from ...model.data import ModelData
+from ...model.deformations import AT_P
 from ...model.editing import edited_to_the_letter
-from ...model.words import AT_P
 from ...model.writing import deck_of, statements_of
 from ...util.decks import SUFFIX
 from ...util.outputs import OutputError, write_together

@@ -8,9 +8,8 @@ from itertools import islice
 from typing import Any
 
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.modes import Motion, SelfStress
 from ...analysis.naming import plain
-from ...analysis.result import Result
+from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.verdict import Certainty
 from ...analysis.verdict_words import margin_in_short, verdict_in_short
 from ...util.partial import attempted
@@ -84,7 +83,7 @@ class Job:
     Attributes:
         path: The deck or the script.
         is_script: Which of them it is.
-        decision: Arguments of `flexact.analysis.spaces.asked_for`.
+        decision: Arguments of `flexact.analysis.decomposition.asked_for`.
     """
 
     path: str

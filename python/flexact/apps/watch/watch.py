@@ -125,7 +125,7 @@ class Watch:
             renewed: Called with what a save has changed, and the answer.
             printed: Called with what a script prints.
             port: The port; by default a free one.
-            decision: Arguments of `flexact.analysis.spaces.asked_for`.
+            decision: Arguments of `flexact.analysis.decomposition.asked_for`.
 
         Raises:
             BatchError: The port cannot be had.

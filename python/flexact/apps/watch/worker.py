@@ -16,8 +16,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, BinaryIO
 
+from ...analysis.decomposition import asked_for
 from ...analysis.result import Result, result_of
-from ...analysis.spaces import asked_for
 from ...analysis.verdict_words import verdict_word
 from ...core import narrow
 from ...deck.rendering import ProblemsError, render_problems
