@@ -6,13 +6,13 @@ from __future__ import annotations
 import argparse
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
-from ...util.outputs import STDOUT, OutputError, plan_file, write_together
+from ...util.outputs import STDOUT, OutputError, plan_file, require_replaceable, write_together
 from .parser import Argument, Group, argument
 from .terminal import put
 
@@ -98,6 +98,21 @@ def plan_text(deck: DeckFile, target: Path) -> None:
     """As `plan_file`, of a file that may be stdout."""
     if target != STDOUT:
         plan_file(deck, target)
+
+
+def plan_table(table: Path, decks: Sequence[DeckFile]) -> None:
+    """Raise where the table would overwrite a deck, or has no place.
+
+    Raises:
+        OutputError: It does.
+    """
+    plan_file(DeckFile("the table", Path()), table)
+    require_replaceable(table)
+    for deck in decks:
+        if deck.path.endswith(table.suffix) and os.path.realpath(deck.path) == os.path.realpath(
+            table
+        ):
+            raise OutputError(f"{table} would overwrite the deck {deck.path}")
 
 
 def write_text(target: Path, content: bytes) -> None:
