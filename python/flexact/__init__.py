@@ -10,7 +10,6 @@ starts quickly.
 
 import typing as _typing
 
-from .model.model import shown_by as _shown_by
 from .util.loading import VERSION as _VERSION
 from .util.loading import load as _load
 
@@ -18,7 +17,7 @@ if _typing.TYPE_CHECKING:
     from .advice.advice import Advice
     from .advice.steps import Step
     from .analysis.exact import ExactBases
-    from .analysis.modes import Motion, SelfStress
+    from .analysis.result import Motion, SelfStress
     from .analysis.verdict import (
         Alternative,
         AnalysisError,
@@ -27,7 +26,6 @@ if _typing.TYPE_CHECKING:
         Counts,
         Gap,
         Margin,
-        Nearly,
         Proof,
         Verdict,
     )
@@ -53,7 +51,7 @@ if _typing.TYPE_CHECKING:
     from .model.sections import Material
     from .show.notebook.output import viewer
     from .show.notebook.rows import Results
-    from .sweeps.crossing import Crossing, Crossings
+    from .sweeps.crossings import Crossing, Crossings
     from .sweeps.parameters import grid
     from .sweeps.sweep import sweep
     from .sweeps.table import Table
@@ -68,7 +66,7 @@ _HOMES = {
     "advice.advice": ("Advice",),
     "advice.steps": ("Step",),
     "analysis.exact": ("ExactBases",),
-    "analysis.modes": (
+    "analysis.result": (
         "Motion",
         "SelfStress",
     ),
@@ -80,7 +78,6 @@ _HOMES = {
         "Counts",
         "Gap",
         "Margin",
-        "Nearly",
         "Proof",
         "Verdict",
     ),
@@ -138,7 +135,7 @@ _HOMES = {
     "model.sections": ("Material",),
     "show.notebook.output": ("viewer",),
     "show.notebook.rows": ("Results",),
-    "sweeps.crossing": (
+    "sweeps.crossings": (
         "Crossing",
         "Crossings",
     ),
@@ -187,7 +184,6 @@ __all__ = [
     "Model",
     "ModelError",
     "Motion",
-    "Nearly",
     "Node",
     "Notch",
     "Place",
@@ -221,13 +217,6 @@ __all__ = [
     "trace",
     "viewer",
 ]
-
-
-# A model may know nothing of what stands on top of it.
-_shown_by(
-    lambda model, path: _load("flexact.api").show_model(model, path),
-    lambda model: _load("flexact.show.notebook.rows").html_of_model(model.data),
-)
 
 
 def __getattr__(name: str) -> object:

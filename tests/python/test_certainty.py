@@ -52,7 +52,7 @@ def test_lengths_places_and_turns_leave_the_counts(name: str) -> None:
         for method in ("svd", "sparse"):
             analysis = analyse(flexact.read_text(other), method=method)
             assert counts(analysis) == truth
-            assert analysis.nearly in (None, truth)
+            assert analysis.nearly is None or analysis.nearly[:2] == truth
             assert {doubt.code for doubt in analysis.assessment.doubts} <= {"rounded-geometry"}
 
 
@@ -140,8 +140,8 @@ def test_rounded_trusses_of_the_paper_are_nearly_both(digits: int, kind: str) ->
             # The digits happen to close.
             assert analysis.proof is not None and analysis.proof.rank == analysis.rank
         else:
-            assert analysis.certainty is flexact.Certainty.NEARLY
-            assert analysis.nearly == (1, 1)
+            assert analysis.certainty is flexact.Certainty.DOUBTFUL
+            assert analysis.nearly[:2] == (1, 1)
             assert analysis.nearly.under_constrained == 1
 
 
@@ -176,7 +176,7 @@ def test_rounded_rings_of_even_number_are_right_or_nearly(n: int, digits: int) -
 def test_zeros_that_count_because_of_digits_are_nearly() -> None:
     analysis = analyse(rounded(twelve_trusses(), TURN, ".10e"))
     assert counts(analysis) == (1, 1)
-    assert analysis.nearly == (0, 0)
+    assert analysis.nearly[:2] == (0, 0)
     assert [item.code for item in analysis.warnings] == ["rounded-coordinates"]
 
 
@@ -246,7 +246,7 @@ def test_a_tolerance_that_was_given_is_honest() -> None:
     model = two_wires(1e-4)
     analysis = analyse(model, tolerance=1e-3)
     assert counts(analysis) == (1, 1)
-    assert analysis.nearly == (0, 0)
+    assert analysis.nearly[:2] == (0, 0)
     assert codes(analysis) == ["given-tolerance"]
     assert [item.code for item in analysis.warnings] == ["given-tolerance"]
     assert analyse(model, tolerance=1e-6).certainty is flexact.Certainty.CERTAIN
@@ -261,7 +261,7 @@ def test_noise_that_counts_because_of_a_tolerance_is_nearly() -> None:
 def test_a_rank_that_is_not_confirmed_is_not_certain() -> None:
     analysis = analyse(ring(5))
     estimate = changed(analysis, confirmed=False, proven_rank=-1)
-    assert (counts(estimate), estimate.nearly) == ((0, 0), (1, 1))
+    assert (counts(estimate), estimate.nearly[:2]) == ((0, 0), (1, 1))
     assert codes(estimate) == ["unconfirmed-rank"]
 
 

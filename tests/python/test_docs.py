@@ -13,7 +13,7 @@ from wording import AsStored
 
 import flexact
 from flexact.apps.cli.main import main
-from flexact.apps.cli.outcome import ExitCode
+from flexact.apps.cli.terminal import ExitCode
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"

@@ -15,7 +15,7 @@ from fractions import Fraction
 
 from ..core import calls
 from ..core.raw import RawEchelon
-from .decomposition import Outcome
+from .decomposition import Decomposition
 from .verdict import AnalysisError
 
 Vector = tuple[Fraction, ...]
@@ -104,7 +104,7 @@ def _fraction(residue: int, modulus: int, most: int) -> tuple[int, int]:
     return (after, bottom) if bottom > 0 else (-after, -bottom)
 
 
-def exact_bases(outcome: Outcome) -> ExactBases:
+def exact_bases(outcome: Decomposition) -> ExactBases:
     """Null vectors of D(c) and of its transpose over the rationals.
 
     Raises:
@@ -120,7 +120,9 @@ def exact_bases(outcome: Outcome) -> ExactBases:
     return ExactBases(of or of_stresses, motions, stresses, max(first, second))
 
 
-def _basis(outcome: Outcome, size: int, is_transposed: bool) -> tuple[tuple[Vector, ...], str, int]:
+def _basis(
+    outcome: Decomposition, size: int, is_transposed: bool
+) -> tuple[tuple[Vector, ...], str, int]:
     """Null vectors of one side, of what they are, and how many primes were taken."""
     if not size:
         return (), "", 0
@@ -141,7 +143,7 @@ def _basis(outcome: Outcome, size: int, is_transposed: bool) -> tuple[tuple[Vect
 
 
 def _echelons(
-    outcome: Outcome, size: int, is_transposed: bool, first: int = 0
+    outcome: Decomposition, size: int, is_transposed: bool, first: int = 0
 ) -> Iterator[RawEchelon]:
     """Echelon forms modulo one prime after the other."""
     operations = outcome.rows * outcome.columns * min(outcome.rows, outcome.columns)
