@@ -75,16 +75,18 @@ contains
       integer, allocatable, intent(out) :: order(:)
       type(error_t), allocatable, intent(out) :: error
       type(gram_t) :: graph
-      integer, allocatable :: of_groups(:), first(:)
-      integer :: groups, widest, i, j, g, info, status
+      integer, allocatable :: of_groups(:), other(:), first(:)
+      integer :: groups, widest, i, j, g, info
 
       groups = group(size(group))
       call group_graph(a, group, groups, graph)
-      allocate (of_groups(groups), order(size(group)), first(groups + 1), stat=info)
+      allocate (of_groups(groups), other(groups), order(size(group)), first(groups + 1), stat=info)
       if (info == 0) call own_order(groups, graph%start, graph%place, of_groups, widest, info)
       if (info == 0 .and. metis_is_there() /= 0) then
          ! Where METIS gives up, our own order stays.
-         if (widest > broad*sqrt(real(groups, wp))) status = metis_order(groups, graph%start, graph%place, of_groups)
+         if (widest > broad*sqrt(real(groups, wp))) then
+            if (metis_order(groups, graph%start, graph%place, other) == 0) of_groups = other
+         end if
       end if
       if (info /= 0) then
          call fail(error_memory, error)
