@@ -28,7 +28,7 @@ from .targets import folder_or, mesh_argument
 from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, say, text_width
 
 if TYPE_CHECKING:
-    from .targets import ResultFiles
+    from .deck_files import ResultFiles
 
 
 TEXT, GITHUB, SARIF = FORMS = ("text", "github", "sarif")
@@ -119,7 +119,7 @@ def analyse_decks(chosen: argparse.Namespace) -> ExitCode:
     findings = None if chosen.format == TEXT else Findings(chosen.format)
     files: ResultFiles | None = None
     if chosen.output and not is_table(chosen.output):
-        module = load("flexact.apps.cli.targets")
+        module = load("flexact.apps.cli.deck_files")
         files = module.ResultFiles(decks, chosen.output, chosen.mesh or "vtu", log=chosen.log)
     wanted = VERDICTS.get(chosen.expect)
 

@@ -24,9 +24,10 @@ from ...util.outputs import OutputError, plan_file, plan_files, require_replacea
 from ...util.partial import attempted
 from ...util.text import harmless
 from . import decks as failures
+from .deck_files import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, page_of, unread
 from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, analysed, opened, read_and_analysed, take
 from .parser import Verb, argument
-from .targets import INDEX, WITHOUT_PICTURES, DeckPage, broken_page_of, folder_or, page_of, unread
+from .targets import folder_or
 from .terminal import Bar, ExitCode, Outcome, complain, end_progress, exit_code, say, show_progress
 
 _JSON = ".json"
