@@ -10,7 +10,6 @@ starts quickly.
 
 import typing as _typing
 
-from .model.model import shown_by as _shown_by
 from .util.loading import VERSION as _VERSION
 from .util.loading import load as _load
 
@@ -52,7 +51,7 @@ if _typing.TYPE_CHECKING:
     from .model.sections import Material
     from .show.notebook.output import viewer
     from .show.notebook.rows import Results
-    from .sweeps.crossing import Crossing, Crossings
+    from .sweeps.crossings import Crossing, Crossings
     from .sweeps.parameters import grid
     from .sweeps.sweep import sweep
     from .sweeps.table import Table
@@ -136,7 +135,7 @@ _HOMES = {
     "model.sections": ("Material",),
     "show.notebook.output": ("viewer",),
     "show.notebook.rows": ("Results",),
-    "sweeps.crossing": (
+    "sweeps.crossings": (
         "Crossing",
         "Crossings",
     ),
@@ -218,13 +217,6 @@ __all__ = [
     "trace",
     "viewer",
 ]
-
-
-# A model may know nothing of what stands on top of it.
-_shown_by(
-    lambda model, path: _load("flexact.api").show_model(model, path),
-    lambda model: _load("flexact.show.notebook.rows").html_of_model(model.data),
-)
 
 
 def __getattr__(name: str) -> object:

@@ -16,7 +16,6 @@ import numpy as np
 import pytest
 from ill_conditioned_models import two_wires
 from known_models import folded_sheet, twelve_trusses
-from proofs import NEEDS_FLINT
 from reference_decks import ROOT
 
 import flexact
@@ -142,7 +141,6 @@ def test_a_model_made_in_python_shows_its_deck() -> None:
     assert hashlib.sha256(deck.encode()).hexdigest() in words
 
 
-@NEEDS_FLINT
 def test_verdict_counts_decision_and_remedies_are_told() -> None:
     analysis = flexact.analyse(CLAMPED)
     words = words_of(page(analysis))
@@ -168,7 +166,6 @@ def head_of(text: str) -> str:
     return words_of(found[0])
 
 
-@NEEDS_FLINT
 def test_the_head_says_what_is_wrong_how_sure_and_what_helps() -> None:
     head = head_of(page(flexact.analyse(CLAMPED)))
     for told in (

@@ -16,10 +16,10 @@ from ..core.elements import Class, Dual, NodeKind, Role, coordinate_name, role_t
 from ..core.progress import Progress
 from ..deck.rendering import ModelError, model_error
 from ..model.data import ModelData
+from ..model.deformations import AT_P, AT_Q
 from ..model.parts.condensing import condensed
 from ..model.parts.parts import PartKind, declared
 from ..model.variation import with_classes
-from ..model.words import AT_P, AT_Q
 from ..util.loading import load
 from ..util.records import Frozen, cached_property
 from ..util.text import in_short
@@ -173,7 +173,7 @@ class Result(Decomposition):
         They are those of the numbers of the proof. Parts of some 300 columns take seconds.
 
         Raises:
-            AnalysisError: this build has no FLINT, or D(c) or the fractions are too large.
+            AnalysisError: D(c) or the fractions are too large.
         """
         # Fractions take some milliseconds to load.
         made: ExactBases = load("flexact.analysis.exact").exact_bases(self)

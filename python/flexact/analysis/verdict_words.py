@@ -248,8 +248,6 @@ def _why_not_proven(result: Result) -> str:
     """Why there is no proof."""
     if result.asked.prove is False:
         return "no proof was asked for"
-    if result.raw.primes == 0:
-        return "this build has no FLINT (apt-get install libflint-dev, then build Flexact again)"
     if result.asked.prove is None:
         return "D(c) is large (--prove, or prove=True, takes the time)"
     return "D(c) is too large"

@@ -41,7 +41,7 @@ from ..util.machine import processors
 from ..util.records import Frozen
 from .columns import MISSING, columns_of, error_row, in_a_line, row_of
 from .columns import Value as Cell
-from .parameters import Row, Value
+from .parameters import Row
 
 
 class MotionArrays(NamedTuple):
@@ -302,30 +302,6 @@ def made_by(make: Make, row: Row) -> ModelData:
     data = model.data
     data.require_sound()
     return data
-
-
-def between(
-    names: Sequence[str], first: Sequence[Value], last: Sequence[Value], share: float
-) -> Row:
-    """The parameters between those of two rows, as Python's own numbers.
-
-    What is no number is that of the first.
-    """
-    return {name: _between(a, b, share) for name, a, b in zip(names, first, last, strict=True)}
-
-
-def _between(a: Value, b: Value, share: float) -> Value:
-    if a == b or share == 0.0 or not (is_number(a) and is_number(b)):
-        return a
-    if share == 1.0:
-        return b
-    assert isinstance(a, (int, float)) and isinstance(b, (int, float))
-    return float(a + share * (b - a))
-
-
-def is_number(value: Value) -> bool:
-    """Whether there is something between it and another one."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 Columns = dict[str, np.ndarray]

@@ -21,7 +21,7 @@ from ..motion.constraints import MOST_COORDINATES
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units
-from .output import save
+from .output import TRACES
 from .stroke import Stroke
 from .values import Traced, Way
 from .words import lines
@@ -47,7 +47,7 @@ class Trace(Traced):
             FlexactError: There is no such kind of file, a package is missing, or the file cannot
                 be written.
         """
-        save(self, Path(path))
+        TRACES.save(self, self.result.given, Path(path))
 
 
 #: How far each way by default, in sizes of the model, and by how many steps.

@@ -35,6 +35,7 @@ from ...util.loading import VERSION
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
 from ..drawing import drawing_of
+from ..writers import as_bytes
 from .assets import (
     FEW_SHAPES,
     MOST_LINES,
@@ -106,7 +107,7 @@ def deck_of_model(data: ModelData) -> tuple[bytes, bool]:
     """The deck of a model, and whether it was written just now."""
     if data.source is not None:
         return data.source.text, False
-    return deck_of(data).encode("utf-8", "backslashreplace"), True
+    return as_bytes(deck_of(data)), True
 
 
 def _line(number: int, line: str, diagnostics: Sequence[Diagnostic]) -> str:
