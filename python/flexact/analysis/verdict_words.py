@@ -323,8 +323,8 @@ def _words(result: Result, doubt: Doubt) -> tuple[str, str]:
             return what, "analyse with the method svd"
         case DoubtKind.CLOSE_TO_NOISE:
             return (
-                f"{_counting(doubt.values)} as non-zero within a factor of {CLEARLY:.0f} of what storing the "
-                f"geometry may make of a zero, {size}",
+                f"{_counting(doubt.values)} as non-zero within a factor of {CLEARLY:.0f} of what "
+                f"storing the geometry may make of a zero, {size}",
                 "look at the geometry, or state with a tolerance what is to count as zero",
             )
         case DoubtKind.DIGITS_EXPLAIN:

@@ -149,7 +149,7 @@ def _with_reaction(result: Result, wanted: Class) -> Coordinates:
     contribute.
     """
     arrays = result.data.arrays
-    able = (wanted == arrays.coordinate_class.T).ravel()
+    able = np.asarray(wanted == arrays.coordinate_class.T).ravel()
     if not able.any():
         return []
     whole = result.assembly
