@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from ..core.arrays import Basis, BoolArray, FloatArray, IntArray
 from ..core.elements import NodeKind, Role, role_table
+from ..model.deformations import AT_P, AT_Q
 from ..model.parts.parts import Part, PartKind, natural
-from ..model.words import AT_P, AT_Q
 from ..util.matrices import complement, null_space
 from .decomposition import Decomposition, column_weights, row_factors, row_weights
 from .limits import NO_SENSE, ROUNDING, SAME_PLACE
