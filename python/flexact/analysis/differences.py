@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..deck.diagnostics import decode
+from ..deck.diagnostics import Source
 from ..deck.rendering import ProblemsError
+from ..deck.tokens import tokens_of
 from ..util.errors import FlexactError
 from ..util.text import harmless
 from . import json as json_modes
@@ -54,16 +55,17 @@ class Different(NamedTuple):
     line: int
 
 
-def statements_in(raw: bytes) -> tuple[Statement, ...]:
+def statements_in(source: Source) -> tuple[Statement, ...]:
     """The statements of a deck."""
-    made = []
-    for number, line in enumerate(decode(raw).split("\n"), start=1):
-        written = "" if line.startswith("*") else re.split("[%#]", line, maxsplit=1)[0]
-        words = written.split()
-        if words:
-            meant = " ".join(map(_meant, words))
-            made.append(Statement(meant, harmless(" ".join(words)), number))
-    return tuple(made)
+    return tuple(
+        Statement(
+            " ".join(_meant(word.text) for word in line.words),
+            harmless(" ".join(word.text for word in line.words)),
+            line.number + 1,
+        )
+        for line in tokens_of(source)
+        if line.words
+    )
 
 
 def differences(
@@ -171,7 +173,7 @@ def side_of(result: Result) -> Side:
             for stress, made in stresses
             for vector in [_vector(made, "element", "deformation", 1.0 / length)]
         ),
-        None if source is None else statements_in(source.text),
+        None if source is None else statements_in(source),
     )
 
 
@@ -184,7 +186,7 @@ def broken_side(error: Exception) -> Side:
             place = f"{first.line}:{first.column}: " if first.line else ""
             words = f"{place}{first.message}"
         if error.source is not None:
-            statements = statements_in(error.source.text)
+            statements = statements_in(error.source)
     broken = "cannot be analysed"
     return Side(broken, broken, {}, statements=statements, error=harmless(words))
 

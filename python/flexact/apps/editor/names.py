@@ -84,9 +84,8 @@ def element_words(deck: Deck, number: int) -> list[str]:
     made = deck.index.element(number)
     if made is None:
         return [f"There is no element {number}."]
-    kind = made.says.element
-    assert kind is not None
-    head, comment = f"**element {number}**: {made.says.name}", made.says.facts.comment
+    assert made.element is not None
+    head, comment = f"**element {number}**: {made.name}", made.comment
     told, index = _element(deck, number)
     if told is None or index is None:
         return [f"{head}{f', {comment}' if comment else ''}"]
@@ -103,7 +102,7 @@ def element_words(deck: Deck, number: int) -> list[str]:
     lines.append(
         f"nodes {', '.join(slots)}" + (f"; length {length_in_words(length)}" if length else "")
     )
-    return [*lines, *_classes_of_element(told, index, kind)]
+    return [*lines, *_classes_of_element(told, index, made.element)]
 
 
 def _classes_of_element(told: Told, index: int, kind: ElementKind) -> list[str]:
