@@ -183,7 +183,7 @@ def test_words_stand_where_the_tokens_say(name: str) -> None:
 
 
 def test_whatever_stands_in_a_text_it_has_its_lines() -> None:
-    """Faulty decks have tokens, too: words that are none, characters that no text holds, nothing."""
+    """Faulty decks have tokens, too: odd words, characters that no text holds, nothing."""
     for text in (
         "",
         "\n",
