@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from ..show.charts import BarChart, Chart, style_of
-from ..show.picture.charts import INK, SOFT, bars_height, draw_bars, draw_chart, width_of, written
+from ..show.charts import BarChart, Chart, Key, KeyRow, style_of
+from ..show.picture.charts import BETWEEN, INK, ROW, SOFT, draw_bars, draw_chart, width_of, written
 from ..show.picture.files import load_matplotlib, png_bytes, still_bytes
 from ..show.picture.make import check_packages
 from ..util.text import file_name, harmless
-from .charts import Key, KeyRow, bars_of, charts_of, choices_of, key_of, typeset
+from .charts import bars_of, charts_of, choices_of, key_of, typeset
 from .designs import CostValues
 from .words import first_line
 
@@ -227,7 +227,7 @@ def plot_of(cost: CostValues) -> Any:
     measure: Any = Figure(dpi=_DPI)
     FigureCanvasAgg(measure)
     table = table_of(measure, key_of(cost), typeset(first_line(cost)))
-    rows = max((bars_height(each) for each in bars), default=0.0)
+    rows = max((each.height(ROW, BETWEEN) for each in bars), default=0.0)
     head, notes = head_height(table), notes_of(measure, cost)
     heights = (
         head,
@@ -287,6 +287,6 @@ def _draw_bars(figure: Any, bars: tuple[BarChart, ...], top: float) -> None:
             HEAD.left + k * cell + _GROUPS,
             top + _ABOVE,
             cell - _GROUPS - _RIGHT,
-            _ROW * bars_height(chart),
+            _ROW * chart.height(ROW, BETWEEN),
         )
         draw_bars(axes, chart)

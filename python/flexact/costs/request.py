@@ -8,38 +8,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeVar
 
-from ..model.words import is_word
+from ..model.deformations import is_word
 from ..util.errors import FlexactError
 from ..util.quantities import NOTCH, QuantityError, measured, quantity
-from ..util.text import in_short, table, wrapped
-
-#: Columns of text where nobody says how many there are.
-WIDTH = 80
-
-
-class Row(NamedTuple):
-    """A sentence, and what stands in front of its further rows."""
-
-    words: str
-    indent: str = ""
-
-
-class Table(NamedTuple):
-    """A table whose first row has its headings; they may go on in a second one."""
-
-    rows: tuple[tuple[str, ...], ...]
-    second: bool = False
-
-
-Told = Row | Table
-
-
-def shown(told: Told, width: int) -> str:
-    """As text in rows of at most `width` columns."""
-    if isinstance(told, Row):
-        return wrapped(told.words, width, told.indent)
-    return table(told.rows, width, second=told.second)
-
+from ..util.text import in_short
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 _COORDINATE = re.compile(r"(?s)(?P<point>.+):\s*(?P<name>\w+)\s*(?P<by>\+?)=(?P<value>.+)")
@@ -53,7 +25,7 @@ _NAMES = ("x", "y", "z", "rx", "ry", "rz")
 NONE = "none"
 
 
-class AskedError(FlexactError, ValueError):
+class RequestError(FlexactError, ValueError):
     """What was asked for is not understood; its text says what is wanted.
 
     Attributes:
@@ -65,7 +37,7 @@ class AskedError(FlexactError, ValueError):
         super().__init__("; ".join(messages))
         self.messages = messages
 
-    def __reduce__(self) -> tuple[type[AskedError], tuple[str, ...]]:
+    def __reduce__(self) -> tuple[type[RequestError], tuple[str, ...]]:
         """What makes it anew, as a worker of a sweep does."""
         return type(self), self.messages
 
@@ -82,7 +54,7 @@ class PointText(NamedTuple):
         return int(text) if re.fullmatch(r"\d{1,9}", text) else text
 
 
-class StrokeAsked(NamedTuple):
+class StrokeRequest(NamedTuple):
     """A stroke: of which point, along what, from where to where."""
 
     point: object
@@ -93,7 +65,7 @@ class StrokeAsked(NamedTuple):
     """Whether the values count from where the point is in the deck."""
 
 
-class MisalignmentAsked(NamedTuple):
+class MisalignmentRequest(NamedTuple):
     """A misalignment: of which clamp, along what, by how much, and about which point."""
 
     clamp: object
@@ -104,44 +76,44 @@ class MisalignmentAsked(NamedTuple):
 
 #: Deformations that are released, with the stiffness of each one's notch; 0: ideal. Each is
 #: (element, deformation) by numbers or names, or with the end as the third.
-ReleaseAsked = dict[tuple[Any, ...], float]
+ReleaseRequest = dict[tuple[Any, ...], float]
 
 
 def shift_of(text: str | float) -> float:
     """A shift of a frequency, such as "-5%" or -0.05.
 
     Raises:
-        AskedError: it is none, 0, or a fall by all or more.
+        RequestError: it is none, 0, or a fall by all or more.
     """
     wanted = "a shift is wanted, such as -5% (or -0.05): more than -100%, at most 100%, not 0"
     if isinstance(text, str):
         found = _NUMBER.fullmatch(text)
         if found is None or found[2] not in ("", "%"):
-            raise AskedError(f"{wanted}; {in_short(text.strip())} is none")
+            raise RequestError(f"{wanted}; {in_short(text.strip())} is none")
         value = float(found[1]) / (100.0 if found[2] else 1.0)
     else:
         value = float(text)
     if not (-1.0 < value <= 1.0) or value == 0.0:
-        raise AskedError(f"{wanted}; {in_short(text)} is none")
+        raise RequestError(f"{wanted}; {in_short(text)} is none")
     return value
 
 
-def release_of(text: str) -> ReleaseAsked:
+def release_of(text: str) -> ReleaseRequest:
     """What is released together: "1:5", "1:5=3.5" with a notch, "1:5+2:5"; "none": nothing.
 
     Names and words do as well as numbers, "sheet 1:in-plane bending", at one end "...@stage".
 
     Raises:
-        AskedError: it is not written so.
+        RequestError: it is not written so.
     """
     if text.strip() == NONE:
         return {}
-    made: ReleaseAsked = {}
+    made: ReleaseRequest = {}
     for part in _parts(text):
         found = _RELEASE.fullmatch(part)
         which = "" if found is None else found["which"]
         if found is None or not (which.isdigit() or is_word(which)):
-            raise AskedError(
+            raise RequestError(
                 "a release is written ELEMENT:DEFORMATION, such as 1:5 or 'sheet 1:in-plane "
                 "bending'; with the stiffness of its notch 1:5=3.5 [N m/rad]; several together "
                 f"1:5+2:5; not {in_short(text)}"
@@ -166,18 +138,18 @@ def _notch(text: str | None) -> float:
     except QuantityError:
         value = -1.0
     if not value >= 0.0:
-        raise AskedError(
+        raise RequestError(
             "the stiffness of a notch is a number from 0 in N m/rad (of an elongation in N/m), "
             f"not {in_short(text.strip())}"
         )
     return value
 
 
-def stroke_of(text: str) -> StrokeAsked:
+def stroke_of(text: str) -> StrokeRequest:
     """A stroke: "1:z=25mm..35mm", or from the deck's place "1:z+=-5mm..5mm", "1:z=+-5mm".
 
     Raises:
-        AskedError: it is not written so.
+        RequestError: it is not written so.
     """
     found = _COORDINATE.fullmatch(text)
     start, dots, stop = found["value"].partition("..") if found else ("", "", "")
@@ -186,35 +158,35 @@ def stroke_of(text: str) -> StrokeAsked:
         dots, stop = "+-", start.strip()[2:]
         start = f"-{stop.strip()}"
     if found is None or not dots:
-        raise AskedError(
+        raise RequestError(
             "a stroke is written POINT:COORDINATE=FROM..TO, such as 1:z=25mm..35mm, or counted "
             f"from the place in the deck 1:z+=-5mm..5mm or 1:z=+-5mm; not {in_short(text)}"
         )
     name, unit = _coordinate(found["name"])
     first, last = _quantity(start, unit), _quantity(stop, unit)
     if first == last:
-        raise AskedError(f"the stroke {in_short(text)} ends where it begins")
+        raise RequestError(f"the stroke {in_short(text)} ends where it begins")
     point = PointText(found["point"]).target
-    return StrokeAsked(point, name, first, last, bool(found["by"]) or dots == "+-")
+    return StrokeRequest(point, name, first, last, bool(found["by"]) or dots == "+-")
 
 
-def misalignment_of(text: str) -> MisalignmentAsked:
+def misalignment_of(text: str) -> MisalignmentRequest:
     """A misalignment: "11:x=50um", or turned about a point "11:rx=1mrad@13".
 
     Raises:
-        AskedError: it is not written so.
+        RequestError: it is not written so.
     """
     found = _COORDINATE.fullmatch(text)
     if found is None or found["by"]:
-        raise AskedError(
+        raise RequestError(
             "a misalignment is written CLAMP:COORDINATE=VALUE, such as 11:x=50um, and turned "
             f"about a point 11:rx=1mrad@13; not {in_short(text)}"
         )
     value, _, about = found["value"].partition("@")
     name, unit = _coordinate(found["name"])
     if about and unit == "m":
-        raise AskedError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
-    return MisalignmentAsked(
+        raise RequestError(f"only a turn is about a point: leave out @{about} of {in_short(text)}")
+    return MisalignmentRequest(
         PointText(found["point"]).target,
         name,
         _quantity(value, unit),
@@ -226,12 +198,12 @@ def _quantity(text: str, unit: str) -> float:
     try:
         return quantity(text, unit)
     except QuantityError as error:
-        raise AskedError(str(error)) from None
+        raise RequestError(str(error)) from None
 
 
 def _coordinate(name: str) -> tuple[str, str]:
     if name not in _NAMES:
-        raise AskedError(f"a coordinate is one of {', '.join(_NAMES)}, not {in_short(name)}")
+        raise RequestError(f"a coordinate is one of {', '.join(_NAMES)}, not {in_short(name)}")
     return name, "rad" if name.startswith("r") else "m"
 
 
@@ -245,7 +217,7 @@ Made = TypeVar("Made")
 
 
 @dataclass(frozen=True)
-class Asked:
+class Request:
     """What is asked of a cost; see `flexact.cost`.
 
     Attributes:
@@ -263,9 +235,9 @@ class Asked:
     """
 
     at: object = None
-    release: tuple[ReleaseAsked, ...] | None = None
-    stroke: StrokeAsked | None = None
-    misalign: tuple[MisalignmentAsked, ...] = ()
+    release: tuple[ReleaseRequest, ...] | None = None
+    stroke: StrokeRequest | None = None
+    misalign: tuple[MisalignmentRequest, ...] = ()
     shift: float = -0.05
     held: str = HELD[0]
     drive: str = DRIVE[0]
@@ -289,11 +261,11 @@ class Asked:
         points: object,
         bodies: object = False,
         beyond: object = False,
-    ) -> Asked:
+    ) -> Request:
         """From arguments as users give them.
 
         Raises:
-            AskedError: some are not understood; all of them are told.
+            RequestError: some are not understood; all of them are told.
         """
         wrong: list[str] = []
 
@@ -320,7 +292,7 @@ class Asked:
         if made.points < 2 and not wrong:
             wrong.append("a stroke has 2 places at least")
         if wrong:
-            raise AskedError(*wrong)
+            raise RequestError(*wrong)
         return made
 
 
@@ -330,13 +302,13 @@ _AUTO: int | str = AUTO
 
 def _one_of(what: str, given: object, allowed: Sequence[str]) -> str:
     if not isinstance(given, str) or given not in allowed:
-        raise AskedError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
+        raise RequestError(f"{what} is {' or '.join(allowed)}, not {in_short(given)}")
     return given
 
 
 def _flag(what: str, given: object) -> bool:
     if not isinstance(given, bool):
-        raise AskedError(f"{what} is True or False, not {in_short(given)}")
+        raise RequestError(f"{what} is True or False, not {in_short(given)}")
     return given
 
 
@@ -346,17 +318,17 @@ def _beams(given: object) -> int | str:
     if isinstance(given, str) and given.isdigit():
         given = int(given)
     if isinstance(given, str):
-        raise AskedError(f"the number of beams is a whole number or auto, not {in_short(given)}")
+        raise RequestError(f"the number of beams is a whole number or auto, not {in_short(given)}")
     return _whole("the number of beams", given, _MOST_BEAMS)
 
 
 def _whole(what: str, given: Any, most: int) -> int:
     if isinstance(given, bool) or not isinstance(given, int) or not 1 <= given <= most:
-        raise AskedError(f"{what} is a whole number from 1 to {most}, not {in_short(given)}")
+        raise RequestError(f"{what} is a whole number from 1 to {most}, not {in_short(given)}")
     return given
 
 
-def _releases(given: object) -> tuple[ReleaseAsked, ...]:
+def _releases(given: object) -> tuple[ReleaseRequest, ...]:
     """Designs; what releases nothing is the one as built, which is there anyway."""
     if isinstance(given, (str, Mapping)):
         given = [given]
@@ -365,14 +337,14 @@ def _releases(given: object) -> tuple[ReleaseAsked, ...]:
     given = list(given)
     made = [_release(each) for each in given]
     if any(made) and any(isinstance(each, str) and each.strip() == NONE for each in given):
-        raise AskedError(
+        raise RequestError(
             f"{NONE!r} asks for the design as built alone, and the others ask for releases: "
             "choose; the design as built is shown in any case"
         )
     return tuple(each for each in made if each)
 
 
-def _release(given: object) -> ReleaseAsked:
+def _release(given: object) -> ReleaseRequest:
     if isinstance(given, str):
         return release_of(given)
     if isinstance(given, Mapping):
@@ -406,21 +378,21 @@ def _pair(given: object) -> tuple[Any, ...]:
 def _stiffness(given: Any) -> float:
     value = 0.0 if given is None else measured(given, NOTCH)
     if not 0.0 <= value < float("inf"):
-        raise AskedError(
+        raise RequestError(
             f"the stiffness of a notch is a finite number from 0, not {in_short(given)}"
         )
     return value
 
 
-def _stroke(given: object) -> StrokeAsked:
-    if isinstance(given, StrokeAsked):
+def _stroke(given: object) -> StrokeRequest:
+    if isinstance(given, StrokeRequest):
         return given
     if isinstance(given, str):
         return stroke_of(given)
     if isinstance(given, Sequence) and len(given) == 4:
         point, name, start, stop = given
         name = _named(name)
-        return StrokeAsked(point, name, _measured(start, name), _measured(stop, name))
+        return StrokeRequest(point, name, _measured(start, name), _measured(stop, name))
     raise TypeError(
         'a stroke is (point, coordinate, from, to), or a text such as "1:z=25mm..35mm", not '
         f"{in_short(given)}"
@@ -435,7 +407,7 @@ def _measured(given: object, coordinate: str) -> float:
     return measured(given, "rad" if coordinate.startswith("r") else "m")
 
 
-def _misalignments(given: object) -> tuple[MisalignmentAsked, ...]:
+def _misalignments(given: object) -> tuple[MisalignmentRequest, ...]:
     if isinstance(given, str):
         given = [given]
     if not isinstance(given, Iterable):
@@ -443,15 +415,15 @@ def _misalignments(given: object) -> tuple[MisalignmentAsked, ...]:
     return tuple(map(_misalignment, given))
 
 
-def _misalignment(given: object) -> MisalignmentAsked:
-    if isinstance(given, MisalignmentAsked):
+def _misalignment(given: object) -> MisalignmentRequest:
+    if isinstance(given, MisalignmentRequest):
         return given
     if isinstance(given, str):
         return misalignment_of(given)
     if isinstance(given, Sequence) and len(given) in (3, 4):
         clamp, name, value, *about = given
         name = _named(name)
-        return MisalignmentAsked(clamp, name, _measured(value, name), *about)
+        return MisalignmentRequest(clamp, name, _measured(value, name), *about)
     raise TypeError(
         'a misalignment is (clamp, coordinate, value), or a text such as "11:x=50um", not '
         f"{in_short(given)}"

@@ -15,9 +15,9 @@ from ..elasticity import ElasticError
 from ..elasticity.errors import require_within
 from ..model.data import ModelData
 from ..model.parts.parts import Parts
-from . import along
 from .designs import DIRECTIONS, PLANAR, Clamp, Misalignment, Point, words_of_direction
-from .request import Asked
+from .request import Request
+from .stroke import StrokePoints, values_of
 
 
 class Places:
@@ -183,7 +183,7 @@ def directions_of(data: ModelData, point: Point) -> tuple[str, ...]:
     return every
 
 
-def given_of(places: Places, asked: Asked) -> tuple[tuple[Misalignment, float], ...]:
+def given_of(places: Places, asked: Request) -> tuple[tuple[Misalignment, float], ...]:
     """The misalignments that are given together.
 
     Raises:
@@ -224,7 +224,7 @@ def _pivot(places: Places, target: object) -> int:
     return number
 
 
-def stroke_of(places: Places, asked: Asked) -> along.Asked | None:
+def stroke_of(places: Places, asked: Request) -> StrokePoints | None:
     """The stroke that is asked for, with its places.
 
     Raises:
@@ -250,8 +250,8 @@ def stroke_of(places: Places, asked: Asked) -> along.Asked | None:
     for value in () if is_any else (wish.start, wish.stop):
         words = f"the stroke of {places.words(places.numbers[node])} along {wish.coordinate}"
         _require_within(value + offset - rest, places.size, wish.coordinate, words)
-    values = along.values_of(wish.start + offset, wish.stop + offset, asked.points, rest)
-    return along.Asked(places.numbers[node], wish.coordinate, rest, values)
+    values = values_of(wish.start + offset, wish.stop + offset, asked.points, rest)
+    return StrokePoints(places.numbers[node], wish.coordinate, rest, values)
 
 
 def _require_within(value: float, size: float, coordinate: str, what: str) -> None:

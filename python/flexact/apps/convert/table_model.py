@@ -14,8 +14,8 @@ from ...core.elements import AXES, Class, Member, NodeKind, Vector, kind_of
 from ...core.raw import ElementKind
 from ...model.data import ModelData
 from ...model.draft import NO_VECTOR, Draft
-from ...model.handles import Owner
-from ...model.places import one_line
+from ...model.draft_arrays import data_of as data_of_draft
+from ...model.names import one_line
 from .table_input import Entry, Tables, mass_of, shape_of, stiffness_of, warped
 from .values import AXES as LETTERS
 from .values import LOADS, NODES_A_POINT, PRESCRIBED, Found, Remarks
@@ -66,7 +66,7 @@ def data_of(tables: Tables, flexible: Class, found: Found) -> ModelData:
     making.give_nodes()
     making.note_warping()
     found.require_none()
-    data = making.draft.freeze(tables.name)
+    data = data_of_draft(making.draft, tables.name)
     return replace(data, besides=(*data.besides, *making.remarks.diagnostics()))
 
 
@@ -77,7 +77,7 @@ class _Making:
         self.tables = tables
         self.flexible = flexible
         self.found = found
-        self.draft = Draft(tables.planar, Owner())
+        self.draft = Draft(tables.planar)
         #: Numbers of the position and the orientation of each point; some share one.
         self.position = _numbers(tables, "same_pos", 1, _hinged(tables), found)
         self.orientation = _numbers(tables, "same_orien", 2, {}, found)
@@ -188,7 +188,7 @@ class _Making:
             "opacity": entry.get("opacity"),
             "drawn": False if entry.get("hide") else None,
         }
-        self.draft.appearance.give(
+        self.draft.say_looks(
             [index], {key: value for key, value in said.items() if value is not None}
         )
         if shape is not None and kind.member in (Member.BAR, Member.BEAM):
@@ -268,10 +268,10 @@ class _Making:
             ):
                 if self._is_given(point, entry, f"{stem}{end}", number):
                     axes = AXES[self.draft.node_kind[number]]
-                    table: dict[int, tuple[float, ...]] = getattr(self.draft.loads, kind)
+                    table: dict[int, tuple[float, ...]] = getattr(self.draft, kind)
                     table[number] = self._in_scene(entry[f"{stem}{end}"], axes)
         gravity = self._in_scene(self.tables.gravity, (0, 1) if self.tables.planar else (0, 1, 2))
-        self.draft.loads.gravity = gravity
+        self.draft.gravity = gravity
 
     def _axes(self, number: int) -> tuple[int, ...]:
         """Of a node that an element uses."""

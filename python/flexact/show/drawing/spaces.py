@@ -12,7 +12,7 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...util.records import Frozen
-from .rotations import frames_along, unit
+from ...util.rotations import frames_along, unit
 
 #: Half the length of a line, and of an arrow from the middle: parts of the drawing's size.
 _REACH, _ARROW = 0.42, 0.26

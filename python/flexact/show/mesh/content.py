@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.modes import SelfStress
-from ...analysis.result import Result
+from ...analysis.result import Result, SelfStress
 from ...analysis.verdict_words import certainty_word, verdict_word
 from ...core.arrays import BoolArray, FloatArray
 from ...model.data import ModelData
 from ...model.parts.forms import forms_of
 from ...util.partial import attempted
 from ...util.records import Frozen, cached_property
+from ...util.rotations import frames_along, vector_of
 from ..drawing import (
     QUANTITIES,
     Drawing,
@@ -36,7 +36,6 @@ from ..drawing import (
 )
 from ..drawing.movement import scale_of
 from ..drawing.pose import by_shape
-from ..drawing.rotations import frames_along, vector_of
 from ..drawing.selection import select_motion
 
 if TYPE_CHECKING:
@@ -568,7 +567,7 @@ class Meshes:
         self.small = analysis.given.arrays.element_number.size <= MOST_SURFACES
         drawn = analysis.given.appearance.drawn
         self.skinned = drawn if self.small else np.zeros_like(drawn)
-        self.reference = self.layout(self.drawing.reference)
+        self.reference = layout_of(self.drawing, self.drawing.reference, self.skinned)
         self.symbols = symbols_of(self.drawn) if self.small else NO_SYMBOLS
 
     @cached_property
@@ -581,10 +580,6 @@ class Meshes:
         """The drawing with what is not drawn, too."""
         data = self.analysis.given
         return self.drawn if data.appearance.drawn.all() else drawing_of(_all_drawn(data))
-
-    def layout(self, pose: Pose) -> Layout:
-        """The points and cells in a pose."""
-        return layout_of(self.drawing, pose, self.skinned)
 
     @property
     def most_modes(self) -> int:
@@ -604,21 +599,17 @@ class Meshes:
             scale = scale_of(self.drawn, shown)
             moved, turned = self._motion(shown.displacement, shown.rotation)
             moved, turned = scale * moved, scale * turned
-        return self.with_data(self.points(self.drawing.reference), moved, turned)
+        points = np.concatenate((self.reference.points, self.symbols.points))
+        return self._made(points, moved, turned)
 
-    def points(self, pose: Pose) -> FloatArray:
-        """(n, 3) all points in a pose [m]."""
-        here = self.reference if pose is self.drawing.reference else self.layout(pose)
-        return np.concatenate((here.points, self.symbols.points_in(pose, self.drawing.reference)))
-
-    def moved(self, pose: Pose) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """(n, 3) each: points in a pose, their displacements [m] and rotations [rad]."""
-        here, start = self.layout(pose), self.reference
+    def moved(self, pose: Pose) -> Mesh:
+        """The mesh in a pose: `displacement` and `rotation` are finite, since the reference."""
+        here, start = layout_of(self.drawing, pose, self.skinned), self.reference
         turned = vector_of(here.frame @ np.swapaxes(start.frame, -1, -2))[start.axis_point]
         symbols = self.symbols.points_in(pose, self.drawing.reference)
         points = np.concatenate((here.points, symbols))
         away = points - np.concatenate((start.points, self.symbols.points))
-        return points, away, np.concatenate((turned, np.zeros_like(symbols)))
+        return self._made(points, away, np.concatenate((turned, np.zeros_like(symbols))))
 
     def _motion(
         self, displacement: FloatArray, rotation: FloatArray
@@ -628,8 +619,8 @@ class Meshes:
         along = displacement[self.symbols.node]
         return np.concatenate((moved, along)), np.concatenate((turned, np.zeros_like(along)))
 
-    def with_data(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
-        """A mesh with these points, displacements and rotations, (n, 3) each."""
+    def _made(self, points: FloatArray, moved: FloatArray, turned: FloatArray) -> Mesh:
+        """The mesh with these points, displacements and rotations, (n, 3) each."""
         values = {"displacement": moved, "rotation": turned, **self._of_analysis}
         symbols, given = self.symbols, self.analysis.given
         vertices, lines, quads = self.reference.corners

@@ -24,6 +24,7 @@ from ...util.partial import attempted
 from ..page.assets import SCRIPTS, asset, image, text
 from ..page.content import content_of
 from ..picture import has_packages, picture_bytes
+from ..writers import as_bytes
 
 #: What starts a page from disk is left out.
 _START = "start.js"
@@ -64,7 +65,7 @@ def script() -> str:
 
 def packed(text: str) -> str:
     """Text compressed, in letters; the same each time."""
-    content = text.encode("utf-8", "backslashreplace")
+    content = as_bytes(text)
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
 
 

@@ -13,6 +13,7 @@ from ...analysis.result import Result, result_of
 from ...deck.rendering import ModelError, model_error
 from ...util.partial import attempted
 from ..picture import has_packages, picture_bytes
+from ..writers import as_bytes
 from . import before_and_after, page
 
 
@@ -33,13 +34,13 @@ def page_of(advice: Advice, change: Change, words: Pieces) -> bytes:
     stills = _still(before), _still(after)
     spaces = advice.spaces, _spaces_after(advice, after)
     made = before_and_after(before, after, words, told, stills, spaces=spaces)
-    return made.encode("utf-8", "backslashreplace")
+    return as_bytes(made)
 
 
 def page_as_it_is(advice: Advice) -> bytes:
     """The page of a mechanism alone, with freedom and constraint to be switched on."""
     made = page(advice.analysis, _still(advice.analysis), advice.spaces)
-    return made.encode("utf-8", "backslashreplace")
+    return as_bytes(made)
 
 
 def picture_of(advice: Advice, suffix: str) -> bytes:

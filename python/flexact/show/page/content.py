@@ -16,9 +16,8 @@ from ...advice.describe import VerdictInWords, verdict_in_words
 from ...advice.spaces.spaces import Spaces
 from ...advice.ways_words import lines_on_motions, lines_on_self_stresses
 from ...analysis.mode_words import conflict_in_words, motion_in_parts, stress_in_parts
-from ...analysis.modes import Motion, SelfStress
 from ...analysis.naming import Line, Named, Pieces
-from ...analysis.result import Result
+from ...analysis.result import Motion, Result, SelfStress
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import (
     decision,
@@ -36,6 +35,7 @@ from ...util.loading import VERSION
 from ...util.partial import attempted, why
 from ...util.text import file_name, harmless
 from ..drawing import drawing_of
+from ..writers import as_bytes
 from .assets import (
     FEW_SHAPES,
     MOST_LINES,
@@ -107,7 +107,7 @@ def deck_of_model(data: ModelData) -> tuple[bytes, bool]:
     """The deck of a model, and whether it was written just now."""
     if data.source is not None:
         return data.source.text, False
-    return deck_of(data).encode("utf-8", "backslashreplace"), True
+    return as_bytes(deck_of(data)), True
 
 
 def _line(number: int, line: str, diagnostics: Sequence[Diagnostic]) -> str:
@@ -353,7 +353,7 @@ def _certainty(analysis: Result) -> str:
         how = "proven" if is_proven else "numerically certain"
         return f'<span class="sure">rank {how}</span>'
     counts = (analysis.under_constrained, analysis.over_constrained)
-    under, over = analysis.nearly or counts
+    under, over = counts if analysis.nearly is None else analysis.nearly[:2]
     other = (
         f": there may be {under} motion{'s' * (under != 1)} and "
         f"{over} self-stress{'es' * (over != 1)}"

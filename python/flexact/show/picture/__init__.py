@@ -5,10 +5,8 @@ matplotlib and pillow are imported only when one is drawn.
 """
 
 from ..drawing.view import ViewError, check_view
-from .animation import MOVING, VideoError
-from .files import STILLS
+from .animation import VideoError
 from .make import (
-    SUFFIXES,
     PictureError,
     check_packages,
     check_suffix,
@@ -21,9 +19,6 @@ from .make import (
 from .subject import SubjectError
 
 __all__ = [
-    "MOVING",
-    "STILLS",
-    "SUFFIXES",
     "PictureError",
     "SubjectError",
     "VideoError",

@@ -16,9 +16,9 @@ from ...advice.spaces.words import body_words, dashed_in_words, spaces_lines
 from ...analysis.naming import plain
 from ...analysis.result import Result
 from ...core.arrays import FloatArray
+from ...util.rotations import frames_along, matrix_of, unit, vector_of
 from ..drawing import Drawing, Pose, SpaceShape, dashes, reach_of, shape_of_space
 from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE
-from ..drawing.rotations import frames_along, matrix_of, unit, vector_of
 from ..drawing.spaces import shape_of_hold
 from .canvas import OVER, Canvas
 

@@ -49,8 +49,6 @@ _PDF: Any = {"pdf.fonttype": 42, "pdf.compression": 6}
 _UNDATED = {"CreationDate": None, "Creator": None, "Producer": None}
 #: A path's data, and what is left out of its numbers: less than a hundredth of a point.
 _PATH, _DIGITS = re.compile(r'<path [^>]*?\bd="[^"]*"'), re.compile(r"(\.\d\d)\d+")
-#: Suffixes of pictures that stand still.
-STILLS = (".png", ".svg", ".pdf")
 #: Colours of a GIF, and pixels of one colour from which on there might as well be more.
 _COLOURS, _ALIKE = 160, 30
 

@@ -23,18 +23,16 @@ from ...util.errors import BatchError, require_kind
 from ...util.text import harmless, in_short
 from ..drawing import drawing_of, swing
 from ..drawing.view import view_of
-from .animation import MOVING, check_encoder, moving_bytes
-from .animation import SUFFIXES as VIDEOS
+from ..writers import MOVING, PICTURES, VIDEOS
+from .animation import check_encoder, moving_bytes
 from .figure import compose
-from .files import STILLS, load_matplotlib, still_bytes
+from .files import load_matplotlib, still_bytes
 from .subject import Chosen, Subject, moving_subject, subjects_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-#: Suffixes of the files that a picture can be.
-SUFFIXES = (*STILLS, *MOVING)
 #: Pixels along a picture, of which matplotlib draws no more.
 _WIDEST = 2**15
 
@@ -49,8 +47,8 @@ def check_suffix(suffix: str) -> str:
     Raises:
         PictureError: It cannot.
     """
-    if suffix.lower() not in SUFFIXES:
-        kinds = ", ".join(known.removeprefix(".") for known in SUFFIXES)
+    if suffix.lower() not in PICTURES:
+        kinds = ", ".join(known.removeprefix(".") for known in PICTURES)
         what = f"{suffix!r} is no kind of picture" if suffix else "the picture has no suffix"
         raise PictureError(f"{what}: it is one of {kinds}, as the suffix of the file says")
     return suffix.lower()

@@ -14,7 +14,7 @@ from .designs import Numbers, StrokeCurve
 from .elastic_design import Measures, drives_of, numbers, over_levels
 
 
-class Asked(NamedTuple):
+class StrokePoints(NamedTuple):
     """The stroke: of which coordinate, and where."""
 
     node: int
@@ -24,7 +24,7 @@ class Asked(NamedTuple):
     """(n,) ascending, absolute."""
 
 
-class Along(NamedTuple):
+class Reached(NamedTuple):
     """What was reached of a stroke."""
 
     states: tuple[State, ...]
@@ -44,7 +44,7 @@ def values_of(start: float, stop: float, count: int, rest: float) -> FloatArray:
     return made
 
 
-def follow(elastic: Elastic, asked: Asked) -> Along:
+def follow(elastic: Elastic, asked: StrokePoints) -> Reached:
     """The states along a stroke, each way from where it rests, as far as they are found."""
     found: dict[float, State] = {}
     ends, why = [asked.rest, asked.rest], []
@@ -58,13 +58,13 @@ def follow(elastic: Elastic, asked: Asked) -> Along:
             ends[end] = reached
         why += [reason] if reason else []
     values = np.array(sorted(found))
-    return Along(
+    return Reached(
         tuple(found[v] for v in values.tolist()), values, (ends[0], ends[1]), "; ".join(why)
     )
 
 
 def _one_way(
-    elastic: Elastic, asked: Asked, way: Sequence[float]
+    elastic: Elastic, asked: StrokePoints, way: Sequence[float]
 ) -> tuple[tuple[State, ...], float, str]:
     """States from the one at rest outward, how far that is, and why not farther."""
     reached, why, rest = way[-1] if way else asked.rest, "", asked.rest
@@ -84,40 +84,40 @@ def _one_way(
 def curve_of(
     measures: Measures,
     rest: State,
-    along: Along,
+    reached: Reached,
     drive: tuple[int, str],
     is_locked: bool,
     progress: Callable[[float], None],
 ) -> StrokeCurve | None:
     """A design along the states that were reached; None without any."""
-    if not along.states:
+    if not reached.states:
         return None
     rows = []
-    for k, state in enumerate(along.states):
+    for k, state in enumerate(reached.states):
         rows.append(_row(measures, rest, state, drive, is_locked))
-        progress((k + 1) / len(along.states))
+        progress((k + 1) / len(reached.states))
     together = [_stacked([row[k] for row in rows]) for k in range(4)]
     stiffness, kept, own, force = together
     if is_locked:
-        own = _slopes(along.values, force)
+        own = _slopes(reached.values, force)
     frequencies = parasitic = None
     if measures.has_masses:
         frequencies = _stacked([row[4] for row in rows])
-        drives = [_drives(measures, state, is_locked) for state in along.states]
+        drives = [_drives(measures, state, is_locked) for state in reached.states]
         parasitic = _without(frequencies, drives)
         if not frequencies.value.size:
             frequencies = parasitic = None
     return StrokeCurve(
-        along.values,
+        reached.values,
         stiffness,
         Numbers(kept.value[:, 0], kept.uncertainty[:, 0]),
         Numbers(own.value[:, 0], own.uncertainty[:, 0]),
         Numbers(force.value[:, 0], force.uncertainty[:, 0]),
         frequencies,
         parasitic,
-        tuple(_is_stable(measures, state) for state in along.states),
-        tuple(state.under_constrained for state in along.states),
-        tuple(state.over_constrained for state in along.states),
+        tuple(_is_stable(measures, state) for state in reached.states),
+        tuple(state.under_constrained for state in reached.states),
+        tuple(state.over_constrained for state in reached.states),
     )
 
 
