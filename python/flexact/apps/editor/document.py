@@ -123,10 +123,9 @@ class Document:
     def clamped(self, position: Position) -> Position:
         """The nearest position that there is."""
         line = min(max(position.line, 0), len(self.lines) - 1)
-        if position.line > line:
-            return Position(line, len(self.lines[line].rstrip("\r\n")))
         length = len(self.lines[line].rstrip("\r\n"))
-        return Position(line, min(max(position.character, 0), length))
+        character = length if position.line > line else min(max(position.character, 0), length)
+        return Position(line, character)
 
     def taken(self, line: int, character: int) -> Position:
         """A position as an editor counts, as ours."""
