@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .advice.describe import MOST_MODES, describe
-from .analysis.decomposition import AccuracyGiven
+from .analysis.decomposition import AccuracyGiven, asked_for
 from .analysis.json import dictionary_of, text_of
 from .analysis.result import Result, result_of
-from .analysis.spaces import asked_for
 from .analysis.verdict import AnalysisError
 from .analysis.verdict_words import margin_in_short, warning_of, warnings_of
 from .core.arrays import FloatArray

@@ -23,7 +23,7 @@ from flexact.apps.editor.document import Document, Position
 from flexact.apps.editor.hover import hover_at
 from flexact.apps.editor.outline import folds_of, outline_of
 from flexact.apps.editor.problems import advice_on, opinion_on, problems_of
-from flexact.apps.watch.edit_session import Editor
+from flexact.apps.watch.edit_session import Session
 from flexact.apps.watch.messages import Job, Shown
 from flexact.apps.watch.scene import Stage
 from flexact.apps.watch.worker import answer_of
@@ -171,19 +171,19 @@ def _watch(deck: Path, folder: Path) -> str:
     told: list[Any] = []
     answer = answer_of(Job(str(deck), is_script=False), told.append)
     stage = Stage(deck.name)
-    editor = Editor(str(deck), stage)
-    words = [editor.renewed(answer), json.dumps(stage.scene.event(), allow_nan=False)]
+    session = Session(deck, stage)
+    words = [session.renewed(answer), json.dumps(stage.scene.event(), allow_nan=False)]
     if isinstance(answer, Shown):
         pickle.loads(answer.result)
-        for request in ({"do": "tell"}, _first_choice(editor), {"do": "undo"}):
+        for request in ({"do": "tell"}, _first_choice(session), {"do": "undo"}):
             if request is not None:
-                _, content = editor.post(json.dumps(request).encode())
+                _, content = session.post(json.dumps(request).encode())
                 words.append(json.dumps(content, allow_nan=False))
     return "\n".join(words)
 
 
-def _first_choice(editor: Editor) -> dict[str, Any] | None:
-    _, content = editor.post(b'{"do": "tell"}')
+def _first_choice(session: Session) -> dict[str, Any] | None:
+    _, content = session.post(b'{"do": "tell"}')
     for proposal in content["told"]["proposals"]:
         for item in proposal["items"]:
             return {"do": "set", "set": item["choices"][0]["set"]}

@@ -23,13 +23,11 @@ from numpy.typing import NDArray
 from ..core.arrays import Basis, FloatArray
 from ..core.elements import AXES, Class, Dual, NodeKind, coordinate_name, dual_table
 from ..model.parts.parts import surplus_of
-from .decomposition import Outcome, column_weights, row_weights
+from .decomposition import Decomposition, column_weights, row_weights
+from .limits import NO_LEVERAGE
 from .mode_basis import column_key, coordinate_key, deformation_key, ranked, row_key
 from .result import Result
 from .sparse_basis import Sparse, index_of, norms_of_product, row_norms, support_of
-
-#: Below this leverage a row does not reach into a space.
-_NOTHING = 1.0e-7
 
 #: By what equals are sorted, of an index.
 Key = Callable[[int], Any]
@@ -132,7 +130,7 @@ def is_releasable(result: Result) -> NDArray[np.bool_]:
     Where there is nothing else all are, of bodies of several members those with a name first.
     """
     element = result.condensed.elements[result.raw.row_label[0] - 1]
-    stressed = row_norms(result.stress_space) > _NOTHING
+    stressed = row_norms(result.stress_space) > NO_LEVERAGE
     for rigid in (
         [index for body in result.parts.bodies for index in body.elements],
         list(result.parts.links),
@@ -183,12 +181,12 @@ def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
             (np.abs(value), space._replace(value=np.abs(space.value))),
         )
     )
-    return np.where(reaction > _NOTHING * contributed, reaction, 0.0)
+    return np.where(reaction > NO_LEVERAGE * contributed, reaction, 0.0)
 
 
 def _largest(leverage: FloatArray, key: Key) -> list[int]:
     order = np.array(ranked(leverage, leverage.size, key), np.int64)
-    chosen: list[int] = order[leverage[order] > _NOTHING].tolist()
+    chosen: list[int] = order[leverage[order] > NO_LEVERAGE].tolist()
     return chosen
 
 
@@ -216,7 +214,7 @@ def spanning(rows: FloatArray, key: Key) -> list[int]:
     for _ in range(rows.shape[1]):
         norms = np.sqrt(np.einsum("ij,ij->i", rest, rest))
         first = ranked(norms, 1, key)
-        if not first or norms[first[0]] < _NOTHING:
+        if not first or norms[first[0]] < NO_LEVERAGE:
             break
         direction = rest[first[0]] / norms[first[0]]
         rest -= np.outer(rest @ direction, direction)
@@ -361,7 +359,7 @@ def _coordinates(result: Result, places: Coordinates) -> Iterator[Coordinate]:
     return (coordinate_of(result, *place) for place in places)
 
 
-def coordinate_of(result: Outcome, node: int, axis: int) -> Coordinate:
+def coordinate_of(result: Decomposition, node: int, axis: int) -> Coordinate:
     """The coordinate of a node along or about an axis, both by their index from 0."""
     arrays = result.data.arrays
     kind, number = int(arrays.node_kind[node]), int(arrays.node_number[node])

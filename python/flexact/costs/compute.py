@@ -12,12 +12,12 @@ import numpy as np
 from ..advice.proposal import tried
 from ..advice.releases.releases import releases_of
 from ..analysis.change import Change
+from ..analysis.decomposition import asked_for
 from ..analysis.deformation_words import deformation_word
 from ..analysis.locate import deformations_of
 from ..analysis.naming import deformation_in_words, plain
 from ..analysis.places import part_words
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..core.arrays import FloatArray
 from ..core.elements import Class, Member, member_table
 from ..deck.rendering import model_error

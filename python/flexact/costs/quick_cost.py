@@ -13,9 +13,8 @@ from ..analysis.places import part_words
 from ..analysis.result import Result
 from ..core.arrays import BoolArray, FloatArray
 from ..elasticity import ElasticError
-from ..elasticity.reduced import resultants_of
+from ..elasticity.reduced import peak_of, resultants_of
 from ..elasticity.solution import Solution
-from ..elasticity.state import peak_of
 from ..model.parts.parts import PartKind
 from ..util.errors import FlexactError
 from ..util.text import TIE, USUAL, harmless

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from ..model.words import is_word
+from ..model.deformations import is_word
 from ..util.errors import FlexactError
 from ..util.quantities import NOTCH, QuantityError, measured, quantity
 from ..util.text import in_short

@@ -20,6 +20,12 @@ def is_coordinate(given: object) -> bool:
     return isinstance(given, str) and given in COORDINATES
 
 
+def one_line(name: str) -> str:
+    """A name as the comment of a deck's line can hold it."""
+    line = "".join(c if c.isprintable() else " " for c in name)
+    return line.lstrip(" %#").rstrip()
+
+
 _TAIL = re.compile(r",?\s+(?:part\s+)?\d+\s+of\s+\d+$|,\s*\d+$")
 #: What SPACAR Light calls the beams of an element.
 _OF_ELEMENT = re.compile(r"^(element\s+\d+)\s+beam\s+\d+$")

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis.decomposition import asked_for
+from ..analysis.limits import TRUE
 from ..analysis.result import Result, result_of
-from ..analysis.spaces import asked_for
 from ..model.model import Model
 from ..model.reading import read
 from ..motion import Ending, Followed, Held, Wishes, follow, is_followed, least_error
 from ..motion.constraints import MOST_COORDINATES
-from ..motion.follow import TRUE
 from ..show.drawing.selection import Selection, select_motion
 from ..util.errors import FlexactError
 from ..util.quantities import Quantity, larger_in_words, without_units

@@ -20,8 +20,8 @@ from ..analysis.naming import (
 )
 from ..analysis.places import listed, with_article
 from ..motion import Ending, Stop
-from ..show.drawing.rotations import vector_of
 from ..show.writers import as_bytes
+from ..util.rotations import vector_of
 from .values import ROTATION, DeadPoint, Names, Step, Traced, Way, drive_unit
 
 _RANGES = {

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.mode_basis import without_sense
 from ...analysis.result import Result
 from ...analysis.screws import Screw, ScrewKind, screw_of
@@ -56,7 +56,7 @@ class Limb(NamedTuple):
 class Limbs:
     """The limbs of a mechanism, and where they end."""
 
-    def __init__(self, outcome: Outcome) -> None:
+    def __init__(self, outcome: Decomposition) -> None:
         """Keep the analysis; what is asked for is found then."""
         self.outcome = outcome
         self.parts = outcome.parts
@@ -161,7 +161,7 @@ def _by_name(part: Part) -> tuple[object, ...]:
     return natural(part.name), part.elements
 
 
-def position_of_hinge(outcome: Outcome, part: Part) -> int | None:
+def position_of_hinge(outcome: Decomposition, part: Part) -> int | None:
     """The position node at which a hinge stands; None where none is known."""
     arrays = outcome.given.arrays
     nodes = (arrays.element_node[:, part.elements[0]] - 1).tolist()

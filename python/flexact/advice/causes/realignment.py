@@ -14,14 +14,14 @@ import numpy as np
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.mode_basis import without_sense
-from ...analysis.modes import Motion
-from ...analysis.result import Result, result_of
+from ...analysis.result import Motion, Result, result_of
 from ...analysis.screws import Screw
 from ...core.arrays import FloatArray
 from ...core.elements import Vector, element_kinds
 from ...model.parts.parts import Part, PartKind
 from ...util.errors import FlexactError
 from ...util.records import cached_property
+from ...util.rotations import about
 from ..proposal import After, Proposal, Purpose, tried
 from .cause import Mend, Relation
 from .gradients import Gradients, node_key
@@ -55,7 +55,7 @@ def change_of(result: Result, limbs: Limbs, turn: Turn) -> Change | None:
     arrays = result.given.arrays
     elements = [index for part in turn.limb.parts for index in part.elements]
     found = set((arrays.element_node[[0, 2]][:, elements] - 1).ravel().tolist())
-    matrix = _rotation(turn.direction, turn.angle)
+    matrix = about(turn.direction, turn.angle)
     places = arrays.node_value[:3].T
     after = places.copy()
     made = {}
@@ -135,12 +135,6 @@ def _rounded(vector: FloatArray, size: float) -> tuple[float, float, float]:
     digits = 12 - int(np.floor(np.log10(size)))
     x, y, z = (float(np.round(value, digits)) + 0.0 for value in vector)
     return x, y, z
-
-
-def _rotation(axis: FloatArray, angle: float) -> FloatArray:
-    cross = np.cross(np.eye(3), axis)
-    made: FloatArray = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
-    return made
 
 
 #: How many limbs are turned, and what is spent: analyses times elements.

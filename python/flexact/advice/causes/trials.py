@@ -19,6 +19,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import Part
 from ...util.records import Frozen, cached_property
+from ...util.rotations import about
 from .cause import LineKind, Relation, RelationKind
 from .conditions import Condition, Figures, condition_of
 from .gradients import Geometry, rank_at
@@ -73,7 +74,7 @@ def _operations(
     for some in folds:
         for fold in some:
             for axis in axes if fold or not planar else _in_plane(axes):
-                matrix = _rotation(axis, 2.0 * np.pi / fold) if fold else _reflection(axis)
+                matrix = about(axis, 2.0 * np.pi / fold) if fold else _reflection(axis)
                 image = _image(places @ matrix.T, places, size)
                 if image is None or image == tuple(range(len(places))):
                     continue
@@ -109,12 +110,6 @@ def _in_plane(axes: list[FloatArray]) -> list[FloatArray]:
     return [axis for axis in axes if abs(float(axis[2])) <= _SAME]
 
 
-def _rotation(axis: FloatArray, angle: float) -> FloatArray:
-    cross = np.cross(np.eye(3), axis)
-    made: FloatArray = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
-    return made
-
-
 def _reflection(normal: FloatArray) -> FloatArray:
     made: FloatArray = np.eye(3) - 2.0 * np.outer(normal, normal)
     return made
@@ -133,7 +128,7 @@ def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...
 def make_symmetric(result: Result, one: Relation, places: FloatArray) -> None:
     """Put the joints of a symmetry, in the model as analysed, to places (nodes, 3) that have it."""
     is_turn = one.kind is RelationKind.ROTATION
-    matrix = _rotation(one.direction, 2.0 * np.pi / one.fold)
+    matrix = about(one.direction, 2.0 * np.pi / one.fold)
     matrix = matrix if is_turn else _reflection(one.direction)
     own = np.searchsorted(result.condensed.nodes, one.nodes)
     now = result.given.arrays.node_value[:3, list(one.nodes)].T - one.point

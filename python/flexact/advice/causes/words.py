@@ -12,7 +12,6 @@ import numpy as np
 
 from ...analysis.mode_basis import coordinate_key, row_key
 from ...analysis.mode_words import conflict_in_words, line_words
-from ...analysis.modes import Motion
 from ...analysis.naming import (
     Named,
     Piece,
@@ -37,7 +36,7 @@ from ...analysis.places import (
     place_words,
     with_article,
 )
-from ...analysis.result import Result
+from ...analysis.result import Motion, Result
 from ...analysis.screws import Screw, ScrewKind
 from ...core.arrays import FloatArray
 from ...core.elements import AXES, Class, coordinate_name

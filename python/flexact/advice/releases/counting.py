@@ -10,9 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.change import Change
-from ...analysis.decomposition import Asked
+from ...analysis.decomposition import Asked, decompose
 from ...analysis.result import Result
-from ...analysis.spaces import decompose
 from ...analysis.verdict import Alternative, AnalysisError
 from ...model.data import ModelData
 from ...model.parts.condensing import as_given

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...analysis.calls import HOLD, calls_of_change, method_of
 from ...analysis.change import Change
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.deformation_words import bending_of, deformation_words, role_of
 from ...analysis.naming import (
     Named,
@@ -63,14 +63,14 @@ class Phrase(NamedTuple):
         return self.before, self.what
 
 
-def outcome_as_given(result: Result) -> Outcome:
+def outcome_as_given(result: Result) -> Decomposition:
     """The outcome on the elements and nodes of the model as given, for words alone."""
     if not result.condensed.chains:
         return result
-    return Outcome(result.name, as_given(result.given), result.raw, result.asked)
+    return Decomposition(result.name, as_given(result.given), result.raw, result.asked)
 
 
-def released(outcome: Outcome, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
+def released(outcome: Decomposition, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
     """What is done to release deformations, part by part.
 
     Args:
@@ -84,13 +84,13 @@ def released(outcome: Outcome, deformations: Iterable[Deformation]) -> tuple[Phr
     )
 
 
-def held(outcome: Outcome, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
+def held(outcome: Decomposition, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
     """What is done to hold released deformations, one by one."""
     return tuple(_held(outcome, *one) for one in deformations)
 
 
 def _by_part(
-    outcome: Outcome, deformations: Iterable[Deformation]
+    outcome: Decomposition, deformations: Iterable[Deformation]
 ) -> Iterator[tuple[Part, list[Deformation]]]:
     """Deformations by part; those of a body by its members."""
     made: dict[tuple[Part, int], list[Deformation]] = {}
@@ -102,7 +102,7 @@ def _by_part(
         yield part, mine
 
 
-def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[Phrase]:
+def _of_part(outcome: Decomposition, part: Part, mine: list[Deformation]) -> Iterator[Phrase]:
     name = named_element(outcome, mine[0][0])
     if part.kind is PartKind.HINGE:
         yield from _of_hinge(outcome, part, name, mine)
@@ -125,7 +125,7 @@ def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[
             yield _one(outcome, part, name, *one)
 
 
-def _one(outcome: Outcome, part: Part, name: Named, element: int, number: int) -> Phrase:
+def _one(outcome: Decomposition, part: Part, name: Named, element: int, number: int) -> Phrase:
     """A deformation that is no in-plane bending of a sheet."""
     if part.kind is PartKind.BODY:
         return _of_body(outcome, name, element, number)
@@ -144,7 +144,7 @@ def _one(outcome: Outcome, part: Part, name: Named, element: int, number: int) -
     return Phrase("let ", name, " give", "", f" ({word} free)")
 
 
-def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase:
+def _of_body(outcome: Decomposition, name: Named, element: int, number: int) -> Phrase:
     """A deformation of a rigid member, which is one of several of its body or the body itself."""
     index = outcome.data.element_index[element]
     role, word = _role(outcome, element, number), _word(outcome, element, number)
@@ -170,7 +170,7 @@ def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase
 
 
 def _of_hinge(
-    outcome: Outcome, part: Part, name: Named, mine: list[Deformation]
+    outcome: Decomposition, part: Part, name: Named, mine: list[Deformation]
 ) -> Iterator[Phrase]:
     roles = {_role(outcome, *one) for one in mine}
     is_bearing = bool(roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z})
@@ -190,7 +190,7 @@ def _of_hinge(
             yield Phrase("let ", name, " slide", word.removeprefix("displacement"))
 
 
-def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation]) -> Phrase:
+def _taken_out(outcome: Decomposition, part: Part, name: Named, mine: list[Deformation]) -> Phrase:
     """A part that holds nothing else."""
     if len(mine) > 1:
         return Phrase("take ", name, " out")
@@ -202,12 +202,12 @@ def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation
     return Phrase("take ", name, f" out, or {instead}", "", free)
 
 
-def _holds_nothing_else(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> bool:
+def _holds_nothing_else(outcome: Decomposition, part: Part, mine: Sequence[Deformation]) -> bool:
     """Whether these are all that a part, other than a body, holds."""
     return part.kind is not PartKind.BODY and not _held_without(outcome, part, mine)
 
 
-def _held_without(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> list[int]:
+def _held_without(outcome: Decomposition, part: Part, mine: Sequence[Deformation]) -> list[int]:
     """What a part holds, or has declared, without some: deformations of one beam, from 1."""
     index = outcome.data.element_index
     row = next((c for c in outcome.data.chains if c.elements[0] == part.elements[0]), None)
@@ -226,7 +226,7 @@ def _held_without(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> 
     ]
 
 
-def _can_go(outcome: Outcome, part: Part) -> bool:
+def _can_go(outcome: Decomposition, part: Part) -> bool:
     """Whether every node at an end of a part that can move is one of another part as well."""
     arrays = outcome.given.arrays
     slots = arrays.element_node - 1
@@ -241,7 +241,7 @@ def _is_free(given: int) -> bool:
     return given == Class.DEPENDENT
 
 
-def _held(outcome: Outcome, element: int, number: int) -> Phrase:
+def _held(outcome: Decomposition, element: int, number: int) -> Phrase:
     """What is done to hold a released deformation."""
     index = outcome.data.element_index[element]
     part, name = outcome.parts.of_element(index), named_element(outcome, element)
@@ -259,20 +259,20 @@ def _held(outcome: Outcome, element: int, number: int) -> Phrase:
     return Phrase("stiffen ", name, "", "", f" ({word} held)")
 
 
-def _word(outcome: Outcome, element: int, number: int) -> str:
+def _word(outcome: Decomposition, element: int, number: int) -> str:
     return deformation_words(outcome, outcome.data.element_index[element], number)
 
 
-def _role(outcome: Outcome, element: int, number: int) -> int:
+def _role(outcome: Decomposition, element: int, number: int) -> int:
     return role_of(outcome, outcome.data.element_index[element], number)
 
 
-def _is_planar(outcome: Outcome, element: int) -> bool:
+def _is_planar(outcome: Decomposition, element: int) -> bool:
     kind = outcome.data.arrays.element_kind[outcome.data.element_index[element]]
     return bool(planar_table()[kind])
 
 
-def _is_in_plane(outcome: Outcome, element: int, number: int) -> bool:
+def _is_in_plane(outcome: Decomposition, element: int, number: int) -> bool:
     """Whether a deformation is the bending of a sheet in its own plane."""
     index = outcome.data.element_index[element]
     if outcome.parts.form[index] != Form.SHEET or _is_planar(outcome, element):
@@ -281,7 +281,7 @@ def _is_in_plane(outcome: Outcome, element: int, number: int) -> bool:
     return bending is not None and bending.word == "in-plane bending"
 
 
-def _place(outcome: Outcome, part: Part, element: int, number: int) -> str:
+def _place(outcome: Decomposition, part: Part, element: int, number: int) -> str:
     """The end at which a part bends."""
     bending = bending_of(outcome, outcome.data.element_index[element], number)
     if bending is None or bending.position not in part.ends:
@@ -338,13 +338,13 @@ def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
     return tuple(piece for piece in pieces if piece)
 
 
-def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> tuple[Phrase, ...]:
+def _phrases(outcome: Decomposition, purpose: Purpose, change: Change) -> tuple[Phrase, ...]:
     deformations = [(element, number) for element, number, _ in change.deformations]
     made = (held if purpose is Purpose.HOLD else released)(outcome, deformations)
     return made + tuple(_freed(outcome, node, name) for node, name, _ in change.coordinates)
 
 
-def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
+def _freed(outcome: Decomposition, node: int, name: str) -> Phrase:
     """A support that lets a coordinate go."""
     where = coordinate_in_words(outcome, node, name)[0]
     assert isinstance(where, Named)
@@ -354,7 +354,7 @@ def _freed(outcome: Outcome, node: int, name: str) -> Phrase:
     return Phrase("let ", where, " slide", f" along {name}")
 
 
-def _which_end(outcome: Outcome, node: int) -> str:
+def _which_end(outcome: Decomposition, node: int) -> str:
     """Where a support is, if the part that it holds has another that is called the same."""
     place = outcome.parts.place_of(outcome.given.node_index[node])
     here = () if place is None else outcome.parts.at(place)
@@ -364,7 +364,7 @@ def _which_end(outcome: Outcome, node: int) -> str:
     return f" at ({at}" if words else ""
 
 
-def _coordinates(outcome: Outcome, change: Change) -> Pieces:
+def _coordinates(outcome: Decomposition, change: Change) -> Pieces:
     """Coordinates by their points and bodies; those inside of sheets and wires are counted."""
     names: dict[str, Named] = {}
     ways: dict[str, dict[str, list[str]]] = {}
@@ -397,7 +397,7 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
     return _listed(items[:_MOST_NAMED], len(items) - _MOST_NAMED)
 
 
-def _of_several_points(outcome: Outcome, change: Change) -> dict[str, set[int]]:
+def _of_several_points(outcome: Decomposition, change: Change) -> dict[str, set[int]]:
     """Positions by what they are called, of those where several are called the same."""
     data = outcome.given.arrays
     called: dict[str, set[int]] = {}
@@ -479,7 +479,7 @@ def _listed(items: Sequence[Pieces], more: int = 0) -> Pieces:
     return tuple(piece for piece in made if piece)
 
 
-def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
+def _note(outcome: Decomposition, purpose: Purpose, change: Change) -> str:
     """How it is done: in a deck by statements, in Python by calls."""
     if purpose is not Purpose.HOLD:
         statements = [_statements(outcome, change, "RLSE")] if change.deformations else []
@@ -489,7 +489,7 @@ def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
     return _statements(outcome, change, HOLD)
 
 
-def _statements(outcome: Outcome, change: Change, keyword: str, before: str = "") -> str:
+def _statements(outcome: Decomposition, change: Change, keyword: str, before: str = "") -> str:
     """Statements of a deck, or calls; empty where there is no call for one of them."""
     if outcome.given.source is not None:
         statements = [f"{keyword} {operands}" for operands in _operands(outcome, change)]
@@ -502,7 +502,7 @@ def _statements(outcome: Outcome, change: Change, keyword: str, before: str = ""
     return ", ".join(calls)
 
 
-def _operands(outcome: Outcome, change: Change) -> list[str]:
+def _operands(outcome: Decomposition, change: Change) -> list[str]:
     """Numbers of elements and their deformations, and of nodes and their components."""
     of_element: dict[int, list[int]] = {}
     for element, number, _ in change.deformations:
@@ -515,7 +515,7 @@ def _operands(outcome: Outcome, change: Change) -> list[str]:
     return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
 
 
-def _coordinate(outcome: Outcome, node: int, name: str) -> Coordinate:
+def _coordinate(outcome: Decomposition, node: int, name: str) -> Coordinate:
     index = outcome.data.node_index[node]
     kind = int(outcome.data.arrays.node_kind[index])
     axis = next(axis for axis in AXES[kind] if coordinate_name(kind, axis) == name)

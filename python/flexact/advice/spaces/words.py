@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...analysis.change import AddedSheet, AddedWire
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.mode_words import line_words
 from ...analysis.naming import (
     Line,
@@ -46,7 +46,7 @@ from .wanted_motion import Wanted
 class Geometry:
     """Lines, planes and points of a mechanism in words: by names where something lies there."""
 
-    def __init__(self, outcome: Outcome) -> None:
+    def __init__(self, outcome: Decomposition) -> None:
         """Of the mechanism as it was given."""
         self.outcome = outcome
         self._values = outcome.given.arrays.node_value[:3].T

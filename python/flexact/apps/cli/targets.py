@@ -8,7 +8,7 @@ import os
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ...analysis.json import text_of
 from ...analysis.result import Result
@@ -24,9 +24,9 @@ from ...util.errors import BatchError
 from ...util.interruption import unwinding
 from ...util.outputs import STDOUT, OutputError, plan_file, plan_files, write_together
 from . import decks as failures
-from .command import require_once
 from .decks import foreseen
-from .terminal import complain, put
+from .parser import Argument, Group, argument
+from .terminal import put
 
 #: Suffixes of decks besides that of the deck that was read.
 DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
@@ -129,83 +129,19 @@ def write_text(target: Path, content: bytes) -> None:
 FORMATS = ("vtu", "vtk", "xdmf")
 
 
-def add_mesh(parser: argparse.ArgumentParser, target: str) -> None:
-    """Add the format of the meshes to a verb's parser.
-
-    Args:
-        parser: The parser.
-        target: The option that names their folder.
-    """
-    parser.add_argument(
+def mesh_argument(target: str) -> Argument:
+    """The format of the meshes in the folder that the option `target` names."""
+    return argument(
         "--mesh",
         metavar="FORMAT",
         help=f"format of the meshes of {target}: {', '.join(FORMATS)} (default {FORMATS[0]})",
     )
 
 
-def _is_mesh(value: object) -> bool:
-    return str(value).lower().removeprefix(".") in FORMATS
-
-
-class FormsOrMeshes(tuple[str, ...]):
-    """Values of --format, among which formats of meshes are still taken, and not shown."""
-
-    __slots__ = ()
-
-    def __contains__(self, value: object) -> bool:
-        """Whether it is taken."""
-        return super().__contains__(value) or _is_mesh(value)
-
-
-class FormatOrMesh(argparse.Action):
-    """Stores --format, or what once was said by it as --mesh, with a word on stderr."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        """Store it where it belongs."""
-        dest = "mesh" if _is_mesh(values) else self.dest
-        if dest == "mesh":
-            complain(f"warning: {option_string} {values} is now called --mesh {values}")
-        require_once(parser, namespace, dest, values, option_string)
-        setattr(namespace, dest, values)
-
-
-def add_deck(
-    parser: argparse.ArgumentParser, words: str, kind: Callable[[str], Path] = file
-) -> None:
-    """Add the one deck to a verb's parser, and the file made of it, which `words` describe."""
-    parser.add_argument("deck", metavar="DECK", help="a deck, or - for stdin")
-    parser.add_argument("-o", "--output", type=kind, metavar="FILE", required=True, help=words)
-
-
-def add_shown(parser: argparse.ArgumentParser, title: str = "what is shown") -> Any:
-    """Add the choice of the motion to a verb's parser; numbers count from 1.
-
-    Returns:
-        The group of options, for more of them.
-    """
-    group = parser.add_argument_group(title)
-    which = group.add_mutually_exclusive_group()
-    which.add_argument(
-        "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
-    )
-    which.add_argument(
-        "--freedom",
-        type=number_or_name,
-        metavar="K",
-        help="show declared degree of freedom K, or that of a name, such as 'stage y'",
-    )
-    return group
-
-
-def add_no_browser(parser: argparse.ArgumentParser) -> None:
-    """Add to a verb's parser that no browser is to be opened."""
-    parser.add_argument("--no-browser", action="store_true", help="open no browser")
+def deck_arguments(words: str, kind: Callable[[str], Path] = file) -> tuple[Argument, ...]:
+    """The one deck of a verb, and the file made of it, which `words` describe."""
+    output = argument("-o", "--output", type=kind, metavar="FILE", required=True, help=words)
+    return DECK, output
 
 
 def number(text: str) -> int:
@@ -219,9 +155,58 @@ def number(text: str) -> int:
     return value
 
 
+def address(text: str) -> str:
+    """Where a scheduler is, as an option's type."""
+    if not re.fullmatch(r"[a-z]+://\S+:\d+", text):
+        raise argparse.ArgumentTypeError(f"tcp://host:port of a scheduler is wanted, not {text!r}")
+    return text
+
+
 def number_or_name(text: str) -> int | str:
     """A whole number from 1, or a name, as an option's type."""
     return number(text) if text.strip().lstrip("+-").isdecimal() or not text.strip() else text
+
+
+DECK = argument("deck", metavar="DECK", help="a deck, or - for stdin")
+NO_BROWSER = argument("--no-browser", action="store_true", help="open no browser")
+#: The choice of the motion; numbers count from 1.
+SHOWN_MOTION = Group(
+    "",
+    (
+        argument(
+            "--motion", type=number, metavar="K", help="show motion K (default: the first, if any)"
+        ),
+        argument(
+            "--freedom",
+            type=number_or_name,
+            metavar="K",
+            help="show declared degree of freedom K, or that of a name, such as 'stage y'",
+        ),
+    ),
+)
+#: Who does the work on many decks.
+WORKERS = Group(
+    "who does the work",
+    (
+        Group(
+            "",
+            (
+                argument(
+                    *("-j", "--workers"),
+                    type=number,
+                    metavar="N",
+                    help="processes (default: one a processor)",
+                ),
+                argument(
+                    "--dask",
+                    type=address,
+                    metavar="ADDRESS",
+                    help="work on a Dask cluster: tcp://host:port of its scheduler",
+                ),
+            ),
+        ),
+    ),
+)
 
 
 def one_deck(chosen: argparse.Namespace) -> DeckFile:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import replace
 from enum import Enum
 from typing import NamedTuple
@@ -14,6 +13,7 @@ import numpy as np
 from ...core.arrays import IntArray, ModelArrays
 from ...core.elements import Class, Member, NodeKind
 from ...deck.rendering import model_error
+from ...util.groups import groups_of
 from ...util.records import cached_property
 from ...util.text import harmless, in_short
 from ..data import ModelData
@@ -67,21 +67,6 @@ def bodies_of(arrays: ModelArrays) -> tuple[Body, ...]:
             )
         )
     return tuple(sorted(made))
-
-
-def groups_of(count: int, pairs: Iterable[tuple[int, int]]) -> np.ndarray:
-    """(count,) of each thing one of its group, the same for all of the group."""
-    owner = list(range(count))
-
-    def root(i: int) -> int:
-        while owner[i] != i:
-            owner[i] = owner[owner[i]]
-            i = owner[i]
-        return i
-
-    for i, j in pairs:
-        owner[root(i)] = root(j)
-    return np.array([root(i) for i in range(count)], dtype=np.int64)
 
 
 class PartKind(str, Enum):

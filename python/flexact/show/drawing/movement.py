@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...analysis.body_motions import Velocities
-from ...analysis.decomposition import Outcome
+from ...analysis.decomposition import Decomposition
 from ...analysis.freedoms import FreeMotion
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Class, NodeKind, Role, role_table
@@ -20,9 +20,9 @@ from ...model.parts.parts import bodies_of
 from ...motion.constraints import Held, Place, is_followed
 from ...motion.stations import onward, settle
 from ...util.records import Frozen
+from ...util.rotations import between, matrix_of, screw_matrix, vector_of
 from .drawing import Drawing
 from .pose import Moving, Pose, field_along, pose_of, reference_pose, stations
-from .rotations import between, matrix_of, screw_matrix, vector_of
 
 
 def poses_with_inner_nodes(condensed: Condensed, poses: Iterable[Pose]) -> tuple[Pose, ...]:
@@ -203,7 +203,7 @@ class Natural(FreeMotion):
     """The motion of a degree of freedom in which what nothing determines bends least."""
 
 
-def natural_shape(outcome: Outcome, motion: FreeMotion) -> FreeMotion:
+def natural_shape(outcome: Decomposition, motion: FreeMotion) -> FreeMotion:
     """A motion of a degree of freedom with the least bending of what is free.
 
     It is the motion itself where everything is determined, or bends least as it is.
@@ -242,7 +242,7 @@ def _both(velocities: Velocities) -> FloatArray:
     return velocities.displacement + velocities.rotation
 
 
-def _rates(outcome: Outcome, velocity: FloatArray) -> FloatArray:
+def _rates(outcome: Decomposition, velocity: FloatArray) -> FloatArray:
     """(elements, 6) of the deformations that are released; the others are 0."""
     raw, arrays = outcome.assembly, outcome.data.arrays
     count = arrays.element_number.size
@@ -252,7 +252,7 @@ def _rates(outcome: Outcome, velocity: FloatArray) -> FloatArray:
     return np.where(arrays.deformation_class.T == Class.DEPENDENT, made, 0.0)
 
 
-def _stiffness(outcome: Outcome) -> FloatArray | None:
+def _stiffness(outcome: Decomposition) -> FloatArray | None:
     """(elements, 6) of ESTIFF, where every element with released deformations has it.
 
     What is not given is 0: rigid bodies have no stiffness, and no rates that it would multiply.
@@ -265,7 +265,7 @@ def _stiffness(outcome: Outcome) -> FloatArray | None:
     return made if np.all(made[released].any(axis=1)) else None
 
 
-def _stress(outcome: Outcome, rates: FloatArray) -> FloatArray:
+def _stress(outcome: Decomposition, rates: FloatArray) -> FloatArray:
     """(elements, 6) K e; deformations of beams are lengths, their length times an angle."""
     data = outcome.data
     role, length = role_table()[data.arrays.element_kind], data.frames.length

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.arrays import FloatArray
 from ...util.records import Frozen
-from .rotations import frames_along, unit
+from ...util.rotations import frames_along, unit
 
 if TYPE_CHECKING:
     from ...advice.holding import Hold

@@ -11,10 +11,10 @@ import numpy as np
 
 from ...core.arrays import FloatArray, ModelArrays
 from ...core.elements import Class, NodeKind
-from ...model.parts.parts import groups_of
+from ...util.groups import groups_of
 from ...util.records import Frozen
+from ...util.rotations import frames_along, unit
 from .members import Members, turned_at
-from .rotations import frames_along, unit
 
 #: How much a block stands out beside a member, and how thick it is: parts of the symbol's size.
 BESIDE, THICK = 0.55, 0.6

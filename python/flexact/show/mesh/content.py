@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.modes import SelfStress
-from ...analysis.result import Result
+from ...analysis.result import Result, SelfStress
 from ...analysis.verdict_words import certainty_word, verdict_word
 from ...core.arrays import BoolArray, FloatArray
 from ...model.data import ModelData
 from ...model.parts.forms import forms_of
 from ...util.partial import attempted
 from ...util.records import Frozen, cached_property
+from ...util.rotations import frames_along, vector_of
 from ..drawing import (
     QUANTITIES,
     Drawing,
@@ -36,7 +36,6 @@ from ..drawing import (
 )
 from ..drawing.movement import scale_of
 from ..drawing.pose import by_shape
-from ..drawing.rotations import frames_along, vector_of
 from ..drawing.selection import select_motion
 from ..drawing.supports import rings_about
 

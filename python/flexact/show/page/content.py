@@ -336,7 +336,7 @@ def _certainty(analysis: Result) -> str:
         how = "proven" if is_proven else "numerically certain"
         return f'<span class="sure">rank {how}</span>'
     counts = (analysis.under_constrained, analysis.over_constrained)
-    under, over = analysis.nearly or counts
+    under, over = counts if analysis.nearly is None else analysis.nearly[:2]
     other = (
         f": there may be {under} motion{'s' * (under != 1)} and "
         f"{over} self-stress{'es' * (over != 1)}"

@@ -14,6 +14,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...core.elements import NodeKind
 from ...util.partial import attempted
+from ...util.rotations import euler_of
 from ..drawing import (
     QUANTITIES,
     UNITS,
@@ -27,7 +28,6 @@ from ..drawing import (
     resultants,
     stations,
 )
-from ..drawing.rotations import euler_of
 from ..drawing.selection import way_of
 from .assets import (
     FEW_MODES,

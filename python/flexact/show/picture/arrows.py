@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...core.arrays import FloatArray
+from ...util.rotations import frames_along, matrix_of, unit, vector_of
 from ..drawing import Drawing, Pose, dashes, reach_of
 from ..drawing.members import ARROW, CONSTRAINT_SPACE, FREEDOM, FREEDOM_SPACE, NEW_WIRE
-from ..drawing.rotations import frames_along, matrix_of, unit, vector_of
 from ..spaces import SpaceShown
 from .canvas import OVER, Canvas
 
