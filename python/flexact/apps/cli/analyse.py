@@ -14,6 +14,7 @@ from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
 from ...deck.rendering import DeckError
 from ...model.reading import read_deck
+from ...show.writers import TABLES
 from ...util.decks import DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.loading import load
@@ -23,7 +24,7 @@ from . import decks as failures
 from . import terminal as colour
 from .decks import ACCURACY_AND_BEYOND, DECISION, DECKS, read_and_analysed, report_problems, take
 from .parser import Verb, argument
-from .summary import TABLES, is_table, summarise_results, summary_argument
+from .summary import is_table, summarise_results, summary_argument
 from .targets import folder_or, mesh_argument
 from .terminal import Bar, ExitCode, Outcome, complain, give, is_coloured, say, text_width
 

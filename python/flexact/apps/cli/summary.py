@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ...analysis.result import Result
 from ...analysis.verdict import Certainty, Verdict
 from ...analysis.verdict_words import certainty_word, margin_cells
+from ...show.writers import TABLES
 from ...util.decks import DeckFile
 from ...util.loading import load
 from ...util.text import columns as columns_of
@@ -154,8 +155,6 @@ def _in_common(names: Sequence[str]) -> tuple[str, str]:
     return folder, suffixes.pop() if len(suffixes) == 1 else ""
 
 
-#: Suffixes of -o that mean the table itself.
-TABLES = (".csv", ".jsonl", ".parquet")
 _COLUMNS = ("verdict", "under", "over", "freedoms", "margin", "certainty")
 
 
@@ -165,7 +164,7 @@ def summary_argument(about: str) -> Argument:
 
 
 def is_table(path: Path | None) -> bool:
-    """Whether a path names a table, by its suffix."""
+    """Whether a path names a table, by its suffix: -o means the table itself then."""
     return path is not None and path.suffix.lower() in TABLES
 
 

@@ -14,11 +14,13 @@ from ...analysis.json import text_of
 from ...analysis.result import Result
 from ...deck.rendering import ProblemsError
 from ...show.mesh import Meshes
+from ...show.mesh.collection import MESHES
+from ...show.mesh.file import FORMATS as MESH_FORMATS
 from ...show.mesh.file import find_format, mesh_bytes
 from ...show.page import Entry, broken_entry, broken_page, entry_of, unread_entry, with_way_back
 from ...show.saving import page_bytes, small_picture
 from ...show.spacar_log import log_text, spacar_log
-from ...show.writers import as_bytes
+from ...show.writers import PAGES, PICTURES, TABLES, as_bytes
 from ...util.decks import SUFFIX, DeckFile, find_decks
 from ...util.errors import BatchError
 from ...util.interruption import unwinding
@@ -34,12 +36,10 @@ DECKS = (SUFFIX, ".txt", ".inp", ".deck", "")
 _FILE = re.compile(r"\.[A-Za-z][A-Za-z0-9]{0,6}")
 #: What writes files of such suffixes, to be named where a folder was wanted.
 _MAKERS = {
-    **dict.fromkeys((".html", ".htm"), "a page is made by flexact report"),
-    **dict.fromkeys(
-        (".png", ".svg", ".gif", ".pdf", ".mp4", ".webm"), "a picture is made by flexact picture"
-    ),
-    **dict.fromkeys((".csv", ".jsonl", ".parquet"), "a table is made by flexact batch"),
-    **dict.fromkeys((".vtu", ".vtp", ".vtk", ".xdmf", ".pvd"), "a mesh is made by flexact export"),
+    **dict.fromkeys(PAGES, "a page is made by flexact report"),
+    **dict.fromkeys(PICTURES, "a picture is made by flexact picture"),
+    **dict.fromkeys(TABLES, "a table is made by flexact batch"),
+    **dict.fromkeys(MESHES.suffixes, "a mesh is made by flexact export"),
     ".json": "for JSON on standard output say --json of flexact analyse",
     SUFFIX: "a deck is made by flexact advise --apply, declare or convert",
 }
@@ -126,7 +126,7 @@ def write_text(target: Path, content: bytes) -> None:
 
 
 #: Those of `mesh.file`, which takes a while to load.
-FORMATS = ("vtu", "vtk", "xdmf")
+FORMATS = tuple(MESH_FORMATS)
 
 
 def mesh_argument(target: str) -> Argument:
