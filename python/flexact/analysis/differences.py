@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.arrays import FloatArray
-from ..deck.diagnostics import decode
+from ..deck.diagnostics import Source
 from ..deck.rendering import ProblemsError
+from ..deck.tokens import tokens_of
 from ..util.errors import FlexactError
 from ..util.matrices import span
 from ..util.text import harmless
@@ -56,21 +57,24 @@ class Different(NamedTuple):
     line: int
 
 
-def statements_in(raw: bytes) -> tuple[Statement, ...]:
+def statements_in(source: Source) -> tuple[Statement, ...]:
     """The statements of a deck."""
-    made = []
-    for number, line in enumerate(decode(raw).split("\n"), start=1):
-        written = "" if line.startswith("*") else re.split("[%#]", line, maxsplit=1)[0]
-        words, meant = written.split(), []
-        for word in words:
-            # Long numbers keep their digits: a float holds seventeen.
-            if _NUMBER.match(word) and len(word) < 17:
-                meant.append(repr(float(re.sub("[dD]", "e", word)) + 0.0))
-            else:
-                meant.append(word.upper())
-        if words:
-            made.append(Statement(" ".join(meant), harmless(" ".join(words)), number))
-    return tuple(made)
+    return tuple(
+        Statement(
+            " ".join(_meant(word.text) for word in line.words),
+            harmless(" ".join(word.text for word in line.words)),
+            line.number + 1,
+        )
+        for line in tokens_of(source)
+        if line.words
+    )
+
+
+def _meant(word: str) -> str:
+    """A number as it is read, of which long ones keep their digits; other words in capitals."""
+    if _NUMBER.match(word) and len(word) < 17:
+        return repr(float(re.sub("[dD]", "e", word)) + 0.0)
+    return word.upper()
 
 
 def differences(
@@ -171,7 +175,7 @@ def side_of(result: Result) -> Side:
                 result.self_stresses[:MOST_MODES], stresses.dictionaries(), strict=False
             )
         ),
-        None if source is None else statements_in(source.text),
+        None if source is None else statements_in(source),
     )
 
 
@@ -184,7 +188,7 @@ def broken_side(error: Exception) -> Side:
             place = f"{first.line}:{first.column}: " if first.line else ""
             words = f"{place}{first.message}"
         if error.source is not None:
-            statements = statements_in(error.source.text)
+            statements = statements_in(error.source)
     broken = "cannot be analysed"
     return Side(broken, broken, {}, statements=statements, error=harmless(words))
 
