@@ -14,7 +14,7 @@ from ...analysis.result import Result
 from ...core.arrays import FloatArray
 from ...model.parts.parts import groups_of
 from ...util.records import Frozen, cached_property
-from ..proposal import Proposal
+from ..step import Step
 from .cause import Cause, CauseKind, Causes, Relation
 from .gradients import THERE, Gradients, Lifts, Shares, are_affordable, generic_rank
 from .realignment import joint_move, mends_of
@@ -280,7 +280,7 @@ class _Special:
             trials,
         )
 
-    def _mends(self) -> tuple[Proposal, ...]:
+    def _mends(self) -> tuple[Step, ...]:
         if not self.whole.is_told_by_parts:
             return ()
         relations = merged(chain(*self._relations.values()))

@@ -151,6 +151,12 @@ class Limbs:
         return self.parts.is_held(position)
 
 
+def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
+    """(3, 3) the matrix of a rotation about a unit axis, by Rodrigues' formula."""
+    cross = np.cross(np.eye(3), axis)
+    return np.asarray(np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
+
+
 def _root(owner: list[int], k: int) -> int:
     while owner[k] != k:
         k = owner[k]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +31,8 @@ from ...model.parts.condensing import as_given
 from ...model.parts.forms import Form
 from ...model.parts.parts import Part, PartKind
 from ...util.text import harmless
-from ..proposal import Proposal, Purpose
+from ..step import Purpose, Step
+from ..words import row_of
 
 #: Number of an element and a deformation of it, from 1, of the model as given.
 Deformation = tuple[int, int]
@@ -297,45 +299,50 @@ _MOST_STATEMENTS = 24
 _PLURALS = {str(kind): f"{kind}s" for kind in PartKind if kind is not PartKind.BODY}
 
 
-def release_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """What is done to release, free or hold, how, and where else symmetry makes it the same.
+@dataclass(frozen=True, eq=False, repr=False)
+class Release(Step):
+    """Deformations or coordinates of another class: released, freed, declared, or held."""
 
-    Such as "cut sheet 1 to a waist at its clamp (in-plane bending free there) (RLSE 1 3);
-    likewise sheet 2".
-    """
-    outcome = outcome_as_given(result)
-    phrases = _phrases(outcome, proposal.purpose, proposal.change)
-    others = [_phrases(outcome, proposal.purpose, each) for each in proposal.alternatives]
-    note = _note(outcome, proposal.purpose, proposal.change)
-    joined = _told(phrases)
-    return (*joined, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
+    def words(self) -> Pieces:
+        """What is done, how, and where else symmetry makes it the same.
 
+        Such as "cut sheet 1 to a waist at its clamp (in-plane bending free there) (RLSE 1 3);
+        likewise sheet 2", or "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2);
+        likewise F along x".
+        """
+        outcome, purpose = outcome_as_given(self.analysis), self.purpose
+        if purpose is Purpose.DECLARE and not self.change.deformations:
+            return self._declared(outcome)
+        phrases, *others = (
+            _phrases(outcome, purpose, each) for each in (self.change, *self.alternatives)
+        )
+        if purpose is not Purpose.HOLD:
+            is_freed = not self.change.deformations
+            note = "" if is_freed else _statements(outcome, self.change, "RLSE")
+        elif outcome.given.source is not None:
+            note = _statements(outcome, self.change, "RLSE", "without ")
+        else:
+            note = _statements(outcome, self.change, HOLD)
+        told = _told(phrases)
+        return (*told, *((f" ({note})",) if note else ()), *_likewise(phrases, others))
 
-def declaration_in_words(result: Result, proposal: Proposal) -> Pieces:
-    """What is declared or held, how, and what else symmetry makes the same.
-
-    Such as "declare E along y independent (DYNX 5 2), or hold it (FIX 5 2); likewise F along x".
-    A proposal that holds deformations is told by `release_in_words`.
-    """
-    if proposal.change.deformations:
-        return release_in_words(result, proposal)
-    outcome = outcome_as_given(result)
-    declared, fixed = (_statements(outcome, proposal.change, word) for word in ("DYNX", "FIX"))
-    it = "it" if len(proposal.change.coordinates) == 1 else "them"
-    own = _coordinates(outcome, proposal.change)
-    others = [_coordinates(outcome, each) for each in proposal.alternatives]
-    more = [each for each in others if plain(each) != plain(own)]
-    pieces: list[Piece] = ["declare ", *own, " independent"]
-    pieces.append(f" ({declared})" if declared else "")
-    # To hold a fold that turns is to clamp it in mid-air.
-    folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
-    nodes = {outcome.given.node_index[place[0]] for place in proposal.change.coordinates}
-    if not (result.folds and nodes <= folds):
-        pieces.append(f", or hold {it}")
-        pieces.append(f" ({fixed})" if fixed else "")
-    if more:
-        pieces += ["; likewise ", *_shortened(more, len(proposal.change.coordinates))]
-    return tuple(piece for piece in pieces if piece)
+    def _declared(self, outcome: Outcome) -> Pieces:
+        """What is declared or held."""
+        change = self.change
+        declared, fixed = (_statements(outcome, change, word) for word in ("DYNX", "FIX"))
+        it = "it" if len(change.coordinates) == 1 else "them"
+        own, *others = (_coordinates(outcome, each) for each in (change, *self.alternatives))
+        more = [each for each in others if plain(each) != plain(own)]
+        pieces: list[Piece] = ["declare ", *own, " independent"]
+        pieces.append(f" ({declared})" if declared else "")
+        # To hold a fold that turns is to clamp it in mid-air.
+        folds = outcome.carriers.between_ends.difference(outcome.carriers.inner)
+        nodes = {outcome.given.node_index[place[0]] for place in change.coordinates}
+        if not (self.analysis.folds and nodes <= folds):
+            pieces.append(f", or hold {it}{f' ({fixed})' if fixed else ''}")
+        if more:
+            pieces += ["; likewise ", *_shortened(more, len(change.coordinates))]
+        return tuple(piece for piece in pieces if piece)
 
 
 def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> tuple[Phrase, ...]:
@@ -394,7 +401,7 @@ def _coordinates(outcome: Outcome, change: Change) -> Pieces:
         number = int(outcome.given.arrays.element_number[part.elements[0]])
         within = named_element(outcome, number)
         items.append((f"{in_words(count)} coordinate{'s' * (count > 1)} inside ", within))
-    return _listed(items[:_MOST_NAMED], len(items) - _MOST_NAMED)
+    return row_of(items, _MOST_NAMED)
 
 
 def _of_several_points(outcome: Outcome, change: Change) -> dict[str, set[int]]:
@@ -411,19 +418,19 @@ def _of_several_points(outcome: Outcome, change: Change) -> dict[str, set[int]]:
 
 def _likewise(phrases: Sequence[Phrase], others: Sequence[Sequence[Phrase]]) -> Pieces:
     """Where the same may be done."""
-    own = plain(_listed([phrase.pieces for phrase in phrases]))
-    others = [each for each in others if plain(_listed([one.pieces for one in each])) != own]
+    own = plain(row_of([phrase.pieces for phrase in phrases]))
+    others = [each for each in others if plain(row_of([one.pieces for one in each])) != own]
     if not others:
         return ()
     frames = sorted(phrase.frame for phrase in phrases)
     if any(sorted(phrase.frame for phrase in each) != frames for each in others):
-        sets = [_listed([phrase.pieces for phrase in each]) for each in others]
+        sets = [row_of([phrase.pieces for phrase in each]) for each in others]
         return ("; just as well ", *_shortened(sets, 2))
     at = " at" if phrases[0].before in ("cut ", "give ") else ""
     every = [*phrases, *(phrase for each in others for phrase in each)]
     is_all_said = len({(phrase.frame, phrase.where) for phrase in every}) == 1
     if len(phrases) > 1:
-        sets = [_listed(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
+        sets = [row_of(list(dict.fromkeys(phrase.short for phrase in each))) for each in others]
     elif is_all_said:
         return (f"; likewise{at} ", *_named([each[0].part for each in others]))
     else:
@@ -439,15 +446,15 @@ def _told(phrases: Sequence[Phrase]) -> Pieces:
     items: list[Pieces] = []
     for first, *more in groups.values():
         names = list(dict.fromkeys(phrase.short for phrase in more))
-        rest = _listed(names[:_MOST_NAMED], len(names) - _MOST_NAMED)
+        rest = row_of(names, _MOST_NAMED)
         items.append((*first.pieces, *((", and so ", *rest) if rest else ())))
-    return _listed(items)
+    return row_of(items)
 
 
 def _shortened(sets: Sequence[Pieces], size: int) -> Pieces:
     """Alternatives, one behind the other; of many the first."""
     if size == 1:
-        return _listed(sets[:_MOST_NAMED], len(sets) - _MOST_NAMED)
+        return row_of(sets, _MOST_NAMED)
     made: list[Piece] = []
     for k, each in enumerate(sets[:_MOST_SETS]):
         made += ["; or " if k else "", *each]
@@ -464,29 +471,8 @@ def _named(parts: Sequence[Named]) -> Pieces:
         short = [
             (Named(part.kind, part.number, n),) for part, n in zip(parts, numbers, strict=True)
         ]
-        return (f"{_PLURALS[head]} ", *_listed(short))
-    return _listed([(part,) for part in parts])
-
-
-def _listed(items: Sequence[Pieces], more: int = 0) -> Pieces:
-    """Such as a, b and c."""
-    if more > 0:
-        items = [*items, (f"{more} more",)]
-    made: list[Piece] = []
-    for k, item in enumerate(items):
-        made += [""] if not k else [" and "] if k == len(items) - 1 else [", "]
-        made += item
-    return tuple(piece for piece in made if piece)
-
-
-def _note(outcome: Outcome, purpose: Purpose, change: Change) -> str:
-    """How it is done: in a deck by statements, in Python by calls."""
-    if purpose is not Purpose.HOLD:
-        statements = [_statements(outcome, change, "RLSE")] if change.deformations else []
-        return ", ".join(filter(None, statements))
-    if outcome.given.source is not None:
-        return _statements(outcome, change, "RLSE", "without ")
-    return _statements(outcome, change, HOLD)
+        return (f"{_PLURALS[head]} ", *row_of(short))
+    return row_of([(part,) for part in parts])
 
 
 def _statements(outcome: Outcome, change: Change, keyword: str, before: str = "") -> str:
@@ -510,12 +496,13 @@ def _operands(outcome: Outcome, change: Change) -> list[str]:
     made = [" ".join(map(str, (e, *sorted(mine)))) for e, mine in of_element.items()]
     of_node: dict[str, list[str]] = {}
     for node, name, _ in change.coordinates:
-        place, component = _coordinate(outcome, node, name).operands.split()
+        place, component = coordinate_named(outcome, node, name).operands.split()
         of_node.setdefault(place, []).append(component)
     return made + [" ".join((node, *sorted(mine))) for node, mine in of_node.items()]
 
 
-def _coordinate(outcome: Outcome, node: int, name: str) -> Coordinate:
+def coordinate_named(outcome: Outcome, node: int, name: str) -> Coordinate:
+    """The coordinate of a name of a node, by the number of the node."""
     index = outcome.data.node_index[node]
     kind = int(outcome.data.arrays.node_kind[index])
     axis = next(axis for axis in AXES[kind] if coordinate_name(kind, axis) == name)

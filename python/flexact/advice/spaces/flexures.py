@@ -19,16 +19,62 @@ from typing import NamedTuple
 import numpy as np
 
 from ...analysis.change import AddedSheet, AddedWire, Change
-from ...analysis.decomposition import Asked
-from ...analysis.result import Result, result_of
+from ...analysis.naming import Named, Pieces
+from ...analysis.places import axis_words, direction_words, node_words, others_words, place_words
+from ...analysis.result import Result
 from ...analysis.screws import sense_of
 from ...core.arrays import FloatArray
+from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
 from ...util.records import Frozen
-from ..proposal import After, Proposal, Purpose
+from ..step import Purpose, Step, after, analysed
+from ..words import row_of
 from .screws import SAME, Family, FamilyKind, ScrewSpace
 from .subjects import Attachment, Freed, Site, Subject
 from .wanted_motion import Aim
+from .words import Geometry
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Added(Step):
+    """Wires or a sheet that are added."""
+
+    def words(self) -> Pieces:
+        """Where they end on the body, and along what they run."""
+        return ("add ", *added_in_words(self.analysis, self.change))
+
+
+def added_in_words(result: Result, change: Change) -> Pieces:
+    """The wires or the sheet of a change: where they end on the body, along what they run."""
+    geometry = Geometry(result)
+    added: list[AddedWire | AddedSheet] = [*change.wires, *change.sheets]
+    return row_of([wire_in_words(geometry, each) for each in added])
+
+
+def wire_in_words(geometry: Geometry, wire: AddedWire | AddedSheet) -> Pieces:
+    """Such as "a wire from the stage, where sheet 1 ends, along y"."""
+    result = geometry.outcome
+    parts = result.parts
+    node = parts.data.node_index[wire.position]
+    end, ground = np.array(wire.end), np.array(wire.ground)
+    along, word = f" along {direction_words(ground - end)}", "wire"
+    if isinstance(wire, AddedSheet):
+        along, word = f"{along}, wide along {axis_words(np.array(wire.width))}", "sheet"
+    turned = parts.data.node_index[wire.orientation]
+    owner = node_words(parts, turned) if turned in parts.body_at else ""
+    there = node_words(parts, turned) if parts.is_shared(turned) else place_words(parts, node)
+    if not np.array_equal(parts.data.arrays.node_value[:3, node], end):
+        link = Named("node", wire.position, owner or there)
+        return (f"a {word} from {geometry.point(end)}, on a link to ", link, f",{along}")
+    here = [part for part in parts.at(node) if part.kind is not PartKind.BODY]
+    if there != owner:
+        where = ""
+    elif here:
+        where = f", where {others_words(here)} end{'s' * (len(here) == 1)},"
+    else:
+        where = f" at {geometry.point(end)}"
+    return (f"a {word} from ", Named("node", wire.position, there), where + along)
+
 
 #: A line that is weaker than this, by its condition, is none.
 _WEAKEST = 100.0
@@ -202,8 +248,8 @@ def _as_given(place: FloatArray) -> tuple[float, float, float]:
 
 def proposed(
     freed: Freed, subject: Subject, aim: Aim, change: Change, count: int, condition: float
-) -> Proposal | None:
-    """The proposal of a change; None where it does not do what it should.
+) -> Added | None:
+    """The step of a change; None where it does not do what it should.
 
     The mechanism with nothing declared must have `count` motions fewer, all of the body; the body
     must go on doing what is wanted; and there must be no further self-stress. What only lengthens
@@ -211,9 +257,8 @@ def proposed(
     """
     result = freed.result
     try:
-        data = change.apply(result.given).data
-        after: Result = result_of(data, Asked(result.asked.method, result.asked.tolerance))
-        then, same = Freed(after), _same(subject, result, after)
+        made = analysed(result, change)
+        then, same = Freed(made), _same(subject, result, made)
         if not then.has(same):
             return None
         space = then.space(same)
@@ -225,13 +270,10 @@ def proposed(
     factors = np.repeat((aim.freedom.length, 1.0), 3)
     if not all(space.has(row / factors) for row in aim.wanted):
         return None
-    if after.over_constrained > result.over_constrained:
+    if made.over_constrained > result.over_constrained:
         return None
-    told = After(
-        after.verdict, after.under_constrained, after.over_constrained, after.gap.smallest_nonzero
-    )
     purpose = Purpose.ADD_SHEET if change.sheets else Purpose.ADD_WIRE
-    return Proposal(purpose, change, max(condition, 1.0), told)
+    return Added(result, purpose, change, max(condition, 1.0), after(made))
 
 
 def _same(subject: Subject, before: Result, after: Result) -> Subject:
@@ -252,7 +294,7 @@ _MOST_TRIED = 12
 _WORTH = 2.5
 
 
-def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Proposal, ...]:
+def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Added, ...]:
     """Wires that were tried: single ones, and where more are needed sets of them.
 
     Each stops so many motions of the mechanism as it has wires; the body goes on doing what is
@@ -277,7 +319,7 @@ def wires_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> tuple[Prop
 
 def _sets(
     freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
-) -> Iterator[Proposal]:
+) -> Iterator[Added]:
     """One set of wires that stops all that wires can stop; without one the largest there is."""
     most, smaller = aim.stoppable, list[tuple[Line, ...]]()
     for line in lines:
@@ -306,8 +348,8 @@ def _set_from(site: Site, aim: Aim, first: Line) -> tuple[Line, ...]:
 
 def _wires(
     freed: Freed, site: Site, aim: Aim, lines: Sequence[Line], besides: Change
-) -> Proposal | None:
-    """The proposal of some wires; None where they do not do what they should."""
+) -> Added | None:
+    """The step of some wires; None where they do not do what they should."""
     wires = tuple(wire_at(site, line.attachment, line.direction) for line in lines)
     works = np.array([aim.unwanted @ np.roll(line.force, 3) for line in lines])
     values = np.linalg.svd(works, compute_uv=False)
@@ -335,7 +377,7 @@ class Plane(NamedTuple):
     """By what it is chosen."""
 
 
-def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[Proposal]:
+def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[Added]:
     """Sheets that were tried, the best first; none in the plane, where a sheet holds as a wire."""
     if aim.freedom.planar or len(aim.unwanted) < _HELD:
         return
@@ -409,7 +451,7 @@ def _through_of_sheets(family: Family, site: Site, place: FloatArray) -> Iterato
             yield each
 
 
-def _proposal(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Proposal | None:
+def _proposal(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Added | None:
     along = _along(site, plane)
     sheet = sheet_at(site, plane.attachment, along, np.cross(plane.normal, along))
     change = replace(besides, sheets=(sheet,))

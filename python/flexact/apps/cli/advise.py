@@ -9,13 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ...advice.advice import Advice, advice_of
+from ...advice.advice import Advice, advice_of, describe
 from ...advice.json import line_of
-from ...advice.proposal import After, tried
-from ...advice.steps import together
-from ...advice.words import describe
+from ...advice.step import After, together, tried
 from ...analysis.change import Change
-from ...analysis.naming import Pieces, counts_in_words
+from ...analysis.naming import Pieces
 from ...analysis.places import listed
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
@@ -86,11 +84,6 @@ class _Taken(NamedTuple):
     pieces: Pieces
     """What is done."""
 
-    @property
-    def outcome(self) -> str:
-        """What the mechanism is then."""
-        return counts_in_words(self.after.under_constrained, self.after.over_constrained)
-
 
 class AdviceFile:
     """Where the file goes, and what it is by its suffix."""
@@ -158,10 +151,10 @@ class AdviceFile:
             taken, given = self._taken(advice), advice.analysis.given
             if self.kind in PAGES:
                 content = load(pages).page_of(advice, taken.change, taken.pieces)
-                said = f"{taken.words} shown in {name}, {taken.outcome}"
+                said = f"{taken.words} shown in {name}, {taken.after.outcome}"
             else:
                 content = edited_deck(given, taken.change.apply(given).data)
-                said = f"{taken.words} written to {name}, {taken.outcome}"
+                said = f"{taken.words} written to {name}, {taken.after.outcome}"
         if self.kind in (*PAGES, *STILLS):
             write_together({self.target: content})
         else:
@@ -288,6 +281,8 @@ class _Work:
 
     def _words(self, advice: Advice) -> str:
         if self.chosen.json:
-            text: str = load("json").dumps(line_of(advice), allow_nan=False)
+            text: str = load("json").dumps(
+                line_of(advice.analysis, advice.to_dict()), allow_nan=False
+            )
             return text
         return f"{describe(advice, width=text_width())}\n"

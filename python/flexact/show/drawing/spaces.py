@@ -382,7 +382,7 @@ class SpaceLike(Protocol):
 
 
 class HoldLike(Protocol):
-    """What a flexure holds; see `flexact.advice.holding`."""
+    """What a flexure holds; see `flexact.advice.constraint_quality`."""
 
     @property
     def space(self) -> SpaceLike:

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from ...advice.advice import Advice
+from ...advice.advice import Advice, sections_of
 from ...advice.spaces.spaces import Spaces, spaces_of
-from ...advice.words import sections_of
 from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.naming import Pieces
@@ -29,7 +28,7 @@ def page_of(advice: Advice, change: Change, words: Pieces) -> bytes:
     after: Result = result_of(
         model.data, Asked(asked.method, asked.tolerance, asked.prove, asked.accuracy), before.name
     )
-    told = (each.line for section in sections_of(advice) for each in section)
+    told = (line for section in sections_of(advice) for line, _ in section)
     stills = _still(before), _still(after)
     spaces = advice.spaces, _spaces_after(advice, after)
     made = before_and_after(before, after, words, told, stills, spaces=spaces)

@@ -29,7 +29,7 @@ from ..core.elements import Class, NodeKind
 from ..model.parts.parts import Part, PartKind, groups_of
 from ..util.records import Frozen
 from .spaces.screws import ScrewSpace
-from .spaces.words import wrenches_in_words
+from .spaces.words import Geometry, space_in_words
 
 #: Rates below this part of the largest are rounding.
 _ROUNDING = 1.0e-9
@@ -307,7 +307,7 @@ def number_of(hold: Hold) -> str:
 
 def hold_in_words(result: Result, hold: Hold) -> str:
     """What a flexure holds, a sentence."""
-    held = "; ".join(map(plain, wrenches_in_words(result, hold.space)))
+    held = "; ".join(map(plain, space_in_words(Geometry(result), hold.space)))
     few = hold.space.dimension
     count = f"{few} independent force{'s' * (few > 1)} or moments: " if few > 1 else ""
     verb = "hold" if len(hold.parts) > 1 else "holds"
