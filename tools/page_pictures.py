@@ -5,11 +5,15 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import shutil
 import sys
 import tempfile
+import textwrap
 from pathlib import Path
+
+from PIL import Image
 
 from flexact.apps.cli.main import main as flexact
 
@@ -18,6 +22,7 @@ sys.path.insert(0, str(ROOT / "tests" / "python"))
 from page_sessions import given_files, steps  # noqa: E402  # what a page gives and runs
 
 DOCS = ROOT / "docs"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 #: By page: what its commands write, and what it is called beside the page.
 PICTURES = {
     "tutorial.md": {"guide.png": "tutorial_guide.png", "mended.png": "tutorial_mended.png"},
@@ -39,6 +44,27 @@ def draw(page: str) -> None:
         os.chdir(ROOT)
 
 
+def draw_wrong_and_mended() -> None:
+    """Draw the guide of README as it is and as its first step mends it, side by side."""
+    (text,) = re.findall(r"(?:^    .*\n)+", README.partition("name [parts]")[2], re.MULTILINE)[:1]
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        Path("guide.dat").write_text(textwrap.dedent(text), encoding="utf-8")
+        for words in (
+            "advise guide.dat --apply 1 -o mended.dat",
+            "picture guide.dat -o left.png",
+            "picture mended.dat --freedom 1 -o right.png",
+        ):
+            flexact(words.split())
+        left, right = (Image.open(name).convert("RGB") for name in ("left.png", "right.png"))
+        both = Image.new("RGB", (left.width + right.width, left.height), "white")
+        both.paste(left, (0, 0))
+        both.paste(right, (left.width, 0))
+        both.quantize(128).save(DOCS / "wrong_and_mended.png", optimize=True)
+        os.chdir(ROOT)
+
+
 if __name__ == "__main__":
+    draw_wrong_and_mended()
     for each in PICTURES:
         draw(each)

@@ -10,7 +10,6 @@ starts quickly.
 
 import typing as _typing
 
-from .model.model import shown_by as _shown_by
 from .util.loading import VERSION as _VERSION
 from .util.loading import load as _load
 
@@ -221,13 +220,6 @@ __all__ = [
     "trace",
     "viewer",
 ]
-
-
-# A model may know nothing of what stands on top of it.
-_shown_by(
-    lambda model, path: _load("flexact.api").show_model(model, path),
-    lambda model: _load("flexact.show.notebook.rows").html_of_model(model.data),
-)
 
 
 def __getattr__(name: str) -> object:

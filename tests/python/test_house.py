@@ -17,6 +17,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "python" / "flexact"
 FORTRAN = ROOT / "fortran"
 
+#: Where public names and features of models stand with the modules that have them.
+LAZY = ("flexact", "flexact.util.loading")
 #: Folders of the core, in the order of dependence.
 LAYERS = (
     *("base", "linalg", "nullspace", "element", "model", "deck"),
@@ -89,7 +91,7 @@ def arrows(typed: bool) -> dict[str, set[str]]:
             if isinstance(node, (ast.Import, ast.ImportFrom))
             for target in imported(module, path, node)
         }
-        named = set() if module == "flexact" else loaded_by_name(path)
+        named = set() if module in LAZY else loaded_by_name(path)
         found[module] = {t for t in targets | named if t in MODULES} - {module}
     return found
 

@@ -64,23 +64,23 @@ DYNX 3 2
 """
 #: What stumbles, and which outputs say so.
 PARTS = {
-    "page.modes_data.move": {"page", "watch"},
-    "page.modes_data.resultants": {"page", "watch"},
-    "page.viewer_data.holds_data": {"page", "watch"},
-    "page.content.viewer_data": {"page", "watch"},
-    "page.content.advised": {"page", "watch"},
-    "page.content.motions_part": {"page", "watch"},
-    "page.content.stresses_part": {"page", "watch"},
-    "saving.picture_bytes": {"page"},
-    "picture.subject.move": set(),
-    "picture.subject.stress_of": set(),
-    "drawing.freedoms.natural_shape": set(),
-    "notebook.stills.picture_bytes": set(),
-    "notebook.modes.motion_in_parts": {"rows"},
-    "notebook.output.describe": set(),
-    "mesh.content.select_motion": set(),
-    "watching.told.motion_in_parts": set(),
-    "watching.told.stress_in_parts": set(),
+    "show.page.modes.move": {"page", "watch"},
+    "show.page.modes.resultants": {"page", "watch"},
+    "show.page.viewer.holds_data": {"page", "watch"},
+    "show.page.content.viewer_data": {"page", "watch"},
+    "show.page.content.advised": {"page", "watch"},
+    "show.page.content.motions_part": {"page", "watch"},
+    "show.page.content.stresses_part": {"page", "watch"},
+    "show.saving.picture_bytes": {"page"},
+    "show.picture.subject.move": set(),
+    "show.picture.subject.stress_of": set(),
+    "show.drawing.selection.natural_shape": set(),
+    "show.notebook.output.picture_bytes": set(),
+    "show.notebook.rows.motion_in_parts": {"rows"},
+    "show.notebook.output.describe": set(),
+    "show.mesh.content.select_motion": set(),
+    "apps.watch.messages.motion_in_parts": set(),
+    "apps.watch.messages.stress_in_parts": set(),
 }
 
 
@@ -99,7 +99,7 @@ def test_an_output_goes_on_without_a_part(
     monkeypatch.setattr(importlib.import_module(f"flexact.{module}"), name, _stumble)
     monkeypatch.delenv(STRICT)
     for suffix in ("html", "png", "vtu"):
-        if part != "saving.picture_bytes" or suffix != "png":
+        if part != "show.saving.picture_bytes" or suffix != "png":
             result.save(tmp_path / f"made.{suffix}")
     assert main(["analyse", str(deck), "-o", str(tmp_path / "files")]) == 0
     shown = answer_of(Job(str(deck), is_script=False), lambda _: None)

@@ -25,4 +25,4 @@ def test_only_names_of_the_package_are_public() -> None:
     given = set(vars(flexact)) - set(flexact.__all__)
     modules = {name for name in given if isinstance(getattr(flexact, name), ModuleType)}
     assert not [name for name in given - modules if not name.startswith("_")]
-    assert {"load", "TYPE_CHECKING", "VERSION", "shown_by"}.isdisjoint(given)
+    assert {"load", "TYPE_CHECKING", "VERSION", "feature"}.isdisjoint(given)

@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +15,7 @@ from ..core.elements import NodeKind, keywords_of
 from ..deck.diagnostics import Diagnostic
 from ..deck.rendering import model_error
 from ..util.errors import require_kind
+from ..util.loading import feature
 from ..util.text import in_short
 from .configuration import Configuration
 from .coordinates import LoadMethods
@@ -28,46 +28,8 @@ from .selection import PartLike, Point, whole
 from .variation import held_given, positions_given, with_held, with_positions
 from .writing import deck_of
 
-#: Shows a model, in a file that may be named.
-Shows = Callable[[Any, "str | os.PathLike[str] | None"], "Path | None"]
 
-#: Makes HTML of a model, for notebooks.
-Tells = Callable[[Any], str]
-
-_shows: list[Shows] = []
-_tells: list[Tells] = []
-
-
-def shown_by(shows: Shows, tells: Tells) -> None:
-    """Set how models are shown, and what notebooks show of them."""
-    _shows[:], _tells[:] = [shows], [tells]
-
-
-class ShowMethods:
-    """The method that shows a model."""
-
-    def show(self, path: str | os.PathLike[str] | None = None) -> Path | None:
-        """Analyse the model and show its page: in the browser, or in the notebook.
-
-        The page of a model with errors says what they are. Where no browser can be opened, it is
-        said where the page is.
-
-        Args:
-            path: Where the page is written, such as "guide.html"; by default a temporary file.
-
-        Returns:
-            Where the page is; None in a notebook, and in a script that `flexact watch` runs.
-
-        Raises:
-            FlexactError: the page cannot be written, or the path is not that of a page.
-        """
-        return _shows[0](self, path)
-
-    def _repr_html_(self) -> str:
-        return _tells[0](self)
-
-
-class Builder(CopyMethods, EditMethods, LoadMethods, ShowMethods):
+class Builder(CopyMethods, EditMethods, LoadMethods):
     """The half of `Model` that makes it; see there."""
 
 
@@ -300,3 +262,25 @@ class Model(Builder):
         """
         self.check()
         return deck_of(self.data)
+
+    def show(self, path: str | os.PathLike[str] | None = None) -> Path | None:
+        """Analyse the model and show its page: in the browser, or in the notebook.
+
+        The page of a model with errors says what they are. Where no browser can be opened, it is
+        said where the page is.
+
+        Args:
+            path: Where the page is written, such as "guide.html"; by default a temporary file.
+
+        Returns:
+            Where the page is; None in a notebook, and in a script that `flexact watch` runs.
+
+        Raises:
+            FlexactError: the page cannot be written, or the path is not that of a page.
+        """
+        made: Path | None = feature("show")(self, path)
+        return made
+
+    def _repr_html_(self) -> str:
+        made: str = feature("html")(self.data)
+        return made

@@ -6,6 +6,7 @@ from __future__ import annotations
 import gc
 from importlib import import_module
 from types import ModuleType
+from typing import Any
 
 
 def load(name: str, *, for_good: bool = False) -> ModuleType:
@@ -24,6 +25,19 @@ def load(name: str, *, for_good: bool = False) -> ModuleType:
             gc.freeze()
         if collects:
             gc.enable()
+
+
+#: What a model offers and rooms above it do: the one place where names point up.
+FEATURES = {
+    "show": ("flexact.api", "show_model"),
+    "html": ("flexact.show.notebook.rows", "html_of_model"),
+}
+
+
+def feature(name: str) -> Any:
+    """The function of `FEATURES` that does it, loaded when it is wanted."""
+    module, function = FEATURES[name]
+    return getattr(load(module), function)
 
 
 VERSION = "0.1.0"
