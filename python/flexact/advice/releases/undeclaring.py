@@ -24,7 +24,7 @@ from ...util.errors import FlexactError
 from ..step import Purpose, Step, tried
 from .words import coordinate_named, outcome_as_given
 
-#: Of more self-stresses no sets are looked for; so many proposals there are at most.
+#: Of more self-stresses no sets are looked for; so many steps there are at most.
 _MOST_STRESSES, _MOST = 60, 4
 
 
