@@ -36,8 +36,13 @@ from .causes.causes import causes_of
 from .causes.realignment import both_in_words
 from .describe import MOST_MODES, verdict_in_words
 from .motions import AdvisedMotion, AdvisedStress
-from .releases.releases import Declarations, Releases, declarations_of, releases_of
-from .releases.undeclaring import undeclarations_of
+from .releases.releases import (
+    Declarations,
+    Releases,
+    declarations_of,
+    releases_of,
+    undeclarations_of,
+)
 from .spaces.spaces import Spaces, spaces_lines, spaces_of
 from .step import After, Purpose, Step, together, tried
 from .words import begun, ended, in_a_row
@@ -48,7 +53,7 @@ _Given = TypeVar("_Given")
 _Told = TypeVar("_Told", AdvisedMotion, AdvisedStress, Step)
 #: Of self-stresses of more resultants in all those that stand on a screen are told.
 _MOST_ENTRIES = 20_000
-#: What steps are for, in the order in which they are shown.
+#: What steps are for.
 _AIMS = {
     Purpose.MEND: "To let what is stopped twice stop what is free",
     Purpose.UNDECLARE: "To drive nothing against a constraint",
@@ -58,7 +63,6 @@ _AIMS = {
     Purpose.ADD_WIRE: "To stop with wires what is free and not wanted",
     Purpose.ADD_SHEET: "To stop with a sheet what is free and not wanted",
 }
-_ORDER = tuple(_AIMS)
 #: What takes time, in the order in which it is found, and what is said meanwhile.
 _PIECES = {
     "causes": "finding causes",
@@ -169,18 +173,26 @@ class Advice(Frozen, Sequence[Step]):
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """Ways to mend the mechanism, numbered as they are shown; each was tried."""
-        every = [one for one in self._found_steps() if one.change != Change()]
-        told = self._told("a step", sorted(every, key=lambda one: _ORDER.index(one.purpose)))
-        return tuple(replace(step, number=k) for k, step in enumerate(told, start=1))
+        return tuple(self.numbered())
 
-    def _found_steps(self) -> Iterator[Step]:
-        """Steps of all kinds."""
+    def numbered(self, progress: Progress | None = None) -> Iterator[Step]:
+        """The steps one by one; what those behind them take is not looked for before."""
+        every = (one for one in self._found_steps(progress) if one.change != Change())
+        for number, step in enumerate(self._told("a step", every), start=1):
+            yield replace(step, number=number)
+
+    def _found_steps(self, progress: Progress | None) -> Iterator[Step]:
+        """Steps of all kinds, in the order in which they are shown."""
+        self._find("causes", progress)
         yield from self._as_it_stands(self.causes.mends)
         yield from self.made(
             "declarations to take back", lambda: undeclarations_of(self.analysis), ()
         )
+        self._find("releases", progress)
         yield from (*self.releases.sets, *self.releases.supports)
+        self._find("declarations", progress)
         yield from (*self.declarations.sets, *self.declarations.holds)
+        self._find("spaces", progress)
         yield from self._as_it_stands(() if self.spaces is None else self.spaces.steps)
 
     def _as_it_stands(self, steps: Iterable[Step]) -> Iterator[Step]:
@@ -245,11 +257,15 @@ class Advice(Frozen, Sequence[Step]):
 
     def found(self, progress: Progress | None = None) -> Advice:
         """The advice itself, when all of it is found; `progress` is told how far that is."""
-        for k, (name, words) in enumerate(_PIECES.items()):
-            if progress is not None:
-                progress(words, k / len(_PIECES))
-            getattr(self, name)
+        for name in _PIECES:
+            self._find(name, progress)
         return self
+
+    def _find(self, name: str, progress: Progress | None) -> None:
+        """Find a piece, and say meanwhile which it is."""
+        if progress is not None:
+            progress(_PIECES[name], list(_PIECES).index(name) / len(_PIECES))
+        getattr(self, name)
 
     def __len__(self) -> int:
         """How many steps there are."""

@@ -99,8 +99,7 @@ def _sines(rows: list[FloatArray]) -> list[float]:
 
 def _orthonormal(rows: FloatArray) -> FloatArray:
     _, sizes, turned = np.linalg.svd(rows, full_matrices=False)
-    made: FloatArray = turned[sizes > _ROUNDING * sizes.max(initial=0.0)]
-    return made
+    return np.asarray(turned[sizes > _ROUNDING * sizes.max(initial=0.0)])
 
 
 @dataclass(frozen=True, eq=False)

@@ -120,10 +120,7 @@ def deformations(result: Result) -> Deformations:
 def is_of_class(result: Result, wanted: Class) -> NDArray[np.bool_]:
     """(m,) whether the deformation of a row is of a class."""
     element, deformation = result.raw.row_label - 1
-    is_wanted: NDArray[np.bool_] = (
-        result.data.arrays.deformation_class[deformation, element] == wanted
-    )
-    return is_wanted
+    return np.asarray(result.data.arrays.deformation_class[deformation, element] == wanted)
 
 
 def is_releasable(result: Result) -> NDArray[np.bool_]:
@@ -188,8 +185,7 @@ def _reactions(result: Result, able: NDArray[np.bool_]) -> FloatArray:
 
 def _largest(leverage: FloatArray, key: Key) -> list[int]:
     order = np.array(ranked(leverage, leverage.size, key), np.int64)
-    chosen: list[int] = order[leverage[order] > _NOTHING].tolist()
-    return chosen
+    return [int(row) for row in order[leverage[order] > _NOTHING]]
 
 
 def _independent_rows(basis: Basis, key: Key, able: NDArray[np.bool_] | None = None) -> list[int]:

@@ -465,13 +465,11 @@ def _through_points(at: FloatArray) -> FloatArray:
 
 def _unit(vectors: FloatArray) -> FloatArray:
     sizes = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    made: FloatArray = vectors / np.maximum(sizes, 1.0e-300)
-    return made
+    return np.asarray(vectors / np.maximum(sizes, 1.0e-300))
 
 
 def _dot(one: FloatArray, other: FloatArray) -> FloatArray:
-    made: FloatArray = (one * other).sum(axis=-1, keepdims=True)
-    return made
+    return np.asarray((one * other).sum(axis=-1, keepdims=True))
 
 
 def _size(unit: FloatArray) -> FloatArray:

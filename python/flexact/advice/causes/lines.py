@@ -21,7 +21,7 @@ from ...analysis.result import Result
 from ...analysis.screws import Screw, ScrewKind, screw_of
 from ...core.arrays import FloatArray
 from ...core.elements import Class, NodeKind
-from ...model.parts.parts import Part, PartKind, natural
+from ...model.parts.parts import Part, PartKind, groups_of, natural
 from ...util.records import cached_property
 from .cause import RelationKind
 
@@ -69,21 +69,18 @@ class Limbs:
             for part in self.parts.all
             if part.kind not in (PartKind.BODY, PartKind.HINGE) and len(part.ends) == 2
         ]
-        owner = list(range(len(flexible)))
         ends: dict[int, list[int]] = {}
         for k, part in enumerate(flexible):
             for position in part.ends:
                 ends.setdefault(position, []).append(k)
         inner = {p: users for p, users in ends.items() if self._is_inner(p, len(users))}
-        for users in inner.values():
-            first, last = (_root(owner, k) for k in users)
-            owner[first] = last
+        owner = groups_of(len(flexible), ((first, last) for first, last in inner.values())).tolist()
         groups: dict[int, list[int]] = {}
-        for k in range(len(flexible)):
-            groups.setdefault(_root(owner, k), []).append(k)
+        for k, group in enumerate(owner):
+            groups.setdefault(group, []).append(k)
         made = []
         for mine in groups.values():
-            members = tuple(sorted((flexible[k] for k in mine), key=_by_name))
+            members = tuple(sorted((flexible[k] for k in mine), key=by_name))
             points = {position for part in members for position in part.ends}
             outer = tuple(sorted(p for p in points if p not in inner))
             made.append(Limb(members, outer, tuple(sorted(points - set(outer)))))
@@ -94,7 +91,7 @@ class Limbs:
         if users != 2 or position in self.parts.body_at or len(self.parts.at(position)) != 2:
             return False
         classes = self.outcome.given.arrays.coordinate_class[:, position]
-        turned = self._orientations.get(position, set())
+        turned = self._orientations.get(position, ())
         return bool(np.all(classes != Class.FIXED)) and len(turned) == 1
 
     @cached_property
@@ -112,8 +109,7 @@ class Limbs:
 
     def place(self, position: int) -> FloatArray:
         """(3,) of a position node [m]."""
-        value: FloatArray = self.outcome.given.arrays.node_value[:3, position]
-        return value
+        return np.asarray(self.outcome.given.arrays.node_value[:3, position])
 
     @cached_property
     def hubs(self) -> tuple[tuple[object, tuple[tuple[Limb, int], ...]], ...]:
@@ -134,21 +130,15 @@ class Limbs:
         body = self.parts.body_at.get(position)
         if body is not None:
             return ("body", body)
-        if self.parts.is_held(position) and self._is_held_turning(position):
+        turning = self._orientations.get(position, ())
+        if all(map(self.parts.is_held, (position, *turning))):
             return None
-        return ("joint", position) if len(self._orientations.get(position, ())) == 1 else None
-
-    def _is_held_turning(self, position: int) -> bool:
-        return all(self.parts.is_held(node) for node in self._orientations.get(position, ()))
+        return ("joint", position) if len(turning) == 1 else None
 
     def orientation_at(self, position: int) -> int | None:
         """The one orientation node at a position node; None where there is none, or several."""
         found = self._orientations.get(position, set())
         return next(iter(found)) if len(found) == 1 else None
-
-    def is_ground(self, position: int) -> bool:
-        """Whether a position node is fixed."""
-        return self.parts.is_held(position)
 
 
 def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
@@ -157,13 +147,8 @@ def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     return np.asarray(np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
 
 
-def _root(owner: list[int], k: int) -> int:
-    while owner[k] != k:
-        k = owner[k]
-    return k
-
-
-def _by_name(part: Part) -> tuple[object, ...]:
+def by_name(part: Part) -> tuple[object, ...]:
+    """The key by which parts are sorted."""
     return natural(part.name), part.elements
 
 
@@ -199,6 +184,12 @@ class Line(NamedTuple):
     def coordinates(self, length: float) -> FloatArray:
         """(6,) Pluecker's coordinates, moments over a length."""
         return np.concatenate((self.direction, np.cross(self.point, self.direction) / length))
+
+
+def line_of(limbs: Limbs, part: Part) -> Line:
+    """The line of a wire, bar or member from end to end."""
+    first, last = (limbs.place(end) for end in part.ends)
+    return Line(first, (last - first) / np.linalg.norm(last - first))
 
 
 class Lines:
@@ -356,12 +347,8 @@ def in_common(lines: Lines, *, planar: bool) -> list[Common]:
     """
     if not 2 <= len(lines) <= _IN_COMMON_MOST_LINES:
         return []
-    same = list(_of_one_line(lines))
-    if same:
-        return same
-    held = list(_of_six(lines))
-    if held:
-        return held
+    if told := list(_of_one_line(lines)) or list(_of_six(lines)):
+        return told
     through = list(_of_one_point(lines))
     groups = _cover(lines, planar)
     if through:
@@ -375,12 +362,8 @@ def in_common(lines: Lines, *, planar: bool) -> list[Common]:
 def _of_one_line(lines: Lines) -> Iterator[Common]:
     for group in lines.together(lines.is_one):
         first = lines.lines[group[0]]
-        yield Common(
-            RelationKind.ONE_LINE,
-            tuple(group),
-            without_sense(first.direction),
-            lines.in_place(first.point),
-        )
+        where = without_sense(first.direction), lines.in_place(first.point)
+        yield Common(RelationKind.ONE_LINE, tuple(group), *where)
 
 
 def _of_one_point(lines: Lines) -> Iterator[Common]:
@@ -407,13 +390,8 @@ def _of_all(lines: Lines) -> Iterator[Common]:
         yield Common(RelationKind.REGULUS, every, _NONE, lines.in_place(_NONE))
     screw = lines.unstopped() if len(lines) >= 6 else None
     if screw is not None:
-        yield Common(
-            RelationKind.COMPLEX,
-            every,
-            without_sense(screw.direction),
-            lines.in_place(screw.point),
-            screw.pitch,
-        )
+        where = without_sense(screw.direction), lines.in_place(screw.point)
+        yield Common(RelationKind.COMPLEX, every, *where, screw.pitch)
 
 
 def _cover(lines: Lines, planar: bool) -> list[Common]:

@@ -111,13 +111,11 @@ def _in_plane(axes: list[FloatArray]) -> list[FloatArray]:
 
 def _rotation(axis: FloatArray, angle: float) -> FloatArray:
     cross = np.cross(np.eye(3), axis)
-    made: FloatArray = np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
-    return made
+    return np.asarray(np.eye(3) - np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross))
 
 
 def _reflection(normal: FloatArray) -> FloatArray:
-    made: FloatArray = np.eye(3) - 2.0 * np.outer(normal, normal)
-    return made
+    return np.asarray(np.eye(3) - 2.0 * np.outer(normal, normal))
 
 
 def _image(moved: FloatArray, places: FloatArray, size: float) -> tuple[int, ...] | None:

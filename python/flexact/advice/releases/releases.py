@@ -1,26 +1,44 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which sets of deformations, released, or of coordinates, declared, leave nothing over.
 
-Sets of releases leave no self-stress, sets of declarations no motion.
+Sets of releases leave no self-stress, sets of declarations no motion. Declarations that are driven
+against a constraint, which makes a self-stress, are taken back.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import chain
 
 import numpy as np
 
+from ...analysis import ways
+from ...analysis.calls import taken_back
 from ...analysis.change import Change
 from ...analysis.decomposition import row_duals
+from ...analysis.deformation_words import deformation_words
+from ...analysis.mode_basis import row_key
+from ...analysis.mode_words import joined
+from ...analysis.naming import Pieces, coordinate_in_words, named_element
 from ...analysis.result import Result
 from ...analysis.sparse_basis import groups_of
+from ...analysis.ways import Coordinate, Deformation
 from ...core.arrays import FloatArray
-from ...core.elements import Dual, NodeKind, Role, dual_table, role_table
+from ...core.elements import (
+    Class,
+    Dual,
+    NodeKind,
+    Role,
+    coordinate_name,
+    dual_table,
+    role_table,
+)
 from ...model.parts.parts import PartKind
 from ...util.errors import FlexactError
 from ...util.records import Frozen
-from ..step import Purpose, after, together
+from ..step import Purpose, Step, after, together, tried
 from . import candidates as reaches
 from .candidates import (
     BODY,
@@ -45,7 +63,7 @@ from .verify import (
     left_of,
     listed,
 )
-from .words import Release
+from .words import Release, coordinate_named, outcome_as_given
 
 #: Stresses below this part of the largest of a self-stress are none.
 _NOTHING = 1.0e-7
@@ -427,3 +445,89 @@ def _without_repeats(source: Result, reach: Reach) -> Reach:
         way = (np.round(reach.rows[i], _DIGITS) + 0.0).tobytes()
         first.setdefault((body, axis, turns, way), i)
     return reach.only(np.array(sorted(first.values()), np.int64))
+
+
+# Declarations taken back --------------------------------------------------------------
+
+#: Of more self-stresses no sets are looked for; so many steps there are at most.
+_MOST_STRESSES, _MOST_TAKEN_BACK = 60, 4
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TakenBack(Step):
+    """Declarations that are taken back."""
+
+    def words(self) -> Pieces:
+        """Such as "take back the declaration of sheet 1: ... (RLSE 1 5 instead of DYNE 1 5)"."""
+        outcome, change = outcome_as_given(self.analysis), self.change
+        what: list[Pieces] = [
+            (
+                named_element(outcome, element),
+                f": {deformation_words(outcome, outcome.data.element_index[element], number)}",
+            )
+            for element, number, _ in change.deformations
+        ]
+        what += [coordinate_in_words(outcome, node, name) for node, name, _ in change.coordinates]
+        if self.analysis.given.source is not None:
+            notes = [f"RLSE {e} {k} instead of DYNE {e} {k}" for e, k, _ in change.deformations]
+            for node, name, _ in change.coordinates:
+                place = coordinate_named(self.analysis, node, name)
+                notes.append(f"without DYNX {place.operands}")
+        else:
+            made = [taken_back(outcome, Deformation(e, k, "")) for e, k, _ in change.deformations]
+            made += [
+                taken_back(outcome, Coordinate(n, name, "")) for n, name, _ in change.coordinates
+            ]
+            notes = list(chain.from_iterable(made)) if all(made) else []
+        is_one = len(what) == 1
+        return (
+            f"take back the declaration{'' if is_one else 's'} of ",
+            *joined(what),
+            ", which is driven against a constraint" if is_one else "",
+            f" ({', '.join(notes)})" if notes else "",
+        )
+
+
+def undeclarations_of(result: Result) -> tuple[TakenBack, ...]:
+    """What declarations can be taken back so that no self-stress is left, each tried.
+
+    A single one where there is one self-stress, deformations or coordinates; else a set of
+    deformations. None where what is declared takes no part in the self-stresses.
+    """
+    count = result.over_constrained
+    if not 0 < count <= _MOST_STRESSES or result.stress_space.vectors < count:
+        return ()
+    made = []
+    for change, condition in _changes(result, count):
+        try:
+            then = tried(result, change)
+        except FlexactError:
+            continue
+        if not then.over_constrained and then.under_constrained <= result.under_constrained:
+            made.append(TakenBack(result, Purpose.UNDECLARE, change, condition, then))
+    return tuple(made[:_MOST_TAKEN_BACK])
+
+
+def _changes(result: Result, count: int) -> Iterator[tuple[Change, float]]:
+    """What may be taken back, and its condition."""
+    if count == 1:
+        for label in ways.driven_deformations(result)[:_MOST_TAKEN_BACK]:
+            yield _of_deformations(result, [label]), 1.0
+        arrays = result.data.arrays
+        for node, axis in ways.driven_coordinates(result)[:_MOST_TAKEN_BACK]:
+            name = coordinate_name(int(arrays.node_kind[node]), axis)
+            place = int(arrays.node_number[node]), name, Class.DEPENDENT
+            yield Change(coordinates=(place,)), 1.0
+        return
+    rows = sorted(ways.driven_set(result), key=partial(row_key, result))
+    if len(rows) == count:
+        block = result.stress_space.toarray()[rows]
+        labels = [(e - 1, number) for e, number in result.raw.row_label[:, rows].T.tolist()]
+        condition = 1.0 / float(np.linalg.svd(block, compute_uv=False)[-1])
+        yield _of_deformations(result, labels), condition
+
+
+def _of_deformations(result: Result, labels: ways.Deformations) -> Change:
+    numbers = result.given.arrays.element_number
+    given = (result.condensed.in_given(*label) for label in labels)
+    return Change(tuple((int(numbers[e]), number, Class.DEPENDENT) for e, number in given))

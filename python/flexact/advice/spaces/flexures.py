@@ -183,8 +183,7 @@ def _strongest(
 
 def _velocities(rows: FloatArray, arm: FloatArray, length: float) -> FloatArray:
     """(k, 3) velocity of a point in each twist [m], by its place from the middle."""
-    made: FloatArray = rows[:, 3:] + np.cross(rows[:, :3] / length, arm)
-    return made
+    return np.asarray(rows[:, 3:] + np.cross(rows[:, :3] / length, arm))
 
 
 def _able(wanted: FloatArray, arm: FloatArray, planar: bool) -> FloatArray:
@@ -462,10 +461,8 @@ def _along(site: Site, plane: Plane) -> FloatArray:
     """Along a flexure in the plane if there is one, else outward from the middle of the body."""
     flat = np.abs(site.directions @ plane.normal) <= SAME
     if flat.any():
-        known: FloatArray = site.directions[int(np.argmax(flat))]
-        return known
+        return np.asarray(site.directions[int(np.argmax(flat))])
     arm = plane.attachment.place - site.middle
     arm = arm - (arm @ plane.normal) * plane.normal
     size = float(np.linalg.norm(arm))
-    made: FloatArray = arm / size if size > site.near else _across(plane.normal)[0]
-    return made
+    return np.asarray(arm / size if size > site.near else _across(plane.normal)[0])

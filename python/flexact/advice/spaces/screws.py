@@ -180,13 +180,11 @@ def flat_family(free: FloatArray, lined: FloatArray) -> Family:
 def _common_point(axes: FloatArray, moments: FloatArray) -> FloatArray:
     """The point d through which all lines go: d x a = b for each."""
     matrix = np.concatenate([np.cross(np.eye(3), axis).T for axis in axes])
-    made: FloatArray = np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0]
-    return made
+    return np.asarray(np.linalg.lstsq(matrix, moments.ravel(), rcond=None)[0])
 
 
 def _unit(vector: FloatArray) -> FloatArray:
-    made: FloatArray = sense_of(vector) * vector / np.linalg.norm(vector)
-    return made
+    return np.asarray(sense_of(vector) * vector / np.linalg.norm(vector))
 
 
 #: How many lines of it are given.
@@ -459,8 +457,7 @@ def _placed(family: Family, about: FloatArray, length: float) -> Family:
 
 def _with_sense(vector: FloatArray) -> FloatArray:
     """A direction whose first component is positive, with zeros for what is rounding."""
-    made: FloatArray = sense_of(vector) * np.where(np.abs(vector) > ROUNDING, vector, 0.0) + 0.0
-    return made
+    return np.asarray(sense_of(vector) * np.where(np.abs(vector) > ROUNDING, vector, 0.0) + 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -496,8 +493,7 @@ class ScrewSpace(Frozen):
     @property
     def scaled(self) -> FloatArray:
         """(k, 6) the orthonormal rows."""
-        made: FloatArray = self.basis * self._factors
-        return made
+        return np.asarray(self.basis * self._factors)
 
     @property
     def _factors(self) -> FloatArray:
@@ -529,8 +525,7 @@ class ScrewSpace(Frozen):
         d = floats(direction, "a direction")
         unit = d / np.linalg.norm(d)
         arm = floats(point, "a point") - self.about
-        made: FloatArray = np.concatenate((unit, np.cross(arm, unit) + pitch * unit))
-        return made
+        return np.asarray(np.concatenate((unit, np.cross(arm, unit) + pitch * unit)))
 
     @staticmethod
     def free(direction: ArrayLike) -> FloatArray:
@@ -556,8 +551,7 @@ class ScrewSpace(Frozen):
     def nearest(self, screw: FloatArray) -> FloatArray:
         """(6,) the part of a twist or a wrench that is in the space."""
         scaled = screw * self._factors
-        made: FloatArray = (self.scaled.T @ (self.scaled @ scaled)) / self._factors
-        return made
+        return np.asarray((self.scaled.T @ (self.scaled @ scaled)) / self._factors)
 
     @cached_property
     def directions(self) -> FloatArray:
@@ -576,8 +570,7 @@ class ScrewSpace(Frozen):
         """
         scaled = screw * self._factors
         swapped = np.concatenate((scaled[3:], scaled[:3])) / np.linalg.norm(scaled)
-        made: FloatArray = self.scaled @ swapped
-        return made
+        return np.asarray(self.scaled @ swapped)
 
     @cached_property
     def reciprocal(self) -> ScrewSpace:

@@ -52,8 +52,7 @@ class Subject(NamedTuple):
     def middle(self, result: Result) -> FloatArray:
         """(3,) the mean of its points [m]."""
         values = result.given.arrays.node_value[:3, list(self.positions)]
-        made: FloatArray = values.mean(axis=1)
-        return made
+        return np.asarray(values.mean(axis=1))
 
 
 def subjects_of(result: Result) -> tuple[Subject, ...]:
@@ -401,8 +400,7 @@ class Site:
             return place - (arm @ family.normal) * family.normal
         if len(family.points):
             feet = self._feet(family, place)
-            made: FloatArray = feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))]
-            return made
+            return np.asarray(feet[int(np.argmin(np.linalg.norm(place - feet, axis=1)))])
         return place
 
     @staticmethod
@@ -410,8 +408,7 @@ class Site:
         """(n, 3) the point of each line of a family that is nearest to a place."""
         arms = place - family.points
         along = np.sum(arms * family.directions, axis=1)[:, None]
-        made: FloatArray = family.points + along * family.directions
-        return made
+        return np.asarray(family.points + along * family.directions)
 
     @cached_property
     def directions(self) -> FloatArray:
@@ -458,8 +455,7 @@ class Site:
             sides.append((round(outward, 6), round(room, 6), sense, end))
         # Outward, unless something is there already.
         sides.sort(key=lambda side: (side[1] > 1.0e-3, *side[:3]), reverse=True)
-        made: FloatArray = sides[0][3]
-        return made
+        return np.asarray(sides[0][3])
 
 
 def _add(axis: FloatArray, made: list[FloatArray]) -> None:

@@ -323,8 +323,7 @@ def _place(result: Result, written: Written) -> FloatArray:
     }
     found = [node for node, name in named.items() if name == word]
     if len(found) == 1:
-        made: FloatArray = result.given.arrays.node_value[:3, found[0]]
-        return made
+        return np.asarray(result.given.arrays.node_value[:3, found[0]])
     if found:
         raise model_error("ambiguous-name", f"{len(found)} points are called {in_short(word)}")
     near = nearest(word, named.values())

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ from ...analysis.naming import Pieces
 from ...analysis.places import listed
 from ...analysis.verdict import Verdict
 from ...analysis.verdict_words import verdict_word
+from ...core.progress import Progress
 from ...deck.rendering import ModelError
 from ...model.editing import edited_deck
 from ...show.picture import STILLS, SUFFIXES
@@ -94,6 +96,11 @@ class AdviceFile:
         self.kind = "" if target is None else target.suffix.lower()
 
     @property
+    def is_deck(self) -> bool:
+        """Whether a deck is written, for which the steps up to that which is taken are enough."""
+        return self.target is not None and self.kind not in (*PAGES, *STILLS)
+
+    @property
     def to_stdout(self) -> bool:
         """Whether the deck goes to stdout in place of words."""
         return self.target == STDOUT
@@ -126,7 +133,7 @@ class AdviceFile:
         else:
             plan_deck(decks[0], self.target)
 
-    def write(self, advice: Advice) -> str:
+    def write(self, advice: Advice, progress: Progress | None = None) -> str:
         """Write what was asked for, and say so; empty where nothing was.
 
         Raises:
@@ -148,7 +155,7 @@ class AdviceFile:
             content = load(pages).page_as_it_is(advice)
             said = f"shown in {name}; {_there(advice)}"
         else:
-            taken, given = self._taken(advice), advice.analysis.given
+            taken, given = self._taken(advice, progress), advice.analysis.given
             if self.kind in PAGES:
                 content = load(pages).page_of(advice, taken.change, taken.pieces)
                 said = f"{taken.words} shown in {name}, {taken.after.outcome}"
@@ -161,18 +168,19 @@ class AdviceFile:
             write_text(self.target, content)
         return f"{deck}: {said}"
 
-    def _taken(self, advice: Advice) -> _Taken:
+    def _taken(self, advice: Advice, progress: Progress | None) -> _Taken:
         """The steps that were asked for; of a page by default the first, or what makes it exact."""
         asked = self.steps or tuple(Chosen(k, 1) for k in advice.exact_by or (1,))
+        steps = tuple(islice(advice.numbered(progress), max(one.step for one in asked)))
         for one in asked:
-            if one.step > len(advice):
+            if one.step > len(steps):
                 raise AskedError(f"there is no step {one.step}: {_there(advice)}", "no-such-step")
-        steps = [(advice[one.step - 1], one.choice) for one in asked]
-        change = together(step.chosen(choice) for step, choice in steps)
-        after = steps[0][0].after if len(steps) == 1 else tried(advice.analysis, change)
+        taken = [steps[one.step - 1] for one in asked]
+        change = together(steps[one.step - 1].chosen(one.choice) for one in asked)
+        after = taken[0].after if len(taken) == 1 else tried(advice.analysis, change)
         numbers = listed([str(one) for one in asked])
-        pieces = tuple(piece for step, _ in steps for piece in (*step.pieces, " "))
-        return _Taken(f"step{'s' * (len(steps) > 1)} {numbers}", change, after, pieces)
+        pieces = tuple(piece for step in taken for piece in (*step.pieces, " "))
+        return _Taken(f"step{'s' * (len(taken) > 1)} {numbers}", change, after, pieces)
 
 
 def _there(advice: Advice) -> str:
@@ -267,9 +275,10 @@ class _Work:
             try:
                 asked = self.chosen
                 advice = advice_of(result, asked.body, asked.wanted, asked.bodies)
-                advice.found(bar.show_work)
+                if not self.file.is_deck or self.chosen.json:
+                    advice.found(bar.show_work)
                 with unwinding():
-                    written = self.file.write(advice)
+                    written = self.file.write(advice, bar.show_work)
             except ModelError as error:
                 raise in_short(error) from None
             words = "" if written and not self.chosen.json else self._words(advice)
