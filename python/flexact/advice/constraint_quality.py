@@ -16,7 +16,7 @@ already. The length of the mechanism makes rotations comparable with displacemen
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -288,11 +288,6 @@ def _cross(arm: FloatArray) -> FloatArray:
     return np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
 
 
-def worst_first(holds: tuple[Hold, ...]) -> Iterator[Hold]:
-    """Flexures by how well they hold, the worst first."""
-    return iter(sorted(holds, key=lambda hold: round(hold.sine, 6)))
-
-
 #: What the number is.
 MEANING = "the sine of the smallest angle to what all others hold: 1 on its own, 0 over-constrained"
 #: So many are named in a caption.
@@ -316,7 +311,7 @@ def hold_in_words(result: Result, hold: Hold) -> str:
 
 def holds_in_words(holds: Sequence[Hold]) -> str:
     """How well each flexure holds, the worst first, a sentence."""
-    worst = list(worst_first(tuple(holds)))
+    worst = sorted(holds, key=lambda hold: round(hold.sine, 6))
     told = "; ".join(f"{hold.name}: {number_of(hold)}" for hold in worst[:_MOST])
     more = f"; and {len(worst) - _MOST} more" if len(worst) > _MOST else ""
     return f"What each flexure holds, and how well ({MEANING}): {told}{more}."

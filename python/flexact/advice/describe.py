@@ -47,12 +47,8 @@ _PARTS = 6
 _COMMAND = re.compile(r"(?m)(^\s*:|#)(:|#\[)")
 
 
-class _Table(NamedTuple):
-    """A table; its first row has its headings."""
-
-    rows: tuple[tuple[str, ...], ...]
-
-
+#: A table; its first row has its headings.
+_Table = list[tuple[str, ...]]
 #: What a section is made of.
 _Told = Line | _Table
 
@@ -78,16 +74,16 @@ def describe(
         _self_stresses(result, most),
         _notes(result, about_model),
     )
-    blocks = ([_shown(told, width) for told in section] for section in sections)
+    blocks = (
+        [
+            table(told, width) if isinstance(told, list) else filled(told, width=width)
+            for told in section
+        ]
+        for section in sections
+    )
     text = "\n\n".join("\n".join(block) for block in blocks if block)
     # In the log of a service that runs tests these would be commands, of whoever names a part.
     return _COMMAND.sub(lambda found: f"{found[1]} {found[2]}", text)
-
-
-def _shown(told: _Told, width: int) -> str:
-    if isinstance(told, _Table):
-        return table(told.rows, width)
-    return filled(told, width=width)
 
 
 class VerdictInWords(NamedTuple):
@@ -141,14 +137,11 @@ def _verdict(result: Result) -> Iterator[Line]:
 
 
 def _counts(result: Result) -> Iterator[_Told]:
-    counts = result.counts
-    yield _Table(
-        (
-            ("", "   total", " fixed", "dependent", "independent"),
-            ("coordinates", *map(str, counts.coordinates)),
-            ("deformations", *map(str, counts.deformations)),
-        )
-    )
+    yield [
+        ("", "   total", " fixed", "dependent", "independent"),
+        ("coordinates", *map(str, result.counts.coordinates)),
+        ("deformations", *map(str, result.counts.deformations)),
+    ]
     yield sentence(f"{declared_in_words(result)}.")
 
 
@@ -158,23 +151,19 @@ def _motions(result: Result, most: int | None) -> Iterator[Line]:
     if internal and result.with_internal_declared is not None:
         told = tuple(motion for motion in told if not motion.is_internal)
     modes = (Line((), motion_in_parts(motion, _PARTS)) for motion in told)
-    kind = _Kind("motion", "s", "kinematically")
+    kind = "motion", "s", "kinematically"
     yield from _modes(kind, result.under_constrained, len(result.motions), modes, internal)
     yield from lines_on_motions(result)
 
 
 def _self_stresses(result: Result, most: int | None) -> Iterator[Line]:
+    told = ((conflict_in_words(each), each) for each in result.self_stresses[:most])
     modes = (
-        Line(_lead(conflict_in_words(stress)), stress_in_parts(stress, _PARTS))
-        for stress in result.self_stresses[:most]
+        Line((*lead, ": ") if lead else (), stress_in_parts(each, _PARTS)) for lead, each in told
     )
-    kind = _Kind("self-stress", "es", "statically")
+    kind = "self-stress", "es", "statically"
     yield from _modes(kind, result.over_constrained, len(result.self_stresses), modes)
     yield from lines_on_self_stresses(result)
-
-
-def _lead(words: Pieces) -> Pieces:
-    return (*words, ": ") if words else ()
 
 
 def _notes(result: Result, about_model: bool) -> Iterator[Line]:
@@ -186,23 +175,16 @@ def _notes(result: Result, about_model: bool) -> Iterator[Line]:
     yield from dict.fromkeys(lines)
 
 
-class _Kind(NamedTuple):
-    """Motions or self-stresses, in words."""
-
-    what: str
-    ending: str
-    how: str
-
-
 def _modes(
-    kind: _Kind, count: int, given: int, modes: Iterable[Line], internal: str = ""
+    kind: tuple[str, str, str], count: int, given: int, modes: Iterable[Line], internal: str = ""
 ) -> Iterator[Line]:
     """Modes one by one, and how many there are besides: nothing where there are none."""
     if not count:
         return
-    what, many = kind.what, kind.what + kind.ending
+    what, ending, way = kind
+    many = what + ending
     heading = (many if count > 1 else what).capitalize()
-    how = f"{kind.how} indeterminate; relative values, only their ratios matter"
+    how = f"{way} indeterminate; relative values, only their ratios matter"
     yield sentence(f"{heading} ({how})")
     if internal:
         yield sentence(f"  {internal}")
@@ -211,7 +193,7 @@ def _modes(
         numbered = line._replace(head=(f"  {shown}. ", *line.head))
         yield numbered.shortened(_PARTS)
     if count > shown and not internal:
-        more = counted(count - shown, f"more {what}", "", kind.ending)
+        more = counted(count - shown, f"more {what}", "", ending)
         yield sentence(f"  ... and {more}")
     if count > given:
         told = f"Of these {count} {many} {given} are given; the method svd gives all."

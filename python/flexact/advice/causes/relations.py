@@ -26,7 +26,14 @@ from ...core.arrays import BoolArray, FloatArray
 from ...core.elements import Class, NodeKind
 from ...model.parts.parts import Part, PartKind, natural
 from .cause import LineKind, Relation, RelationKind
-from .conditions import Figure, Figures, are_one, half_turned
+from .conditions import (
+    Figure,
+    Figures,
+    are_one,
+    circle_terms,
+    conic_terms,
+    half_turned,
+)
 from .lines import (
     Common,
     Limb,
@@ -342,15 +349,12 @@ def conic_of(points: FloatArray) -> RelationKind | None:
     """
     if len(points) < 6:
         return None
-    x, y = ((points - points.mean(axis=0)) / np.abs(points - points.mean(axis=0)).max()).T
-    one = np.ones_like(x)
-    if _is_dependent(np.stack((x**2 + y**2, x, y, one))):
+    at = (points - points.mean(axis=0)) / np.abs(points - points.mean(axis=0)).max()
+    if _is_dependent(circle_terms(at).T):
         return RelationKind.CIRCLE
-    if _are_on_two_lines(np.stack((x, y), axis=1)):
+    if _are_on_two_lines(at):
         return RelationKind.TWO_LINES
-    if _is_dependent(np.stack((x**2, x * y, y**2, x, y, one))):
-        return RelationKind.CONIC
-    return None
+    return RelationKind.CONIC if _is_dependent(conic_terms(at).T) else None
 
 
 def _are_on_two_lines(points: FloatArray) -> bool:

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...analysis.change import Change
-from ...analysis.decomposition import column_weights, row_weights
+from ...analysis.decomposition import column_weights
 from ...analysis.mode_basis import column_key, coordinate_key, deformation_key, row_key
 from ...analysis.result import Result
 from ...analysis.sparse_basis import Sparse, index_of, support_of
-from ...analysis.ways import is_of_class, spanning
+from ...analysis.ways import is_of_class, reaction_entries, released_rates, rows_of, spanning
 from ...core.arrays import Basis, FloatArray
-from ...core.elements import Class, Dual, NodeKind, Role, coordinate_name, dual_table, role_table
+from ...core.elements import Class, NodeKind, Role, coordinate_name, role_table
 from ...model.parts.parts import PartKind
 from ...util.records import Frozen
 
@@ -128,7 +128,7 @@ def of_rows(result: Result, vectors: Places | None = None) -> Reach:
     def change(row: int) -> Change:
         return _of_deformation(result, *(result.raw.row_label[:, row] - 1).tolist())
 
-    return Reach(*_rows(space, able), lambda row: row_key(result, row), change)
+    return Reach(*rows_of(space, able), lambda row: row_key(result, row), change)
 
 
 def of_columns(result: Result, vectors: Places | None = None) -> Reach:
@@ -141,24 +141,14 @@ def of_columns(result: Result, vectors: Places | None = None) -> Reach:
         node, axis = (result.raw.column_label[:, column] - 1).tolist()
         return _of_coordinate(result, node, axis, Class.INDEPENDENT)
 
-    rows = _rows(space, np.ones(result.columns, bool))
-    return Reach(*rows, lambda column: column_key(result, column), change)
+    return Reach(*rows_of(space), lambda column: column_key(result, column), change)
 
 
 def of_supports(result: Result) -> Reach:
     """The fixed coordinates, over the self-stresses: the reactions, as forces."""
-    arrays = result.data.arrays
-    whole = result.assembly
-    able = (arrays.coordinate_class.T == Class.FIXED).ravel()
-    element, deformation = result.raw.row_label - 1
-    row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
-    chosen = able[whole.column_of] & (row >= 0)
-    matrix = Sparse(whole.column_of, row, whole.value, able.size).only(chosen)
-    turned = np.repeat(arrays.node_kind > NodeKind.POSITION, 3)
-    weight = 1.0 / np.where(turned, result.characteristic_length, 1.0)
-    value = matrix.value * weight[matrix.row_of] / row_weights(result)[matrix.column_of]
+    able = (result.data.arrays.coordinate_class.T == Class.FIXED).ravel()
     return Reach(
-        *_product(matrix._replace(value=value), result.stress_space),
+        *_product(reaction_entries(result, able), result.stress_space),
         lambda place: coordinate_key(result, *divmod(place, 3)),
         lambda place: _of_coordinate(result, *divmod(place, 3), Class.DEPENDENT),
     )
@@ -166,32 +156,13 @@ def of_supports(result: Result) -> Reach:
 
 def of_released(result: Result) -> Reach:
     """The released deformations, over the motions: their rates, angles as lengths."""
-    arrays = result.data.arrays
-    whole = result.assembly
-    released = (arrays.deformation_class.T == Class.DEPENDENT).ravel()
-    node, axis = result.raw.column_label - 1
-    column = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
-    chosen = released[whole.row_of] & (column >= 0)
-    matrix = Sparse(whole.row_of, column, whole.value, released.size).only(chosen)
-    angle = (dual_table()[arrays.element_kind] == Dual.MOMENT).ravel()
-    weight = np.where(angle, result.characteristic_length, 1.0)
-    value = matrix.value * weight[matrix.row_of] / column_weights(result)[matrix.column_of]
+    matrix, length = released_rates(result)
+    value = matrix.value * length[matrix.row_of] / column_weights(result)[matrix.column_of]
     return Reach(
         *_product(matrix._replace(value=value), result.motion_space),
         lambda place: deformation_key(result, *divmod(place, 6)),
         lambda place: _of_deformation(result, *divmod(place, 6), Class.FIXED),
     )
-
-
-def _rows(basis: Basis, able: NDArray[np.bool_]) -> tuple[FloatArray, Places]:
-    """Those rows of a basis that are not zero."""
-    support = support_of(basis)
-    support = support[able[support]]
-    place = index_of(support, basis.size)[basis.place]
-    there = place >= 0
-    made = np.zeros((support.size, basis.vectors))
-    made[place[there], basis.of_entries()[there]] = basis.value[there]
-    return made, support
 
 
 def _product(matrix: Sparse, basis: Basis) -> tuple[FloatArray, Places]:

@@ -16,8 +16,8 @@ from ...analysis.change import Change
 from ...analysis.decomposition import Asked
 from ...analysis.result import Result
 from ...analysis.spaces import decompose
-from ...analysis.sparse_basis import index_of
 from ...analysis.verdict import Alternative, AnalysisError
+from ...analysis.ways import entry_columns, entry_rows
 from ...core.arrays import FloatArray
 from ...model.data import ModelData
 from ...model.parts.condensing import as_given
@@ -236,16 +236,12 @@ def spectrum_of(result: Result) -> FloatArray:
     """
     if max(result.rows, result.columns) > _MOST or not result.rows * result.columns:
         return result.scaled_singular_values
-    arrays, raw, whole = result.data.arrays, result.raw, result.assembly
-    element, deformation = raw.row_label - 1
-    node, axis = raw.column_label - 1
-    row = index_of(6 * element + deformation, 6 * arrays.element_number.size)[whole.row_of]
-    column = index_of(3 * node + axis, 3 * arrays.node_number.size)[whole.column_of]
+    raw, row, column = result.raw, entry_rows(result), entry_columns(result)
     there = (row >= 0) & (column >= 0)
     matrix = np.zeros((result.rows, result.columns))
-    np.add.at(matrix, (row[there], column[there]), whole.value[there])
+    np.add.at(matrix, (row[there], column[there]), result.assembly.value[there])
     matrix = matrix * raw.row_scale[:, None] * raw.column_scale
-    given = result.condensed.elements[element].tolist()
+    given = result.condensed.elements[raw.row_label[0] - 1].tolist()
     kinds = {i: result.parts.of_element(i).kind for i in set(given)}
     rigid = np.array([kinds[i] is PartKind.BODY for i in given], bool)
     if rigid.any():

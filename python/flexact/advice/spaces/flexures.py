@@ -257,7 +257,13 @@ def proposed(
     result = freed.result
     try:
         made = analysed(result, change)
-        then, same = Freed(made), _same(subject, result, made)
+        # The body by the numbers of its nodes in the changed mechanism.
+        numbers, index = result.given.arrays.node_number, made.given.node_index
+        positions, orientations = (
+            tuple(index[int(numbers[node])] for node in nodes)
+            for nodes in (subject.positions, subject.orientations)
+        )
+        then, same = Freed(made), Subject(subject.body, positions, orientations)
         if not then.has(same):
             return None
         space = then.space(same)
@@ -266,23 +272,12 @@ def proposed(
     fewer = freed.outcome.under_constrained - then.outcome.under_constrained
     if fewer != count or space.dimension != aim.freedom.dimension - count:
         return None
-    factors = np.repeat((aim.freedom.length, 1.0), 3)
-    if not all(space.has(row / factors) for row in aim.wanted):
+    if not all(space.has(row / aim.freedom.factors) for row in aim.wanted):
         return None
     if made.over_constrained > result.over_constrained:
         return None
     purpose = Purpose.ADD_SHEET if change.sheets else Purpose.ADD_WIRE
     return Added(result, purpose, change, max(condition, 1.0), after(made))
-
-
-def _same(subject: Subject, before: Result, after: Result) -> Subject:
-    """A body by the numbers of its nodes in the changed mechanism."""
-    numbers, index = before.given.arrays.node_number, after.given.node_index
-    positions, orientations = (
-        tuple(index[int(numbers[node])] for node in nodes)
-        for nodes in (subject.positions, subject.orientations)
-    )
-    return Subject(subject.body, positions, orientations)
 
 
 #: How many wires, or sets of wires, are proposed.
@@ -380,19 +375,20 @@ def sheets_for(freed: Freed, site: Site, aim: Aim, besides: Change) -> Iterator[
     """Sheets that were tried, the best first; none in the plane, where a sheet holds as a wire."""
     if aim.freedom.planar or len(aim.unwanted) < _HELD:
         return
-    planes = sorted(_planes(site, aim), key=lambda one: (round(one.cost, 6), one.attachment.key))
+    near = SAME * site.result.characteristic_length
+
+    def is_same(one: Plane, other: Plane) -> bool:
+        apart = abs(float((one.attachment.place - other.attachment.place) @ one.normal))
+        return abs(float(one.normal @ other.normal)) > 1.0 - SAME and apart <= near
+
     chosen: list[Plane] = []
-    for plane in planes:
-        if all(not _is_same(plane, other, site) for other in chosen):
+    for plane in sorted(
+        _planes(site, aim), key=lambda one: (round(one.cost, 6), one.attachment.key)
+    ):
+        if not any(is_same(plane, other) for other in chosen):
             chosen.append(plane)
-    tried = (_proposal(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
+    tried = (_sheet(freed, site, aim, besides, plane) for plane in chosen[:_SHEETS_MOST_TRIED])
     yield from islice(filter(None, tried), _SHEETS_MOST_PROPOSALS)
-
-
-def _is_same(one: Plane, other: Plane, site: Site) -> bool:
-    apart = abs(float((one.attachment.place - other.attachment.place) @ one.normal))
-    is_parallel = abs(float(one.normal @ other.normal)) > 1.0 - SAME
-    return is_parallel and apart <= SAME * site.result.characteristic_length
 
 
 def _planes(site: Site, aim: Aim) -> Iterator[Plane]:
@@ -413,9 +409,8 @@ def _held(space: ScrewSpace, point: FloatArray, normal: FloatArray) -> ScrewSpac
     """All forces along lines in a plane."""
     first, second = _across(normal)
     lines = [space.line(point, first), space.line(point, second), space.free(normal)]
-    factors = np.repeat((space.length, 1.0), 3)
-    rows = np.linalg.qr((np.array(lines) * factors).T)[0].T
-    return ScrewSpace(rows / factors, space.about, space.length, True)
+    rows = np.linalg.qr((np.array(lines) * space.factors).T)[0].T
+    return space.of_scaled(rows, True)
 
 
 def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -450,7 +445,7 @@ def _through_of_sheets(family: Family, site: Site, place: FloatArray) -> Iterato
             yield each
 
 
-def _proposal(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Added | None:
+def _sheet(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Added | None:
     along = _along(site, plane)
     sheet = sheet_at(site, plane.attachment, along, np.cross(plane.normal, along))
     change = replace(besides, sheets=(sheet,))

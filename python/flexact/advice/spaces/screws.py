@@ -493,11 +493,17 @@ class ScrewSpace(Frozen):
     @property
     def scaled(self) -> FloatArray:
         """(k, 6) the orthonormal rows."""
-        return np.asarray(self.basis * self._factors)
+        return np.asarray(self.basis * self.factors)
 
     @property
-    def _factors(self) -> FloatArray:
+    def factors(self) -> FloatArray:
+        """(6,) by which twists and wrenches are made comparable: rows times them are scaled."""
         return np.repeat((self.length, 1.0), 3)
+
+    def of_scaled(self, rows: FloatArray, of_wrenches: bool | None = None) -> ScrewSpace:
+        """The space of other scaled rows, about the same point; of twists and wrenches alike."""
+        wrenches = self.of_wrenches if of_wrenches is None else of_wrenches
+        return ScrewSpace(rows / self.factors, self.about, self.length, wrenches, self.planar)
 
     @cached_property
     def families(self) -> tuple[Family, ...]:
@@ -535,7 +541,7 @@ class ScrewSpace(Frozen):
 
     def distance(self, screw: FloatArray) -> float:
         """Which part of a twist or a wrench, (6,), is not in the space: from 0 to 1."""
-        scaled = screw * self._factors
+        scaled = screw * self.factors
         rest = scaled - self.scaled.T @ (self.scaled @ scaled)
         return float(np.linalg.norm(rest) / np.linalg.norm(scaled))
 
@@ -550,8 +556,8 @@ class ScrewSpace(Frozen):
 
     def nearest(self, screw: FloatArray) -> FloatArray:
         """(6,) the part of a twist or a wrench that is in the space."""
-        scaled = screw * self._factors
-        return np.asarray((self.scaled.T @ (self.scaled @ scaled)) / self._factors)
+        scaled = screw * self.factors
+        return np.asarray((self.scaled.T @ (self.scaled @ scaled)) / self.factors)
 
     @cached_property
     def directions(self) -> FloatArray:
@@ -568,7 +574,7 @@ class ScrewSpace(Frozen):
 
         In parts of the largest that six numbers of this size could do.
         """
-        scaled = screw * self._factors
+        scaled = screw * self.factors
         swapped = np.concatenate((scaled[3:], scaled[:3])) / np.linalg.norm(scaled)
         return np.asarray(self.scaled @ swapped)
 
@@ -582,10 +588,7 @@ class ScrewSpace(Frozen):
             used = np.array([2, 3, 4] if self.of_wrenches else [0, 1, 5])
         made = np.zeros((used.size - self.dimension, 6))
         made[:, used] = complement(swapped[:, used])
-        made = canonical(made)
-        return ScrewSpace(
-            made / self._factors, self.about, self.length, not self.of_wrenches, self.planar
-        )
+        return self.of_scaled(canonical(made), not self.of_wrenches)
 
 
 def complement(rows: FloatArray) -> FloatArray:
