@@ -72,160 +72,170 @@ def outcome_as_given(result: Result) -> Outcome:
     return Outcome(result.name, as_given(result.given), result.raw, result.asked)
 
 
-def released(outcome: Outcome, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
-    """What is done to release deformations, part by part.
+#: Words before and behind the name of a part, and what is free or held then, by role.
+_RELEASED = {
+    # No notch, cut or fold frees this alone: a sheet with a fold holds one thing, not two.
+    Role.ELONGATION: ("let ", " slide along its length", " (elongation free)"),
+    Role.TORSION: ("make ", " soft in torsion", " (twist free)"),
+}
+_HELD = {
+    Role.ELONGATION: ("make ", " stiff along its length", " (elongation held)"),
+    Role.TORSION: ("stiffen ", " against twist", " (twist held)"),
+}
+_SOFT = {Role.ELONGATION: " soft along its length", Role.TORSION: " soft in torsion"}
+#: What a hinge or a bearing does that is released.
+_HINGE = {
+    Role.ROTATION: " turn",
+    Role.ANGLE: " turn",
+    Role.TILT_Y: " tilt",
+    Role.TILT_Z: " tilt",
+}
+
+
+class _Deformation:
+    """A deformation of an element of the model as given, and what words are made of."""
+
+    def __init__(self, outcome: Outcome, element: int, number: int) -> None:
+        """Of the number of an element, and of a deformation of it, from 1."""
+        self.outcome, self.element, self.number = outcome, element, number
+        self.index = outcome.data.element_index[element]
+        self.part, self.name = outcome.parts.of_element(self.index), named_element(outcome, element)
+        self.role = Role(role_of(outcome, self.index, number))
+        self.word = deformation_words(outcome, self.index, number)
+        self.bending = bending_of(outcome, self.index, number)
+        self.is_planar = bool(planar_table()[outcome.data.arrays.element_kind[self.index]])
+
+    @property
+    def is_in_plane(self) -> bool:
+        """Whether it is the bending of a sheet in its own plane."""
+        is_sheet = self.outcome.parts.form[self.index] == Form.SHEET and not self.is_planar
+        return is_sheet and self.bending is not None and self.bending.word == "in-plane bending"
+
+    @property
+    def place(self) -> str:
+        """The end at which a part bends."""
+        if self.bending is None or self.bending.position not in self.part.ends:
+            return " at a place inside it"
+        return f" at {place_words(self.outcome.parts, self.bending.position, self.part)}"
+
+    def released(self) -> Phrase:
+        """How it is released, of what is no hinge and no in-plane bending of a sheet."""
+        if self.part.kind is PartKind.BODY:
+            return self._of_body()
+        if self.role in _RELEASED:
+            before, what, free = _RELEASED[self.role]
+            return Phrase(before, self.name, what, "", free)
+        if self.bending is not None:
+            free = f" ({self.word.partition(' at ')[0]} free there)"
+            if self.part.kind is PartKind.SHEET and not self.is_planar:
+                return Phrase("let ", self.name, " bend out of its plane", self.place, free)
+            return Phrase("give ", self.name, " a notch", self.place, free)
+        return Phrase("let ", self.name, " give", "", f" ({self.word} free)")
+
+    def _of_body(self) -> Phrase:
+        """Of a rigid member, which is one of several of its body or the body itself."""
+        data, parts, name = self.outcome.data, self.outcome.parts, self.name
+        between = ""
+        if self.index in parts.links:
+            nodes = (data.arrays.element_node[[0, 2], self.index] - 1).tolist()
+            ends = dict.fromkeys(place_words(parts, node) for node in nodes if node >= 0)
+            # A body is no place on itself.
+            if len(ends) == 2 and name.words not in ends:
+                between = f" between {' and '.join(ends)}"
+        elif own := harmless(part_name(data.element_names[self.index])).strip():
+            name = name._replace(words=with_article(own))
+        if self.role in _SOFT:
+            return Phrase("make ", name, _SOFT[self.role], between)
+        if self.bending is not None:
+            kind, _, place = self.word.partition(" at ")
+            where = f"{kind.removeprefix('bending')}{between or f' at {place}'}"
+            return Phrase("make ", name, " soft in bending", where)
+        return Phrase("let ", name, " give", f" {self.word.removeprefix('displacement ')}{between}")
+
+    def held(self) -> Phrase:
+        """How it is held that is released."""
+        if self.part.kind is PartKind.HINGE:
+            return Phrase("lock ", self.name, "", "", f" ({self.word} held)")
+        if self.role in _HELD:
+            before, what, held = _HELD[self.role]
+            return Phrase(before, self.name, what, "", held)
+        if self.bending is not None:
+            held = f" ({self.word.partition(' at ')[0]} held there)"
+            return Phrase("stiffen ", self.name, "", self.place, held)
+        return Phrase("stiffen ", self.name, "", "", f" ({self.word} held)")
+
+
+def released(outcome: Outcome, deformations: Iterable[Deformation]) -> Iterator[Phrase]:
+    """What is done to release deformations, part by part; those of a body by its members.
 
     Args:
         outcome: That on the model as given; see `outcome_as_given`.
         deformations: What is released.
     """
-    return tuple(
-        phrase
-        for part, mine in _by_part(outcome, deformations)
-        for phrase in _of_part(outcome, part, mine)
-    )
+    by_part: dict[tuple[Part, int], list[_Deformation]] = {}
+    for one in (_Deformation(outcome, *each) for each in deformations):
+        member = one.element if one.part.kind is PartKind.BODY else 0
+        by_part.setdefault((one.part, member), []).append(one)
+    for (part, _), mine in by_part.items():
+        for one in mine:
+            one.name = mine[0].name
+        yield from _of_part(outcome, part, mine)
 
 
-def held(outcome: Outcome, deformations: Iterable[Deformation]) -> tuple[Phrase, ...]:
-    """What is done to hold released deformations, one by one."""
-    return tuple(_held(outcome, *one) for one in deformations)
+def _of_part(outcome: Outcome, part: Part, mine: list[_Deformation]) -> Iterator[Phrase]:
+    name, (first, *more) = mine[0].name, mine
+    is_hinge, is_body = part.kind is PartKind.HINGE, part.kind is PartKind.BODY
+    rest = [] if is_body else _held_without(outcome, part, mine)
+    can_go = not is_body and not rest and _can_go(outcome, part)
+    in_plane = [one for one in mine if one.is_in_plane]
+    roles = {one.role for one in mine}
+    is_wire = {role_of(outcome, first.index, number) for number in rest} == {Role.ELONGATION}
+    if can_go and more and is_hinge and not roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z}:
+        yield Phrase("replace ", name, " by a ball joint", "", " (all its rotations free)")
+    elif can_go and more:
+        yield Phrase("take ", name, " out")
+    elif is_hinge:
+        for one in mine:
+            what = _HINGE.get(one.role, " slide")
+            where = one.word.removeprefix("tilt").removeprefix("displacement")
+            if what == " turn":
+                where = " about its axis" * (one.role == Role.ROTATION)
+            yield Phrase("let ", name, what, where)
+    elif can_go:
+        out = " out"
+        if first.role == Role.ELONGATION:
+            is_bar = part.kind is PartKind.BAR
+            out += ", or make it adjustable in length" if is_bar else _SLIDES
+        yield Phrase("take ", name, out, "", f" ({first.word} free)")
+    else:
+        is_wire = is_wire and len(in_plane) == 2
+        if is_wire:
+            both = " (in-plane bending free at both its ends)"
+            yield Phrase("replace ", name, " by a wire", "", both)
+        for one in mine:
+            if not one.is_in_plane:
+                yield one.released()
+            elif not is_wire:
+                free = " (in-plane bending free there)"
+                yield Phrase("cut ", name, " to a waist", one.place, free)
 
 
-def _by_part(
-    outcome: Outcome, deformations: Iterable[Deformation]
-) -> Iterator[tuple[Part, list[Deformation]]]:
-    """Deformations by part; those of a body by its members."""
-    made: dict[tuple[Part, int], list[Deformation]] = {}
-    for element, number in deformations:
-        part = outcome.parts.of_element(outcome.data.element_index[element])
-        member = element if part.kind is PartKind.BODY else 0
-        made.setdefault((part, member), []).append((element, number))
-    for (part, _), mine in made.items():
-        yield part, mine
+_SLIDES = ", or let it slide along its length"
 
 
-def _of_part(outcome: Outcome, part: Part, mine: list[Deformation]) -> Iterator[Phrase]:
-    name = named_element(outcome, mine[0][0])
-    if part.kind is PartKind.HINGE:
-        yield from _of_hinge(outcome, part, name, mine)
-        return
-    if _holds_nothing_else(outcome, part, mine) and _can_go(outcome, part):
-        yield _taken_out(outcome, part, name, mine)
-        return
-    in_plane = [one for one in mine if _is_in_plane(outcome, *one)]
-    left = {_role(outcome, mine[0][0], number) for number in _held_without(outcome, part, mine)}
-    is_wire = len(in_plane) == 2 and left == {Role.ELONGATION}
-    if is_wire:
-        yield Phrase(
-            "replace ", name, " by a wire", "", " (in-plane bending free at both its ends)"
-        )
-    for one in mine:
-        if one in in_plane and not is_wire:
-            where = f" at {_place(outcome, part, *one)}"
-            yield Phrase("cut ", name, " to a waist", where, " (in-plane bending free there)")
-        elif one not in in_plane:
-            yield _one(outcome, part, name, *one)
-
-
-def _one(outcome: Outcome, part: Part, name: Named, element: int, number: int) -> Phrase:
-    """A deformation that is no in-plane bending of a sheet."""
-    if part.kind is PartKind.BODY:
-        return _of_body(outcome, name, element, number)
-    role, word = _role(outcome, element, number), _word(outcome, element, number)
-    if role == Role.ELONGATION:
-        # No notch, cut or fold frees this alone: a sheet with a fold holds one thing, not two.
-        return Phrase("let ", name, " slide along its length", "", " (elongation free)")
-    if role == Role.TORSION:
-        return Phrase("make ", name, " soft in torsion", "", " (twist free)")
-    if bending_of(outcome, outcome.data.element_index[element], number) is not None:
-        kind = word.partition(" at ")[0]
-        where, free = f" at {_place(outcome, part, element, number)}", f" ({kind} free there)"
-        if part.kind is PartKind.SHEET and not _is_planar(outcome, element):
-            return Phrase("let ", name, " bend out of its plane", where, free)
-        return Phrase("give ", name, " a notch", where, free)
-    return Phrase("let ", name, " give", "", f" ({word} free)")
-
-
-def _of_body(outcome: Outcome, name: Named, element: int, number: int) -> Phrase:
-    """A deformation of a rigid member, which is one of several of its body or the body itself."""
-    index = outcome.data.element_index[element]
-    role, word = _role(outcome, element, number), _word(outcome, element, number)
-    own = harmless(part_name(outcome.data.element_names[index])).strip()
-    between = ""
-    if index in outcome.parts.links:
-        nodes = (outcome.data.arrays.element_node[[0, 2], index] - 1).tolist()
-        ends = dict.fromkeys(place_words(outcome.parts, node) for node in nodes if node >= 0)
-        # A body is no place on itself.
-        is_told = len(ends) == 2 and name.words not in ends
-        between = f" between {' and '.join(ends)}" if is_told else ""
-    elif own:
-        name = name._replace(words=with_article(own))
-    if role == Role.TORSION:
-        return Phrase("make ", name, " soft in torsion", between)
-    if role == Role.ELONGATION:
-        return Phrase("make ", name, " soft along its length", between)
-    if bending_of(outcome, index, number) is not None:
-        kind, _, place = word.partition(" at ")
-        axis = kind.removeprefix("bending")
-        return Phrase("make ", name, " soft in bending", f"{axis}{between or f' at {place}'}")
-    return Phrase("let ", name, " give", f" {word.removeprefix('displacement ')}{between}")
-
-
-def _of_hinge(
-    outcome: Outcome, part: Part, name: Named, mine: list[Deformation]
-) -> Iterator[Phrase]:
-    roles = {_role(outcome, *one) for one in mine}
-    is_bearing = bool(roles & {Role.OFFSET_X, Role.OFFSET_Y, Role.OFFSET_Z})
-    if _holds_nothing_else(outcome, part, mine) and len(mine) > 1 and _can_go(outcome, part):
-        if is_bearing:
-            yield Phrase("take ", name, " out")
-        else:
-            yield Phrase("replace ", name, " by a ball joint", "", " (all its rotations free)")
-        return
-    for one in mine:
-        role, word = _role(outcome, *one), _word(outcome, *one)
-        if role in (Role.ROTATION, Role.ANGLE):
-            yield Phrase("let ", name, " turn", " about its axis" * (role == Role.ROTATION))
-        elif role in (Role.TILT_Y, Role.TILT_Z):
-            yield Phrase("let ", name, " tilt", word.removeprefix("tilt"))
-        else:
-            yield Phrase("let ", name, " slide", word.removeprefix("displacement"))
-
-
-def _taken_out(outcome: Outcome, part: Part, name: Named, mine: list[Deformation]) -> Phrase:
-    """A part that holds nothing else."""
-    if len(mine) > 1:
-        return Phrase("take ", name, " out")
-    free = f" ({_word(outcome, *mine[0])} free)"
-    if _role(outcome, *mine[0]) != Role.ELONGATION:
-        return Phrase("take ", name, " out", "", free)
-    is_bar = part.kind is PartKind.BAR
-    instead = "make it adjustable in length" if is_bar else "let it slide along its length"
-    return Phrase("take ", name, f" out, or {instead}", "", free)
-
-
-def _holds_nothing_else(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> bool:
-    """Whether these are all that a part, other than a body, holds."""
-    return part.kind is not PartKind.BODY and not _held_without(outcome, part, mine)
-
-
-def _held_without(outcome: Outcome, part: Part, mine: Sequence[Deformation]) -> list[int]:
+def _held_without(outcome: Outcome, part: Part, mine: Sequence[_Deformation]) -> list[int]:
     """What a part holds, or has declared, without some: deformations of one beam, from 1."""
-    index = outcome.data.element_index
     row = next((c for c in outcome.data.chains if c.elements[0] == part.elements[0]), None)
     if row is None:
         classes = outcome.data.arrays.deformation_class[:, part.elements[0]].tolist()
-        gone = {number for _, number in mine}
+        gone = {one.number for one in mine}
     else:
         # What one of its beams releases, a row of beams does not hold.
-        classes = [max(each, key=_is_free) for each in zip(*row.classes, strict=True)]
-        beams = [(row.elements.index(index[element]), number) for element, number in mine]
-        gone = {row.own(beam, number) for beam, number in beams}
-    return [
-        k
-        for k, given in enumerate(classes, 1)
-        if k not in gone and given != Class.NONE and not _is_free(given)
-    ]
+        beams = zip(*row.classes, strict=True)
+        classes = [max(each, key=lambda given: given == Class.DEPENDENT) for each in beams]
+        gone = {row.own(row.elements.index(one.index), one.number) for one in mine}
+    free = Class.NONE, Class.DEPENDENT
+    return [k for k, given in enumerate(classes, 1) if k not in gone and given not in free]
 
 
 def _can_go(outcome: Outcome, part: Part) -> bool:
@@ -237,58 +247,6 @@ def _can_go(outcome: Outcome, part: Part) -> bool:
     alone = [node for node in own[own >= 0].tolist() if used[node] == 1]
     classes = arrays.coordinate_class[:, alone]
     return not np.any((classes == Class.DEPENDENT) | (classes == Class.INDEPENDENT))
-
-
-def _is_free(given: int) -> bool:
-    return given == Class.DEPENDENT
-
-
-def _held(outcome: Outcome, element: int, number: int) -> Phrase:
-    """What is done to hold a released deformation."""
-    index = outcome.data.element_index[element]
-    part, name = outcome.parts.of_element(index), named_element(outcome, element)
-    role, word = _role(outcome, element, number), _word(outcome, element, number)
-    if part.kind is PartKind.HINGE:
-        return Phrase("lock ", name, "", "", f" ({word} held)")
-    if role == Role.TORSION:
-        return Phrase("stiffen ", name, " against twist", "", " (twist held)")
-    if role == Role.ELONGATION:
-        return Phrase("make ", name, " stiff along its length", "", " (elongation held)")
-    if bending_of(outcome, index, number) is not None:
-        kind = word.partition(" at ")[0]
-        where = f" at {_place(outcome, part, element, number)}"
-        return Phrase("stiffen ", name, "", where, f" ({kind} held there)")
-    return Phrase("stiffen ", name, "", "", f" ({word} held)")
-
-
-def _word(outcome: Outcome, element: int, number: int) -> str:
-    return deformation_words(outcome, outcome.data.element_index[element], number)
-
-
-def _role(outcome: Outcome, element: int, number: int) -> int:
-    return role_of(outcome, outcome.data.element_index[element], number)
-
-
-def _is_planar(outcome: Outcome, element: int) -> bool:
-    kind = outcome.data.arrays.element_kind[outcome.data.element_index[element]]
-    return bool(planar_table()[kind])
-
-
-def _is_in_plane(outcome: Outcome, element: int, number: int) -> bool:
-    """Whether a deformation is the bending of a sheet in its own plane."""
-    index = outcome.data.element_index[element]
-    if outcome.parts.form[index] != Form.SHEET or _is_planar(outcome, element):
-        return False
-    bending = bending_of(outcome, index, number)
-    return bending is not None and bending.word == "in-plane bending"
-
-
-def _place(outcome: Outcome, part: Part, element: int, number: int) -> str:
-    """The end at which a part bends."""
-    bending = bending_of(outcome, outcome.data.element_index[element], number)
-    if bending is None or bending.position not in part.ends:
-        return "a place inside it"
-    return place_words(outcome.parts, bending.position, part)
 
 
 #: How many alternatives of several parts each are named, and how many of one part.
@@ -345,10 +303,13 @@ class Release(Step):
         return tuple(piece for piece in pieces if piece)
 
 
-def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> tuple[Phrase, ...]:
+def _phrases(outcome: Outcome, purpose: Purpose, change: Change) -> list[Phrase]:
     deformations = [(element, number) for element, number, _ in change.deformations]
-    made = (held if purpose is Purpose.HOLD else released)(outcome, deformations)
-    return made + tuple(_freed(outcome, node, name) for node, name, _ in change.coordinates)
+    if purpose is Purpose.HOLD:
+        made = [_Deformation(outcome, *one).held() for one in deformations]
+    else:
+        made = list(released(outcome, deformations))
+    return made + [_freed(outcome, node, name) for node, name, _ in change.coordinates]
 
 
 def _freed(outcome: Outcome, node: int, name: str) -> Phrase:

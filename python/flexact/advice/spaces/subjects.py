@@ -328,10 +328,7 @@ class Site:
         """Points that a link would carry: where lines of these spaces come near to the body."""
         places, own = [self.middle], [self.middle, *(each.place for each in self.own)]
         for family in (each for space in spaces for each in space.lines):
-            places += [
-                self._nearest(family, near)
-                for near in (self.middle, *(each.place for each in self.own))
-            ]
+            places += [self._nearest(family, near) for near in own]
             places += list(self._feet(family, self.middle)) if len(family.points) > 2 else []
         return self._carried(places)
 
