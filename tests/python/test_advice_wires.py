@@ -13,12 +13,13 @@ from spaces_models import SHEETS, WIRES, on_folded_sheets, on_sheets, on_wires
 
 import flexact
 from flexact import Model
-from flexact.advice.spaces.flexures import wire_along
+from flexact.advice.spaces.flexures import wire_at
 from flexact.advice.spaces.screws import FamilyKind, ScrewSpace
 from flexact.advice.spaces.spaces import Spaces, spaces_of
+from flexact.advice.spaces.subjects import Site
 from flexact.advice.spaces.wanted_motion import Wanted
 from flexact.advice.step import Purpose, Step
-from flexact.analysis.change import Change
+from flexact.analysis.change import AddedWire, Change
 from flexact.analysis.screws import ScrewKind
 from flexact.model.parts.parts import PartKind
 
@@ -151,6 +152,15 @@ def test_the_textbook_guide_gets_its_fifth_wire_back() -> None:
     assert np.allclose(np.abs(force[:3]), Y, atol=1e-9)
 
 
+def wire_along(site: Site, point: np.ndarray, direction: np.ndarray) -> AddedWire:
+    """A wire that ends on a body at a point [m] and runs along a direction to the ground."""
+    near = min(site.own, key=lambda each: float(np.linalg.norm(each.place - point)))
+    length = site.result.characteristic_length
+    is_there = bool(np.linalg.norm(near.place - point) <= 1.0e-9 * length)
+    place = near.place if is_there else point
+    return wire_at(site, near._replace(place=place, is_there=is_there), direction)
+
+
 @pytest.mark.parametrize("name", [name for name in MODELS if name != "six wires"])
 def test_a_wire_along_a_redundant_line_only_adds_a_self_stress(name: str) -> None:
     model = MODELS[name]
@@ -175,7 +185,7 @@ def test_a_wire_along_a_redundant_line_only_adds_a_self_stress(name: str) -> Non
         elif family.kind is FamilyKind.COMPLEX:
             # On the complex: lines that meet its axis at right angles.
             way = np.cross(family.direction, (0.3, 0.5, 0.7))
-        wire = wire_along(result, found.subject, point, way / np.linalg.norm(way))
+        wire = wire_along(Site(result, found.subject), point, way / np.linalg.norm(way))
         after = flexact.analyse(Change(wires=(wire,)).apply(model.data))
         assert after.under_constrained == result.under_constrained
         assert after.over_constrained == result.over_constrained + 1

@@ -45,7 +45,7 @@ from .releases.releases import (
 )
 from .spaces.spaces import Spaces, spaces_lines, spaces_of
 from .step import After, Purpose, Step, together, tried
-from .words import begun, ended, in_a_row
+from .words import in_a_row, sentence
 
 #: What has a statement.
 _Made = TypeVar("_Made")
@@ -374,7 +374,7 @@ def sections_of(advice: Advice, most: int | None = MOST_STEPS) -> tuple[Section,
     made = (
         tuple(_motions(advice, known)),
         tuple(_stresses(advice, known)),
-        advice.made("a pair", lambda: tuple(_both(advice)), ()),
+        advice.made("a pair", lambda: _both(advice), ()),
         *_steps(advice, most),
         tuple(_left_out(advice)),
         spaces,
@@ -443,10 +443,10 @@ def _modes(
         yield _said(f"  Each of them: {words[0].lower()}{words[1:]}", hangs=True)
 
 
-def _both(advice: Advice) -> Iterator[Told]:
+def _both(advice: Advice) -> Section:
     """Which constraint is spent twice while which motion is free."""
-    if both := both_in_words(advice.analysis, advice.causes):
-        yield Line(ended(begun(both))), False
+    both = both_in_words(advice.analysis, advice.causes)
+    return ((Line(sentence(both)), False),) if both else ()
 
 
 def _steps(advice: Advice, most: int | None) -> Iterator[Section]:

@@ -80,7 +80,11 @@ def holds_of(result: Result) -> tuple[Hold, ...]:
     if not 0 < net.bodies <= _MOST_BODIES:
         return ()
     found = [each for each in map(net.wrenches, net.groups) if each is not None]
-    if not found or len(found) < len(net.groups) or not net.is_joined_by(found):
+    if not found or len(found) < len(net.groups):
+        return ()
+    # Bodies that share a point have a hinge there, which has it in what it holds.
+    pairs = {each.bodies for each in found}
+    if any(len(own) != 2 or tuple(sorted(own)) not in pairs for own in net.pins.values()):
         return ()
     sines = _sines([net.on_bodies(each) for each in found])
     return tuple(net.told(each, sine) for each, sine in zip(found, sines, strict=True))
@@ -219,11 +223,6 @@ class _Net:
         # A twist is (v, w length) there, and a wrench (f, m/length).
         wrenches = held * np.repeat((1.0, self.length), 3)
         return _Carried(elements, (ends[0], ends[1]), middle, wrenches)
-
-    def is_joined_by(self, found: list[_Carried]) -> bool:
-        """Whether bodies that share a point have a hinge there, which has it in what it holds."""
-        pairs = {each.bodies for each in found}
-        return all(len(own) == 2 and tuple(sorted(own)) in pairs for own in self.pins.values())
 
     def _rates(self, elements: tuple[int, ...], nodes: list[int]) -> FloatArray:
         """(held, 3 nodes) rates of what elements hold, rotations by the length of the mechanism."""

@@ -9,7 +9,7 @@ rank five belong to one linear complex (Hunt, *Kinematic Geometry of Mechanisms*
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations
 from typing import NamedTuple
 
@@ -255,23 +255,37 @@ class Lines:
 
     def planes(self) -> list[tuple[list[int], FloatArray, FloatArray]]:
         """Three or more in one plane each: which, the normal, and a point of it."""
-        return list(self._largest(self._planes_of_pairs(), self._is_in_plane))
+
+        def is_in(line: Line, normal: FloatArray, point: FloatArray) -> bool:
+            off = abs(float((line.point - point) @ normal))
+            return abs(float(line.direction @ normal)) <= _SAME and off <= _SAME * self.length
+
+        return self._largest(self._planes_of_pairs(), is_in)
 
     def points(self) -> list[tuple[list[int], FloatArray, FloatArray]]:
         """Three or more through one point each: which, nothing, and the point."""
-        return list(self._largest(self._points_of_pairs(), self._is_through))
+
+        def is_through(line: Line, _: FloatArray, point: FloatArray) -> bool:
+            off = float(np.linalg.norm(np.cross(point - line.point, line.direction)))
+            return off <= _SAME * max(self.length, float(np.linalg.norm(point)))
+
+        met = (self.meeting(i, j) for i, j in self._pairs())
+        return self._largest(
+            ((np.zeros(3), point) for point in met if point is not None), is_through
+        )
 
     def _largest(
         self,
-        found: Iterator[tuple[FloatArray, FloatArray]],
-        has: Callable[[int, FloatArray, FloatArray], bool],
-    ) -> Iterator[tuple[list[int], FloatArray, FloatArray]]:
-        seen: set[tuple[int, ...]] = set()
+        found: Iterable[tuple[FloatArray, FloatArray]],
+        has: Callable[[Line, FloatArray, FloatArray], bool],
+    ) -> list[tuple[list[int], FloatArray, FloatArray]]:
+        """Groups of three or more, each once."""
+        made: dict[tuple[int, ...], tuple[list[int], FloatArray, FloatArray]] = {}
         for normal, point in found:
-            group = [k for k in range(len(self)) if has(k, normal, point)]
-            if len(group) > 2 and tuple(group) not in seen:
-                seen.add(tuple(group))
-                yield group, normal, point
+            group = [k for k, line in enumerate(self.lines) if has(line, normal, point)]
+            if len(group) > 2:
+                made.setdefault(tuple(group), (group, normal, point))
+        return list(made.values())
 
     def _pairs(self) -> Iterator[tuple[int, int]]:
         return combinations(range(min(len(self), _MOST_LINES)), 2)
@@ -288,22 +302,6 @@ class Lines:
             else:
                 continue
             yield normal / np.linalg.norm(normal), a.point
-
-    def _points_of_pairs(self) -> Iterator[tuple[FloatArray, FloatArray]]:
-        for i, j in self._pairs():
-            point = self.meeting(i, j)
-            if point is not None:
-                yield np.zeros(3), point
-
-    def _is_in_plane(self, k: int, normal: FloatArray, point: FloatArray) -> bool:
-        line = self.lines[k]
-        off = abs(float((line.point - point) @ normal))
-        return bool(abs(float(line.direction @ normal)) <= _SAME and off <= _SAME * self.length)
-
-    def _is_through(self, k: int, _: FloatArray, point: FloatArray) -> bool:
-        line = self.lines[k]
-        off = float(np.linalg.norm(np.cross(point - line.point, line.direction)))
-        return off <= _SAME * max(self.length, float(np.linalg.norm(point)))
 
     def unstopped(self) -> Screw | None:
         """The one motion that a body has which is held along these lines; of rank five."""
@@ -441,7 +439,9 @@ def clusters_of(result: Result) -> tuple[frozenset[int], ...]:
             if r not in near[q] or any({p, q, r} <= body for body in made):
                 continue
             made.append(_grown({p, q, r}, near, needed))
-    free = [body for body in made if not _is_held(result, body)]
+    # Those of which no coordinate of a joint is fixed.
+    classes = result.given.arrays.coordinate_class
+    free = [body for body in made if not np.any(classes[:, sorted(body)] == Class.FIXED)]
     return tuple(sorted(free, key=lambda body: (-len(body), _key(result, body))))
 
 
@@ -452,12 +452,6 @@ def _grown(body: set[int], near: dict[int, set[int]], needed: int) -> frozenset[
         if not new:
             return frozenset(body)
         body |= new
-
-
-def _is_held(result: Result, body: frozenset[int]) -> bool:
-    """Whether a coordinate of one of its joints is fixed."""
-    classes = result.given.arrays.coordinate_class[:, sorted(body)]
-    return bool(np.any(classes == Class.FIXED))
 
 
 def _key(result: Result, body: frozenset[int]) -> object:

@@ -156,9 +156,14 @@ def counted(stands: Result, reach: Reach, purpose: Purpose) -> tuple[int | None,
                 known[chosen] = False
         return known[chosen]
 
+    # By how much entries of the orthonormal null vectors may be off.
+    zero, above = stands.gap.largest_zero or 0.0, stands.gap.smallest_nonzero or 1.0
+    noise = max(stands.raw.noise, zero, float(np.finfo(np.float64).eps))
+    error = _OF_NOISE * noise / min(above, 1.0)
+
     def count(judge: Judge) -> int | None:
         try:
-            found = count_bases(reach.rows, error_of(stands), judge)
+            found = count_bases(reach.rows, error, judge)
         except TooManyError:
             return None
         return found if found <= _LARGEST else None
@@ -173,13 +178,6 @@ def counted(stands: Result, reach: Reach, purpose: Purpose) -> tuple[int | None,
 
     most = count(judge_kindly)
     return certain, None if most is None else max(0, most - certain)
-
-
-def error_of(result: Result) -> float:
-    """By how much entries of its orthonormal null vectors may be off."""
-    zero, above = result.gap.largest_zero or 0.0, result.gap.smallest_nonzero or 1.0
-    noise = max(result.raw.noise, zero, float(np.finfo(np.float64).eps))
-    return _OF_NOISE * noise / min(above, 1.0)
 
 
 # Tried ------------------------------------------------------------------------------
@@ -253,12 +251,6 @@ def spectrum_of(result: Result) -> FloatArray:
     return np.asarray(np.linalg.svd(matrix, compute_uv=False), np.float64)
 
 
-def tries_of(result: Result) -> int:
-    """How many analyses may be made."""
-    operations = float(result.rows) * result.columns * min(result.rows, result.columns)
-    return int(np.clip(_MOST_OPERATIONS / max(operations, 1.0), _FEWEST_TRIES, _MOST_TRIES))
-
-
 def decades(condition: FloatArray) -> FloatArray:
     """(sets, 1) how many times ten each condition is worse than the best."""
     return np.asarray(np.floor(np.log10(condition / condition.min()) + 1.0e-6)[:, None])
@@ -304,7 +296,10 @@ def listed(
     groups: dict[Hashable, list[Candidate]] = {}
     for candidate in found[:_MOST_GROUPED]:
         groups.setdefault((candidate.rank, kinds(candidate)), []).append(candidate)
-    left, failed = tries_of(result), 0
+    # How many analyses may be made.
+    operations = float(result.rows) * result.columns * min(result.rows, result.columns)
+    tries = _MOST_OPERATIONS / max(operations, 1.0)
+    left, failed = int(np.clip(tries, _FEWEST_TRIES, _MOST_TRIES)), 0
     works: list[_Works] = []
 
     def is_good(candidate: Candidate) -> bool:

@@ -200,19 +200,6 @@ def _able(wanted: FloatArray, arm: FloatArray, planar: bool) -> FloatArray:
 
 #: Of the characteristic length, places of new nodes have so many digits.
 _DIGITS = 12
-#: A point as near as this to one of the body, likewise, is that.
-_THERE = 1.0e-9
-
-
-def wire_along(
-    result: Result, subject: Subject, point: FloatArray, direction: FloatArray
-) -> AddedWire:
-    """A wire that ends on a body at a point [m] and runs along a direction to the ground."""
-    site = Site(result, subject)
-    near = min(site.own, key=lambda each: float(np.linalg.norm(each.place - point)))
-    is_there = bool(np.linalg.norm(near.place - point) <= _THERE * result.characteristic_length)
-    place = near.place if is_there else point
-    return wire_at(site, near._replace(place=place, is_there=is_there), direction)
 
 
 def wire_at(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
@@ -226,12 +213,6 @@ def wire_at(site: Site, at: Attachment, direction: FloatArray) -> AddedWire:
         _three(site, site.ground(at.place, direction)),
         name,
     )
-
-
-def sheet_at(site: Site, at: Attachment, direction: FloatArray, width: FloatArray) -> AddedSheet:
-    """A sheet from a point of a body along a direction to the ground."""
-    wire = wire_at(site, at, direction)
-    return AddedSheet(*wire[:4], _three(site, width), wire.body)
 
 
 def _three(site: Site, place: FloatArray) -> tuple[float, float, float]:
@@ -447,8 +428,9 @@ def _through_of_sheets(family: Family, site: Site, place: FloatArray) -> Iterato
 
 def _sheet(freed: Freed, site: Site, aim: Aim, besides: Change, plane: Plane) -> Added | None:
     along = _along(site, plane)
-    sheet = sheet_at(site, plane.attachment, along, np.cross(plane.normal, along))
-    change = replace(besides, sheets=(sheet,))
+    wire = wire_at(site, plane.attachment, along)
+    width = _three(site, np.cross(plane.normal, along))
+    change = replace(besides, sheets=(AddedSheet(*wire[:4], width, wire.body),))
     return proposed(freed, site.subject, aim, change, _HELD, plane.condition)
 
 

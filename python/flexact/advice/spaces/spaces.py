@@ -94,7 +94,10 @@ def spaces_of(
             motions to be kept.
         TypeError: the body is no text, or what is wanted is none.
     """
-    _require_texts(body, wanted)
+    if not isinstance(body, (str, type(None))):
+        raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
+    if isinstance(wanted, str):
+        raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
     written = [read(each, planar=result.given.planar) for each in wanted]
     names = [each.body for each in written if each.body is not None]
     freed = Freed(result)
@@ -123,13 +126,6 @@ def spaces_of(
         else (),
         is_tried,
     )
-
-
-def _require_texts(body: object, wanted: object) -> None:
-    if not isinstance(body, (str, type(None))):
-        raise TypeError(f"a body is given by its name, not by {type(body).__name__}")
-    if isinstance(wanted, str):
-        raise TypeError('wanted motions are several texts, such as ["stage: translation z"]')
 
 
 def _subject(freed: Freed, body: str | None) -> Subject | None:

@@ -170,31 +170,23 @@ class Freed:
         return cls(result, is_freed=False)
 
     @cached_property
-    def _data(self) -> ModelData:
-        data = self.result.data
-        arrays = data.arrays
-        coordinates, deformations = (
-            np.where(classes == Class.INDEPENDENT, np.int32(Class.DEPENDENT), classes)
-            for classes in (arrays.coordinate_class, arrays.deformation_class)
-        )
-        return ModelData(
-            arrays._replace(
-                coordinate_class=np.asfortranarray(coordinates),
-                deformation_class=np.asfortranarray(deformations),
-            ),
-            data.planar,
-            data.name,
-            data.element_names,
-            given_appearance=data.given_appearance,
-            has_long_numbers=data.has_long_numbers,
-        )
-
-    @cached_property
     def _raw(self) -> RawAnalysis:
         if not self._is_freed or not self.result.degrees_of_freedom:
             return self.result.raw
-        asked = self.result.asked
-        return decompose(self._data, Asked(asked.method, asked.tolerance))
+        data, asked = self.result.data, self.result.asked
+        coordinates, deformations = (
+            np.asfortranarray(
+                np.where(classes == Class.INDEPENDENT, np.int32(Class.DEPENDENT), classes)
+            )
+            for classes in (data.arrays.coordinate_class, data.arrays.deformation_class)
+        )
+        arrays = data.arrays._replace(coordinate_class=coordinates, deformation_class=deformations)
+        freed = ModelData(
+            *(arrays, data.planar, data.name, data.element_names),
+            given_appearance=data.given_appearance,
+            has_long_numbers=data.has_long_numbers,
+        )
+        return decompose(freed, Asked(asked.method, asked.tolerance))
 
     @cached_property
     def outcome(self) -> Result:
